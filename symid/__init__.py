@@ -1,0 +1,1 @@
+"""symid: identify mechanical systems and their feedback controllers from recordings."""
