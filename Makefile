@@ -1,0 +1,36 @@
+# `make test` and `make demo` need Python >= 3.11, a C compiler and make; no root, no conda.
+# The first call sets up .venv in this checkout (about two minutes), later calls start at once.
+PYTHON ?= python3
+PY := .venv/bin/python
+READY := .venv/.ready
+
+# One thread per process: the solves are small and many, threads of BLAS only get in the way.
+export OMP_NUM_THREADS ?= 1
+export OPENBLAS_NUM_THREADS ?= 1
+
+.PHONY: demo test test-slow bench clean
+
+demo: $(READY)
+	$(PY) -m symid.cli demo
+
+test: $(READY)
+	$(PY) -m pytest -n 2 --dist loadfile
+
+test-slow: $(READY)
+	$(PY) -m pytest -n 2 -m slow
+
+bench: $(READY)
+	$(PY) -m symid.cli bench
+
+# A cyipopt that this Python already has (conda-forge) is used through --system-site-packages.
+$(READY): pyproject.toml symid/setup_ipopt.py
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "symid needs Python >= 3.11, found `$(PYTHON) --version 2>&1`: run make PYTHON=/path/to/python3.11"; exit 1; }
+	test -x $(PY) || if $(PYTHON) -c 'import cyipopt' 2>/dev/null; \
+	  then $(PYTHON) -m venv --system-site-packages .venv; else $(PYTHON) -m venv .venv; fi
+	$(PY) -m pip install --quiet --editable '.[test]'
+	$(PY) -P symid/setup_ipopt.py
+	touch $@
+
+clean:
+	rm -rf .venv build dist *.egg-info
