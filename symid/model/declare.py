@@ -1,0 +1,203 @@
+"""The named parts from which a model is declared.
+
+A part is written without a name and gets it from the attribute to which it is attached:
+``m.angle = State(unit="rad")``. What ``m.angle`` gives back behaves as a SymPy symbol in
+arithmetic and in SymPy functions. Parts never change; attaching makes a named copy.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import inf
+from types import MappingProxyType
+
+import sympy as sm
+
+from symid.errors import ModelError
+
+Bounds = tuple[float, float]
+
+
+def symbol(name: str) -> sm.Symbol:
+    """The one SymPy symbol that stands for the part called `name`, in every model."""
+    return sm.Symbol(name, real=True)
+
+
+class _Algebraic:
+    """Arithmetic for parts that stand for a quantity: each operator acts on the symbol."""
+
+    def _sympy_(self) -> sm.Symbol:
+        return self.symbol
+
+    def __add__(self, other):
+        return self.symbol + sm.sympify(other)
+
+    def __radd__(self, other):
+        return sm.sympify(other) + self.symbol
+
+    def __sub__(self, other):
+        return self.symbol - sm.sympify(other)
+
+    def __rsub__(self, other):
+        return sm.sympify(other) - self.symbol
+
+    def __mul__(self, other):
+        return self.symbol * sm.sympify(other)
+
+    def __rmul__(self, other):
+        return sm.sympify(other) * self.symbol
+
+    def __truediv__(self, other):
+        return self.symbol / sm.sympify(other)
+
+    def __rtruediv__(self, other):
+        return sm.sympify(other) / self.symbol
+
+    def __pow__(self, other):
+        return self.symbol ** sm.sympify(other)
+
+    def __rpow__(self, other):
+        return sm.sympify(other) ** self.symbol
+
+    def __neg__(self):
+        return -self.symbol
+
+    def __pos__(self):
+        return self.symbol
+
+
+@dataclass(frozen=True, kw_only=True)
+class Component:
+    """What every part of a model has in common.
+
+    Parameters
+    ----------
+    meaning : one plain phrase for reports.
+    role, at : what the part is to physics (``"joint"``, ``"sensor"`` ...) and the place where
+        it is (``"ankle"``). Missing-physics laws find where they can act by these two.
+    latex : how the symbol prints; made from the name where empty.
+    name : set by attaching; never written by the user.
+    """
+
+    meaning: str = ""
+    role: str = ""
+    at: str = ""
+    latex: str = ""
+    name: str = field(default="", repr=True)
+
+    @property
+    def symbol(self) -> sm.Symbol:
+        if not self.name:
+            raise ModelError(
+                f"this {type(self).__name__} has no name yet: attach it to a model first "
+                "(model.angle = State(...)) and then use model.angle"
+            )
+        return symbol(self.name)
+
+
+@dataclass(frozen=True, kw_only=True)
+class State(_Algebraic, Component):
+    """A quantity with a time derivative, unknown at every node. Bounds in its unit."""
+
+    unit: str
+    bounds: Bounds = (-inf, inf)
+
+    @property
+    def dot(self) -> sm.Symbol:
+        """The symbol of the time derivative; its unit is the state's unit per second."""
+        return symbol(self.symbol.name + "'")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Input(_Algebraic, Component):
+    """A signal known from a recording. `channel` names the column, by default the input's name."""
+
+    unit: str
+    channel: str = ""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Parameter(_Algebraic, Component):
+    """A constant of the system that is to be identified. `guess` is used as a start if given."""
+
+    unit: str
+    bounds: Bounds = (-inf, inf)
+    guess: float | None = None
+
+
+@dataclass(frozen=True)
+class Constant(_Algebraic, Component):
+    """A known number, in its unit. Changing the value never needs new code."""
+
+    value: float
+    unit: str = field(kw_only=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Noise(_Algebraic, Component):
+    """Process noise: drawn for an episode, then known. Zero in a deterministic problem."""
+
+    unit: str
+
+
+@dataclass(frozen=True)
+class Expression(_Algebraic, Component):
+    """A named intermediate quantity, such as a joint torque, that a Term can redefine."""
+
+    expr: sm.Expr
+    unit: str = field(kw_only=True)
+
+
+@dataclass(frozen=True)
+class Equation(Component):
+    """A residual that must be zero at all times."""
+
+    expr: sm.Expr
+
+
+@dataclass(frozen=True)
+class Output(_Algebraic, Component):
+    """What a sensor shows, to be compared with the recorded `channel`.
+
+    The channel and the unit default to those of the state when `expr` is one state.
+    """
+
+    expr: sm.Expr
+    unit: str = field(default="", kw_only=True)
+    channel: str = field(default="", kw_only=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Port(Component):
+    """A place where a generalized force can act on the mechanism: a joint, a link, a cart.
+
+    Parameters
+    ----------
+    position, rate : expressions of the states, conjugate to the force.
+    into : equation name -> coefficient with which a force along +rate enters that residual.
+    unit : unit of the force (``"N*m"`` at a joint).
+    """
+
+    position: sm.Expr
+    rate: sm.Expr
+    into: Mapping[str, float]
+    unit: str = "N*m"
+
+    def __post_init__(self):
+        object.__setattr__(self, "into", MappingProxyType(dict(self.into)))
+
+    def __reduce__(self):
+        return _restore_port, (self.__dict__ | {"into": dict(self.into)},)
+
+
+def _restore_port(fields: dict) -> Port:
+    return Port(**fields)
+
+
+@dataclass(frozen=True)
+class Delay:
+    """One delayed signal: the value of `of` (a state or input symbol) at time t - lag."""
+
+    of: sm.Symbol
+    lag: sm.Expr

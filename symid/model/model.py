@@ -1,0 +1,271 @@
+"""A Model: named parts and implicit residuals 0 = f(x', x, u, p, w), nothing discretised."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import sympy as sm
+
+from symid.errors import ModelError
+from symid.model.declare import (
+    Bounds, Component, Constant, Delay, Equation, Expression, Input, Noise, Output, Parameter,
+    Port, State, symbol,
+)
+
+if TYPE_CHECKING:
+    from symid.model.term import Term
+
+TIME = symbol("t")
+
+
+class Model:
+    """A system of implicit differential equations, declared part by part.
+
+    >>> m = Model("falling mass")
+    >>> m.height = State(unit="m")
+    >>> m.speed = State(unit="m/s")
+    >>> m.kinematics = Equation(m.height.dot - m.speed)
+
+    Attributes
+    ----------
+    name, description : text.
+    components : every part by name, in order of declaration.
+    delays : delayed signals by the symbol that stands for them.
+    terms : the missing-physics terms that were added, in order.
+    """
+
+    def __init__(self, name: str, description: str = ""):
+        fields = {"name": name, "description": description, "components": {}, "delays": {}, "terms": ()}
+        self.__dict__.update(fields)
+
+    # ---- declaring -------------------------------------------------------------------
+    def __setattr__(self, name: str, part: Component) -> None:
+        if not isinstance(part, Component):
+            raise ModelError(
+                f"model '{self.name}': cannot attach {name} = {part!r}; attach a State, Input, "
+                "Parameter, Constant, Noise, Expression, Equation, Output or Port"
+            )
+        if name in self.components:
+            raise ModelError(
+                f"model '{self.name}': '{name}' is declared already as "
+                f"{type(self.components[name]).__name__}; choose another name or use redefine()"
+            )
+        if hasattr(type(self), name) or name in self.__dict__ or name == "t" or name.startswith("_"):
+            raise ModelError(f"model '{self.name}': the name '{name}' is reserved; choose another")
+        self.components[name] = self._completed(part, name)
+
+    def _completed(self, part: Component, name: str) -> Component:
+        """The part with its name, its expression as SymPy, and defaults taken from its state."""
+        changes: dict = {"name": name}
+        if isinstance(part, (Expression, Equation, Output)):
+            changes["expr"] = sm.sympify(part.expr)
+        if isinstance(part, Output):
+            state = self.components.get(str(changes["expr"]))
+            changes["unit"] = part.unit or getattr(state, "unit", "")
+            changes["channel"] = part.channel or getattr(state, "name", name)
+        if isinstance(part, Input):
+            changes["channel"] = part.channel or name
+        if isinstance(part, Port):
+            changes |= {"position": sm.sympify(part.position), "rate": sm.sympify(part.rate)}
+        return replace(part, **changes)
+
+    def __getattr__(self, name: str) -> Component:
+        try:
+            return self.__dict__["components"][name]
+        except KeyError:
+            raise AttributeError(f"model has no part '{name}'") from None
+
+    def __getitem__(self, name: str) -> Component:
+        """The part called `name`; ModelError with the nearest names if there is none."""
+        if name not in self.components:
+            raise ModelError(f"model '{self.name}' has no part '{name}'; {nearest(name, self.components)}")
+        return self.components[name]
+
+    def __dir__(self):
+        return [*super().__dir__(), *self.components]
+
+    # ---- parts by kind ---------------------------------------------------------------
+    def _of(self, kind: type) -> dict[str, Component]:
+        return {k: c for k, c in self.components.items() if isinstance(c, kind)}
+
+    @property
+    def states(self) -> dict[str, State]:
+        return self._of(State)
+
+    @property
+    def inputs(self) -> dict[str, Input]:
+        return self._of(Input)
+
+    @property
+    def parameters(self) -> dict[str, Parameter]:
+        return self._of(Parameter)
+
+    @property
+    def constants(self) -> dict[str, Constant]:
+        return self._of(Constant)
+
+    @property
+    def noises(self) -> dict[str, Noise]:
+        return self._of(Noise)
+
+    @property
+    def expressions(self) -> dict[str, Expression]:
+        return self._of(Expression)
+
+    @property
+    def equations(self) -> dict[str, Equation]:
+        return self._of(Equation)
+
+    @property
+    def outputs(self) -> dict[str, Output]:
+        return self._of(Output)
+
+    @property
+    def ports(self) -> dict[str, Port]:
+        return self._of(Port)
+
+    @property
+    def time(self) -> sm.Symbol:
+        """Time in seconds, for forces that depend on it explicitly."""
+        return TIME
+
+    def find(self, role: str, at: str | None = None) -> list[Component]:
+        """The parts with this role, at this place or (None) anywhere, in order of declaration."""
+        return [c for c in self.components.values() if c.role == role and at in (None, c.at)]
+
+    # ---- equations as SymPy ----------------------------------------------------------
+    def inline(self, expr: sm.Expr) -> sm.Expr:
+        """`expr` with every named Expression replaced by what it stands for."""
+        table = {e.symbol: e.expr for e in self.expressions.values()}
+        for _ in range(len(table) + 1):
+            used = expr.free_symbols & table.keys()
+            if not used:
+                return expr
+            expr = expr.xreplace({s: table[s] for s in used})
+        raise ModelError(f"model '{self.name}': the expressions {sorted(map(str, used))} contain themselves")
+
+    def residual(self) -> tuple[sm.Expr, ...]:
+        """The residuals in order of the equations, with all named expressions put in."""
+        return tuple(self.inline(e.expr) for e in self.equations.values())
+
+    def observed(self) -> tuple[sm.Expr, ...]:
+        """The output expressions in order of the outputs, with all named expressions put in."""
+        return tuple(self.inline(e.expr) for e in self.outputs.values())
+
+    def delayed(self, expr, lag) -> sm.Expr:
+        """`expr` with each state and input taken at time t - lag.
+
+        `lag` [s] is a number, a Constant or a Parameter of this model; a signal that is late
+        already becomes later by `lag`.
+        """
+        expr, lag = self.inline(sm.sympify(expr)), sm.sympify(lag)
+        late = {c.symbol for c in (*self.states.values(), *self.inputs.values())}
+        table = {}
+        for s in sorted(expr.free_symbols & (late | self.delays.keys()), key=str):
+            delay = Delay(s, lag) if s in late else Delay(self.delays[s].of, self.delays[s].lag + lag)
+            table[s] = symbol(f"{delay.of}@{delay.lag}")
+            self.delays[table[s]] = delay
+        return expr.xreplace(table)
+
+    # ---- new models from old ---------------------------------------------------------
+    def copy(self, name: str | None = None) -> Model:
+        """An independent copy, which can be declared further."""
+        new = Model(name or self.name, self.description)
+        new.components.update(self.components)
+        new.delays.update(self.delays)
+        new.__dict__["terms"] = self.terms
+        return new
+
+    def with_term(self, term: Term) -> Model:
+        """A new model that contains `term`; this one stays as it is."""
+        new = self.copy()
+        term.build(new)
+        new.__dict__["terms"] = (*self.terms, term)
+        return new
+
+    def with_constants(self, **values: float) -> Model:
+        """A new model with other values [in the constants' own units]."""
+        return self._with({k: replace(self._part(k, Constant), value=float(v)) for k, v in values.items()})
+
+    def with_bounds(self, **bounds: Bounds) -> Model:
+        """A new model with other bounds on states or parameters [in their own units]."""
+        return self._with({k: replace(self._part(k, (State, Parameter)), bounds=b) for k, b in bounds.items()})
+
+    def fixed(self, **values: float) -> Model:
+        """A new model in which these parameters are known constants."""
+        parts = {k: (self._part(k, Parameter), v) for k, v in values.items()}
+        return self._with({k: Constant(float(v), unit=c.unit, meaning=c.meaning, role=c.role, at=c.at,
+                                       latex=c.latex, name=k) for k, (c, v) in parts.items()})
+
+    def _part(self, name: str, kind) -> Component:
+        part = self[name]
+        if not isinstance(part, kind):
+            raise ModelError(f"model '{self.name}': '{name}' is a {type(part).__name__}, which has no such thing to set")
+        return part
+
+    def _with(self, parts: Mapping[str, Component]) -> Model:
+        new = self.copy()
+        new.components.update(parts)
+        return new
+
+    # ---- for the build function of a Law, which works on a fresh copy -----------------
+    def redefine(self, name: str, expr) -> None:
+        """Give the Expression or Output `name` another meaning, everywhere it is used."""
+        self.components[name] = replace(self._part(name, (Expression, Output)), expr=sm.sympify(expr))
+
+    def add_effort(self, port: str, force) -> None:
+        """Let `force` (along the port's rate) act: it enters each equation that the port names."""
+        for equation, coefficient in self._part(port, Port).into.items():
+            part = self._part(equation, Equation)
+            self.components[equation] = replace(part, expr=part.expr + coefficient * sm.sympify(force))
+
+    def substitute(self, table: Mapping[sm.Symbol, sm.Expr]) -> None:
+        """Put expressions in the place of symbols in every equation, expression and output."""
+        table = {sm.sympify(k): sm.sympify(v) for k, v in table.items()}
+        for name, part in self.components.items():
+            if isinstance(part, (Expression, Equation, Output)):
+                self.components[name] = replace(part, expr=part.expr.xreplace(table))
+
+    # ---- identity, checking, showing --------------------------------------------------
+    @property
+    def fingerprint(self) -> str:
+        """Changes with the equations, their symbols and their order; not with values or bounds."""
+        kinds = [(type(c).__name__, c.name) for c in self.components.values()]
+        text = repr((kinds, [sm.srepr(e) for e in (*self.residual(), *self.observed())],
+                     [(str(k), str(d.of), sm.srepr(d.lag)) for k, d in self.delays.items()]))
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+    def violations(self) -> Iterator[str]:
+        """Everything that is wrong with this model, one sentence each."""
+        from symid.model.check import violations
+        return violations(self)
+
+    def check(self) -> Model:
+        """This model, if it can be used; ModelError with every violation at once if not."""
+        found = tuple(self.violations())
+        if found:
+            lines = "\n".join(f"  - {v}" for v in found)
+            raise ModelError(f"model '{self.name}' cannot be used yet:\n{lines}", found)
+        return self
+
+    def __repr__(self) -> str:
+        counts = [(len(self._of(k)), k.__name__.lower()) for k in (State, Input, Parameter, Constant, Equation, Output)]
+        return f"<Model '{self.name}': " + ", ".join(f"{n} {k}{'s' * (n != 1)}" for n, k in counts if n) + ">"
+
+    def _repr_html_(self) -> str:
+        from symid.model.show import html
+        return html(self)
+
+    def _repr_latex_(self) -> str:
+        from symid.model.show import latex
+        return latex(self)
+
+
+def nearest(name: str, names) -> str:
+    """A phrase with the known names most like `name`, for error messages."""
+    from difflib import get_close_matches
+    close = get_close_matches(name, list(names), n=3, cutoff=0.5)
+    return f"did you mean {', '.join(map(repr, close))}?" if close else f"known: {', '.join(names) or 'none'}"

@@ -1,0 +1,99 @@
+"""Terms: one named physical law at one place, as something that can be added to a model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf
+from types import SimpleNamespace
+
+from symid.errors import ModelError
+from symid.model.declare import Bounds, Parameter
+from symid.model.model import Model
+
+
+@dataclass(frozen=True)
+class LawParameter:
+    """An unknown of a law.
+
+    Parameters
+    ----------
+    key : name with its unit as suffix, as reports and answer files write it (``"delay_s"``).
+    unit : the unit as text (``"s"``).
+    bounds : physical range.
+    null : value at which the law has no effect; None where no single value switches it off.
+    starts : finite values from which a refit begins, for laws that a slope at zero cannot see.
+    typical : a size that would be ordinary in this field, used for scaling.
+    """
+
+    key: str
+    unit: str
+    bounds: Bounds = (-inf, inf)
+    null: float | None = 0.0
+    starts: tuple[float, ...] = ()
+    typical: float = 1.0
+
+
+@dataclass(frozen=True)
+class Law:
+    """A physical law that a model may lack, wherever it could act.
+
+    Parameters
+    ----------
+    name : canonical name (``"coulomb_friction"``).
+    acts_on : the role of the parts at which it can act (``"joint"``, ``"sensor"`` ...): the
+        places are the `at` of all parts of a model with that role.
+    parameters : its unknowns.
+    build : ``build(model, place, p)`` changes `model` (a fresh copy) so that it contains the
+        law at `place`; `p` has the symbols of the law's parameters by key.
+    sentence : plain words with ``{place}`` and the parameter keys as blanks.
+    source : author and year of the formula.
+    """
+
+    name: str
+    acts_on: str
+    parameters: tuple[LawParameter, ...]
+    build: Callable[[Model, str, SimpleNamespace], None]
+    sentence: str = ""
+    source: str = ""
+
+    def places(self, model: Model) -> list[str]:
+        """Where in `model` this law could act, each place once, in order of declaration."""
+        return list(dict.fromkeys(c.at for c in model.find(role=self.acts_on)))
+
+    def at(self, place: str) -> Term:
+        return Term(self, place)
+
+
+@dataclass(frozen=True)
+class Term:
+    """A law at one place. `Model.with_term(term)` gives a new model that contains it."""
+
+    law: Law
+    location: str
+
+    @property
+    def name(self) -> str:
+        return self.law.name
+
+    def parameter_name(self, key: str) -> str:
+        """Name of the law's parameter `key` in a model that has this term."""
+        place = "".join(c if c.isalnum() else "_" for c in self.location)
+        return f"{self.law.name}_{place}_{key}"
+
+    def build(self, model: Model) -> None:
+        """Declare the parameters and let the law change `model` in place (a fresh copy)."""
+        if self.location not in self.law.places(model):
+            raise ModelError(
+                f"{self.law.name} cannot act at '{self.location}' of model '{model.name}': it acts on "
+                f"parts with role '{self.law.acts_on}', which are at {self.law.places(model) or 'no place'}"
+            )
+        p = SimpleNamespace()
+        for q in self.law.parameters:
+            setattr(model, self.parameter_name(q.key), Parameter(unit=q.unit, bounds=q.bounds,
+                    role="term", at=self.location, meaning=f"{self.law.name} at {self.location}: {q.key}"))
+            setattr(p, q.key, model[self.parameter_name(q.key)].symbol)
+        self.law.build(model, self.location, p)
+
+    def __str__(self) -> str:
+        return f"{self.name}@{self.location}"
