@@ -1,0 +1,55 @@
+"""A standing person: leg and trunk as two rigid links on a platform that moves back and forth."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from symid.mechanics.chain import Chain, ChainLink
+from symid.model import Model
+
+_UNITS = {"length": "m", "com": "m", "mass": "kg", "inertia": "kg_m2"}
+
+
+@dataclass(frozen=True)
+class DoubleLinkPendulum:
+    """Two-link inverted pendulum on a moving platform (Wang & van den Bogert 2020).
+
+    States are the ankle angle (leg from the vertical), the hip angle (trunk relative to leg) and
+    their rates, positive forward. The input is the recorded platform acceleration, positive
+    forward: the platform's frame pushes the body with minus that acceleration.
+
+    Parameters
+    ----------
+    leg_length [m], leg_com, trunk_com : joint to centre of mass [m], leg_mass, trunk_mass [kg],
+    leg_inertia, trunk_inertia : about the centres of mass [kg m^2], gravity [m/s^2].
+    """
+
+    leg_length: float
+    leg_com: float
+    trunk_com: float
+    leg_mass: float
+    trunk_mass: float
+    leg_inertia: float
+    trunk_inertia: float
+    gravity: float = 9.81
+
+    @classmethod
+    def from_json(cls, path: str | Path) -> DoubleLinkPendulum:
+        """Read a body file with ``name_unit`` keys (``leg_length_m`` ... ``gravity_m_s2``)."""
+        body = json.loads(Path(path).read_text())
+        names = [n for n in cls.__dataclass_fields__ if n != "gravity"]
+        values = {n: body[f"{n}_{_UNITS[n.split('_')[1]]}"] for n in names}
+        return cls(**values, gravity=body.get("gravity_m_s2", 9.81))
+
+    def with_feedback(self, law) -> Model:
+        """The closed loop: this body under a feedback law such as `PD()`."""
+        return law.close(self.plant())
+
+    def plant(self) -> Model:
+        """This body without feedback."""
+        leg = ChainLink("leg", self.leg_mass, self.leg_com, self.leg_inertia, self.leg_length)
+        trunk = ChainLink("trunk", self.trunk_mass, self.trunk_com, self.trunk_inertia)
+        return Chain((leg, trunk), ("ankle", "hip"), self.gravity, upright=True, base_channel="platform_acceleration",
+                     angle_bound=1.0, velocity_bound=2.0, name="standing on a moving platform").plant()
