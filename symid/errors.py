@@ -35,3 +35,11 @@ class SolveError(SymidError):
 
 class DiagnosisError(SymidError):
     """A diagnosis was asked of something that cannot be diagnosed."""
+
+
+class UnitError(SymidError):
+    """A unit text is not understood, or cannot be used where it stands."""
+
+
+class RecordingWarning(UserWarning):
+    """A recording can be used, but something in it deserves a look before it is trusted."""

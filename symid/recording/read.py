@@ -1,0 +1,242 @@
+"""The only place that knows how a recording file looks.
+
+A file is read fast by pandas first. Only where that fails, or the numbers turn out to be
+unusable, it is read again slowly, cell by cell, to say in which column and row the fault is.
+"""
+
+import os
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from symid.errors import RecordingError, RecordingWarning
+from symid.recording.header import Column, file_rows, read_header
+from symid.recording.recording import Recording
+from symid.recording.spikes import find_spikes
+from symid.recording.timing import on_grid, time_fault
+from symid.units import FloatArray
+
+_FULL_TURN = 2 * np.pi
+_CURES = {
+    "gap": "fill it: read with allow_gaps=True, then fill_gaps() (or mark the parts in a "
+    "'segment' column)",
+    "uneven": "read with allow_gaps=True, then resample()",
+    "repeated": "remove the row, or mark separate runs in a 'segment' column",
+    "backwards": "sort the rows, or mark separate runs in a 'segment' column",
+    "single": "record more, or remove the row",
+}
+_MISSING = {"", "nan", "na", "n/a", "null", "none"}
+
+
+def read_recording(path: str | os.PathLike, *, allow_gaps: bool = False) -> Recording:
+    """Read a CSV file with a column `time_s` and units in the column names, into SI.
+
+    Columns are named ``<name>_<unit>``, such as ``ankle_angle_deg``; the channel is then called
+    ``ankle_angle`` and is in rad. Columns ``segment`` (whole numbers) and ``split`` (words) part
+    the rows into separate runs, each with its own evenly spaced time.
+
+    Parameters
+    ----------
+    path : the file
+    allow_gaps : accept blank cells, missing rows and uneven time, to be mended by `fill_gaps` or
+        `resample` before use; refused otherwise
+
+    Raises
+    ------
+    RecordingError
+        Naming file, column, row and line of what cannot be used, and what to do about it.
+
+    Warns
+    -----
+    RecordingWarning
+        For single samples that stand out (by row), and angles in rad that look like degrees.
+    """
+    path = Path(path)
+    columns = read_header(path)
+    table = _read_table(path, columns, allow_gaps)
+    recording = _assemble(path, columns, table, allow_gaps)
+    remarks = [*_spike_remarks(path, columns, recording), *_degree_remarks(path, recording)]
+    for remark in remarks:
+        warnings.warn(remark, RecordingWarning, stacklevel=2)
+    return recording.noted(*(f"warning: {remark}" for remark in remarks))
+
+
+def _read_table(path: Path, columns: list[Column], allow_gaps: bool) -> dict[str, np.ndarray]:
+    """Column name -> shape(N,), as in the file: numbers as float64, split labels as text."""
+    import pandas as pd  # here and not at the top: 0.4 s that a mere `import symid` should not pay
+
+    kinds = {c.name: str if c.name == "split" else np.float64 for c in columns}
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", pd.errors.ParserWarning)
+            frame = pd.read_csv(
+                path,
+                header=0,
+                names=list(kinds),
+                index_col=False,
+                dtype=kinds,
+                skipinitialspace=True,
+                encoding="utf-8-sig",
+            )
+    except (ValueError, pd.errors.ParserWarning) as error:
+        _explain(path, columns, allow_gaps)
+        raise RecordingError(f"{path}: cannot be read as numbers: {error}") from error
+    table = {name: frame[name].to_numpy() for name in kinds}
+    if not _usable(table, allow_gaps):
+        _explain(path, columns, allow_gaps)
+    return table
+
+
+def _usable(table: dict[str, np.ndarray], allow_gaps: bool) -> bool:
+    for name, values in table.items():
+        if name == "split":
+            good = all(isinstance(label, str) for label in values)
+        elif allow_gaps and name not in ("time", "segment"):
+            good = not np.isinf(values).any()
+        else:
+            good = np.isfinite(values).all()
+        if name == "segment":
+            good = good and bool((values == np.round(values)).all())
+        if not good:
+            return False
+    return True
+
+
+def _explain(path: Path, columns: list[Column], allow_gaps: bool):
+    """Raise a RecordingError for the first cell that cannot be used; return if there is none."""
+    rows = file_rows(path)
+    next(rows)
+    for row, (line, cells) in enumerate(rows, 1):
+        if len(cells) != len(columns):
+            raise RecordingError(
+                f"{path}: row {row} (line {line}) has {len(cells)} cells, the header has "
+                f"{len(columns)}"
+            )
+        for column, cell in zip(columns, cells, strict=True):
+            fault = _cell_fault(column, cell.strip(), allow_gaps)
+            if fault:
+                raise RecordingError(
+                    f"{path}: column '{column.text}', row {row} (line {line}): {fault}"
+                )
+
+
+def _cell_fault(column: Column, cell: str, allow_gaps: bool) -> str | None:
+    if cell.lower() in _MISSING:
+        if allow_gaps and column.unit and column.name != "time":
+            return None
+        found = f"'{cell}'" if cell else "nothing"
+        cure = "; read with allow_gaps=True, then fill_gaps()" if column.unit else ""
+        return f"a value is missing (found {found}){cure if column.name != 'time' else ''}"
+    if column.name == "split":
+        return None
+    try:
+        value = float(cell)
+    except ValueError:
+        return f"'{cell}' is not a number"
+    if not np.isfinite(value):
+        return f"'{cell}' is not finite"
+    if column.name == "segment" and value != round(value):
+        return f"a segment is a whole number, found '{cell}'"
+    return None
+
+
+def _assemble(path: Path, columns: list[Column], table: dict, allow_gaps: bool) -> Recording:
+    """The Recording in SI, its times checked run by run."""
+    units = {c.name: c.unit for c in columns if c.unit}
+    history = [f"read {path.name}: {table['time'].size} samples"]
+    for name, unit in units.items():
+        if unit.text != unit.si:
+            history.append(f"{name} converted from {unit.text} to {unit.si}: x {unit.factor:.9g}")
+            table[name] = table[name] * unit.factor
+    time, note = _checked_time(path, table, allow_gaps)
+    names = [name for name in units if name != "time"]
+    return Recording(
+        name=path.stem,
+        time=time,
+        channels={name: table[name] for name in names},
+        units={name: units[name].si for name in names},
+        history=(*history, note) if note else tuple(history),
+        segment=table.get("segment"),
+        split=table.get("split"),
+        source=str(path),
+    )
+
+
+def _checked_time(path: Path, table: dict, allow_gaps: bool) -> tuple[FloatArray, str | None]:
+    """Times of all rows [s], moved onto an even grid where they are nearly so, and a note."""
+    time = table["time"].copy()
+    largest = 0.0
+    for run in _runs(path, table):
+        fault = time_fault(time[run])
+        if fault is None:
+            time[run], change = on_grid(time[run])
+            largest = max(largest, change)
+        elif not (allow_gaps and fault.kind in ("gap", "uneven")):
+            row = run.start + fault.sample + 1
+            raise RecordingError(
+                f"{path}: column 'time', row {row} (line {_line_of(path, row)}): "
+                f"{fault.text}; {_CURES[fault.kind]}"
+            )
+    if largest == 0.0:
+        return time, None
+    return time, f"times moved onto an even grid, by at most {largest:.2g} s"
+
+
+def _runs(path: Path, table: dict) -> list[slice]:
+    """Rows that belong together; refused where a segment's rows are not all in one place."""
+    count = table["time"].size
+    labels = [table[name] for name in ("split", "segment") if name in table]
+    keys = list(zip(*labels, strict=True)) if labels else [()] * count
+    edges = [0, *(i for i in range(1, count) if keys[i] != keys[i - 1]), count]
+    runs = [slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]
+    seen = set()
+    for run in runs:
+        if keys[run.start] in seen:
+            row = run.start + 1
+            raise RecordingError(
+                f"{path}: row {row} (line {_line_of(path, row)}) goes back to segment "
+                f"{' '.join(map(str, keys[run.start]))}; keep the rows of a segment together"
+            )
+        seen.add(keys[run.start])
+    return runs
+
+
+def _line_of(path: Path, row: int) -> int:
+    """Line of the file on which a data row (from 1) stands; blank lines count."""
+    return next(line for place, (line, _) in enumerate(file_rows(path)) if place == row)
+
+
+def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> list[str]:
+    texts = {column.name: column.text for column in columns}
+    remarks = []
+    for name, values in recording.channels.items():
+        spikes = [
+            (run.start + int(i), ratio)
+            for run in recording.runs
+            for i, ratio in zip(*find_spikes(values[run]), strict=True)
+        ]
+        if spikes:
+            worst, ratio = max(spikes, key=lambda spike: spike[1])
+            rows = ", ".join(str(i + 1) for i, _ in spikes[:5]) + (" ..." if spikes[5:] else "")
+            remarks.append(
+                f"{path}: column '{texts[name]}': {len(spikes)} sample(s) stand out from their "
+                f"neighbours: row {rows}; the worst is row {worst + 1} (line "
+                f"{_line_of(path, worst + 1)}, time {recording.time[worst]:g} s), "
+                f"{values[worst]:.4g} {recording.units[name]} between {values[worst - 1]:.4g} and "
+                f"{values[worst + 1]:.4g}, {ratio:.0f} times more than usual there; leave it out "
+                f"by window(), or correct it"
+            )
+    return remarks
+
+
+def _degree_remarks(path: Path, recording: Recording) -> list[str]:
+    remarks = []
+    for name, values in recording.channels.items():
+        reach = float(np.nanmax(np.abs(values), initial=0.0))
+        if recording.units[name] == "rad" and reach > 2 * _FULL_TURN:
+            remarks.append(
+                f"{path}: {name} reaches {reach:.4g} rad, more than two full turns; if the file "
+                f"holds degrees, name the column {name}_deg"
+            )
+    return remarks

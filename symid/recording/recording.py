@@ -1,0 +1,344 @@
+"""The frozen noun of this room: what was measured, in SI, with a name and a unit on every column."""
+
+import html
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symid.errors import RecordingError
+from symid.recording.timing import sampling_interval_of
+from symid.units import FloatArray, IntArray, column_name, known_unit, nearest
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Recording:
+    """Samples of named channels over time, in SI units. Never changes; a verb returns a new one.
+
+    Parameters
+    ----------
+    name : what messages and reports call it, usually the file's name
+    time : shape(N,), s, increasing within each segment
+    channels : name -> shape(N,), in SI units; kept as read-only float64 arrays
+    units : name -> SI unit text, one for each channel
+    signs : name -> which direction is positive, in words (optional)
+    noise : name -> rms of the sensor's noise, in the channel's unit (optional)
+    history : every conversion and processing step, in words
+    segment : shape(N,), whole numbers that part the rows into separate runs, or None
+    split : shape(N,), text labels such as "fit" and "held_out", or None
+    source : path of the file it came from, or None
+
+    Raises
+    ------
+    RecordingError
+        If lengths differ, a unit is missing or not SI, or a table names an unknown channel.
+    """
+
+    name: str
+    time: FloatArray
+    channels: Mapping[str, FloatArray]
+    units: Mapping[str, str]
+    signs: Mapping[str, str] = field(default_factory=dict)
+    noise: Mapping[str, float] = field(default_factory=dict)
+    history: tuple[str, ...] = ()
+    segment: IntArray | None = None
+    split: np.ndarray | None = None
+    source: str | None = None
+
+    def __post_init__(self):
+        put = lambda key, value: object.__setattr__(self, key, value)  # noqa: E731
+        put("time", _frozen(self.time, float))
+        put("channels", MappingProxyType({k: _frozen(v, float) for k, v in self.channels.items()}))
+        for key in ("units", "signs", "noise"):
+            put(key, MappingProxyType(dict(getattr(self, key))))
+        put("history", tuple(self.history))
+        put("segment", None if self.segment is None else _frozen(self.segment, np.int64))
+        put("split", None if self.split is None else _frozen(self.split, str))
+        self._check()
+
+    def _check(self):
+        count = self.time.size
+        if self.time.ndim != 1 or count < 2:
+            raise RecordingError(f"{self.name}: a recording needs at least two samples")
+        columns = {**self.channels, "segment": self.segment, "split": self.split}
+        for name, column in columns.items():
+            if column is not None and column.shape != (count,):
+                raise RecordingError(
+                    f"{self.name}: '{name}' has shape {column.shape}, time has ({count},)"
+                )
+        for name in self.channels:
+            if name not in self.units:
+                raise RecordingError(f"{self.name}: channel '{name}' has no unit")
+            if known_unit(self.units[name]).factor != 1.0:
+                raise RecordingError(
+                    f"{self.name}: channel '{name}' is in {self.units[name]}, but a Recording "
+                    f"holds SI; add it by with_channel(), which converts"
+                )
+        for table in ("units", "signs", "noise"):
+            for name in getattr(self, table):
+                if name not in self.channels:
+                    raise RecordingError(f"{self.name}: {table} {self._unknown(name)}")
+        for run in self.runs:
+            if np.any(np.diff(self.time[run]) <= 0):
+                raise RecordingError(f"{self.name}: time does not increase from sample to sample")
+
+    # -- looking ------------------------------------------------------------------------------
+
+    def __len__(self) -> int:
+        """Number of samples N."""
+        return self.time.size
+
+    def __getitem__(self, name: str) -> FloatArray:
+        """One channel, shape(N,), in its SI unit; read-only."""
+        if name not in self.channels:
+            raise RecordingError(f"{self.name}: {self._unknown(name)}")
+        return self.channels[name]
+
+    @cached_property
+    def runs(self) -> tuple[slice, ...]:
+        """Rows of each segment, in the order of the file; one slice where there is one segment."""
+        change = np.zeros(len(self) - 1, dtype=bool)
+        for label in (self.segment, self.split):
+            if label is not None:
+                change |= label[1:] != label[:-1]
+        edges = [0, *(np.flatnonzero(change) + 1).tolist(), len(self)]
+        return tuple(slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True))
+
+    @cached_property
+    def sampling_interval(self) -> float | None:
+        """Interval between samples [s], the same in all segments, or None where it is uneven."""
+        return sampling_interval_of(self.time, self.runs)
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """First and last time [s]."""
+        return float(self.time.min()), float(self.time.max())
+
+    @property
+    def complete(self) -> bool:
+        """Whether the samples are evenly spaced and none is missing (NaN)."""
+        finite = all(np.isfinite(values).all() for values in self.channels.values())
+        return finite and self.sampling_interval is not None
+
+    @property
+    def frame(self) -> "pd.DataFrame":
+        """A pandas table with time_s as index and units in the column names."""
+        import pandas as pd  # here and not at the top: most runs never need it
+
+        table = {column_name(name, self.units[name]): v for name, v in self.channels.items()}
+        labels = {"split": self.split, "segment": self.segment}
+        present = {name: label for name, label in labels.items() if label is not None}
+        return pd.DataFrame(present | table, index=pd.Index(self.time, name="time_s"))
+
+    # -- taking a part ------------------------------------------------------------------------
+
+    def window(self, start: float, end: float) -> "Recording":
+        """Samples from start to end [s], both included where a sample lies within half a step.
+
+        Raises
+        ------
+        RecordingError
+            If the window is empty or reaches outside; the message gives the recorded range.
+        """
+        step = self._even_step("window")
+        if np.any(np.diff(self.time) <= 0):
+            raise RecordingError(
+                f"{self.name}: time starts anew in each segment, so a window of time means "
+                f"nothing; take one of segments() first"
+            )
+        first, last = self.interval
+        if not start < end or start < first - step / 2 or end > last + step / 2:
+            raise RecordingError(
+                f"{self.name}: window {start:g} s to {end:g} s cannot be taken; "
+                f"the recording runs from {first:g} s to {last:g} s"
+            )
+        rows = np.flatnonzero((self.time >= start - step / 2) & (self.time < end + step / 2))
+        if rows.size < 2:
+            raise RecordingError(
+                f"{self.name}: window {start:g} s to {end:g} s holds {rows.size} sample(s) of "
+                f"{step:g} s; take a longer one"
+            )
+        rows = slice(int(rows[0]), int(rows[-1]) + 1)
+        return self._rows(rows, f"window {start:g} s to {end:g} s")
+
+    def segments(self, split: str | None = None) -> list["Recording"]:
+        """One recording for each segment, in order; only those with this split label, if given."""
+        if split is not None and (self.split is None or split not in self.split):
+            labels = [] if self.split is None else sorted(set(self.split.tolist()))
+            raise RecordingError(
+                f"{self.name}: no segment is labelled '{split}'; labels: {labels or 'none'}"
+            )
+        chosen = [r for r in self.runs if split is None or self.split[r.start] == split]
+        return [self._segment(run) for run in chosen]
+
+    def select(self, *names: str) -> "Recording":
+        """Only these channels, in this order."""
+        return self._with_channels({name: self[name] for name in names}, self.units, None)
+
+    def rename(self, names: Mapping[str, str]) -> "Recording":
+        """Channels under other names, old -> new; the order stays."""
+        for old in names:
+            self[old]
+        new = [names.get(name, name) for name in self.channels]
+        if len(set(new)) < len(new):
+            raise RecordingError(f"{self.name}: two channels would have one name: {new}")
+        tables = {
+            table: {names.get(k, k): v for k, v in getattr(self, table).items()}
+            for table in ("channels", "units", "signs", "noise")
+        }
+        note = "renamed " + ", ".join(f"{old} to {new}" for old, new in names.items())
+        return replace(self, **tables, history=(*self.history, note))
+
+    def with_channel(
+        self,
+        name: str,
+        values: FloatArray,
+        unit: str,
+        *,
+        noise: float | None = None,
+        sign: str | None = None,
+        note: str | None = None,
+    ) -> "Recording":
+        """With one more channel, or another content of one, converted to SI.
+
+        Parameters
+        ----------
+        values : shape(N,), in `unit`
+        noise : rms of its noise, in `unit`
+        sign : which direction is positive, in words
+        note : the line for the history
+        """
+        known = known_unit(unit)
+        channels = {**self.channels, name: np.asarray(values, dtype=float) * known.factor}
+        line = note or f"{name} set" + (f", from {unit}" if known.factor != 1.0 else "")
+        new = self._with_channels(channels, {**self.units, name: known.si}, line)
+        noises = {k: v for k, v in self.noise.items() if k != name}
+        signs = {k: v for k, v in self.signs.items() if k != name}
+        noises |= {} if noise is None else {name: noise * known.factor}
+        signs |= {} if sign is None else {name: sign}
+        return replace(new, noise=noises, signs=signs)
+
+    def noted(self, *lines: str) -> "Recording":
+        """With more lines in the history."""
+        return replace(self, history=(*self.history, *lines)) if lines else self
+
+    # -- keeping ------------------------------------------------------------------------------
+
+    def to_csv(self, path: str | os.PathLike) -> Path:
+        """Write the samples with units in the column names; read_recording gives them back.
+
+        Numbers keep all their digits. The file appears under its name only when it is whole.
+        """
+        path = Path(path)
+        table = self.frame.reset_index()
+        try:
+            handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
+        except OSError as error:
+            raise RecordingError(f"{path}: cannot be written: {error.strerror}") from error
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
+                table.to_csv(file, index=False, lineterminator="\n")
+            os.replace(part, path)
+        except BaseException:
+            Path(part).unlink(missing_ok=True)
+            raise
+        return path
+
+    def __reduce__(self):
+        values = {f.name: getattr(self, f.name) for f in fields(self)}
+        for table in ("channels", "units", "signs", "noise"):
+            values[table] = dict(values[table])
+        return _rebuild, (values,)
+
+    # -- showing ------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        rows = [f"  {n:<24s} {u:<8s} {lo:>11s} to {hi:>11s}" for n, u, lo, hi in self._summary()]
+        return "\n".join([f"Recording {self.name}: {self._extent()}", *rows])
+
+    def _repr_html_(self) -> str:
+        cells = "".join(
+            "<tr>" + "".join(f"<td>{html.escape(text)}</td>" for text in row) + "</tr>"
+            for row in self._summary()
+        )
+        steps = "".join(f"<li>{html.escape(step)}</li>" for step in self.history)
+        return (
+            f"<b>Recording {html.escape(self.name)}</b>: {html.escape(self._extent())}"
+            f"<table><tr><th>channel</th><th>unit</th><th>lowest</th><th>highest</th></tr>"
+            f"{cells}</table><details><summary>history</summary><ol>{steps}</ol></details>"
+        )
+
+    def _extent(self) -> str:
+        step, (first, last) = self.sampling_interval, self.interval
+        rate = "unevenly sampled" if step is None else f"{1 / step:g} Hz"
+        runs = f", {len(self.runs)} segments" if len(self.runs) > 1 else ""
+        return f"{len(self)} samples, {first:g} s to {last:g} s, {rate}{runs}"
+
+    def _summary(self) -> Iterator[tuple[str, str, str, str]]:
+        for name, values in self.channels.items():
+            some = values[np.isfinite(values)]
+            ends = (f"{some.min():.4g}", f"{some.max():.4g}") if some.size else ("none", "none")
+            yield name, self.units[name], *ends
+
+    # -- helpers ------------------------------------------------------------------------------
+
+    def _even_step(self, verb: str) -> float:
+        if self.sampling_interval is None:
+            raise RecordingError(
+                f"{self.name}: {verb} needs evenly spaced samples; use fill_gaps() or resample()"
+            )
+        return self.sampling_interval
+
+    def _unknown(self, name: str) -> str:
+        close = nearest(name, self.channels) or list(self.channels)
+        return f"has no channel '{name}'; it has {', '.join(close)}"
+
+    def _rows(self, rows: slice, note: str | None) -> "Recording":
+        return replace(
+            self,
+            time=self.time[rows],
+            channels={name: values[rows] for name, values in self.channels.items()},
+            segment=None if self.segment is None else self.segment[rows],
+            split=None if self.split is None else self.split[rows],
+            history=(*self.history, note) if note else self.history,
+        )
+
+    def _segment(self, run: slice) -> "Recording":
+        if len(self.runs) == 1:
+            return self
+        labels = [label[run.start] for label in (self.split, self.segment) if label is not None]
+        title = " ".join(["segment", *map(str, labels)])
+        return replace(self._rows(run, f"{title} taken"), name=f"{self.name} {title}")
+
+    def _with_channels(self, channels, units, note: str | None) -> "Recording":
+        return replace(
+            self,
+            channels=channels,
+            units={name: units[name] for name in channels},
+            signs={name: text for name, text in self.signs.items() if name in channels},
+            noise={name: rms for name, rms in self.noise.items() if name in channels},
+            history=(*self.history, note) if note else self.history,
+        )
+
+
+def _rebuild(values: dict) -> Recording:
+    return Recording(**values)
+
+
+def _frozen(values, kind) -> np.ndarray:
+    """The values as an array that nobody can write to; shared, not copied, where it is one."""
+    array = np.asarray(values, dtype=kind)
+    owner = array if array.base is None else array.base
+    if array.flags.writeable or getattr(getattr(owner, "flags", None), "writeable", True):
+        array = array.copy()
+        array.setflags(write=False)
+    return array

@@ -1,0 +1,92 @@
+"""When samples were taken: evenly, with gaps, or out of order. Pure functions of arrays."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from symid.units import FloatArray
+
+JITTER = 0.01
+"""Largest departure from an even grid, in steps, that is taken for even."""
+_ROUNDING_LIMIT = 0.1  # of a step: times rounded more coarsely than this are refused as uneven
+
+
+@dataclass(frozen=True)
+class TimeFault:
+    """What is wrong with the time column, at which sample (index of the later of the two)."""
+
+    kind: str  # "repeated", "backwards", "gap", "uneven", "single"
+    sample: int
+    text: str
+
+
+def sampling_interval_of(time: FloatArray, runs: tuple[slice, ...]) -> float | None:
+    """Interval [s] shared by all runs of an evenly sampled recording, or None."""
+    steps = [grid_step(time[run]) for run in runs if run.stop - run.start > 1]
+    if not steps or None in steps or np.ptp(steps) > JITTER * min(steps):
+        return None
+    return float(np.median(steps))
+
+
+def grid_step(time: FloatArray) -> float | None:
+    """Step [s] of the even grid that the times of one run lie on, or None if they lie on none."""
+    step, departure = _departure(time)
+    return step if np.abs(departure).max() <= _tolerance(time, step) else None
+
+
+def on_grid(time: FloatArray) -> tuple[FloatArray, float]:
+    """Evenly spaced times of one run, shape(N,), and the largest change that took [s].
+
+    Times that are even to one part in a million of a step are returned as they are.
+    """
+    step, departure = _departure(time)
+    change = float(np.abs(departure).max())
+    return (time, 0.0) if change <= 1e-6 * step else (time - departure, change)
+
+
+def time_fault(time: FloatArray) -> TimeFault | None:
+    """First thing that is wrong with the times of one run, shape(N,) [s], or None."""
+    if time.size < 2:
+        return TimeFault("single", 0, "there is only one sample; at least two are needed")
+    steps = np.diff(time)
+    usual = float(np.median(steps))
+    late = np.flatnonzero(steps <= 0)
+    if late.size:
+        i = int(late[0]) + 1
+        if steps[i - 1] == 0:
+            return TimeFault("repeated", i, f"time {time[i]:g} s is repeated")
+        return TimeFault("backwards", i, f"time goes back from {time[i - 1]:g} s to {time[i]:g} s")
+    gaps = np.flatnonzero(steps > 1.5 * usual)
+    if gaps.size:
+        i = int(gaps[0]) + 1
+        missing = max(1, round(steps[i - 1] / usual) - 1)
+        text = (
+            f"time jumps from {time[i - 1]:g} s to {time[i]:g} s, about {missing} sample(s) of "
+            f"{usual:g} s are missing"
+        )
+        return TimeFault("gap", i, text)
+    if grid_step(time) is None:
+        step, departure = _departure(time)
+        i = int(np.argmax(np.abs(departure)))
+        text = (
+            f"time is uneven: {time[i]:g} s is {100 * abs(departure[i]) / step:.2g} % of a step "
+            f"of {step:g} s away from an even grid"
+        )
+        return TimeFault("uneven", i, text)
+    return None
+
+
+def _departure(time: FloatArray) -> tuple[float, FloatArray]:
+    """Step of the even grid through the first and last time, and each time's distance to it."""
+    step = float(time[-1] - time[0]) / (time.size - 1)
+    return step, time - (time[0] + step * np.arange(time.size))
+
+
+def _tolerance(time: FloatArray, step: float) -> float:
+    """Distance from an even grid [s] that jitter or the rounding of the printed times explains."""
+    for decimals in range(7):
+        rounded = np.round(time, decimals)
+        if np.abs(time - rounded).max() < 1e-9 * max(1.0, np.abs(time).max()):
+            rounding = 10.0**-decimals  # half a unit at the sample and half at the grid's ends
+            return max(JITTER * step, min(rounding, _ROUNDING_LIMIT * step))
+    return JITTER * step
