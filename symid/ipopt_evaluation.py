@@ -1,0 +1,153 @@
+"""The functions of a nonlinear program on duty: timed, checked, and never letting an error get lost.
+
+Ipopt calls back from compiled code, where an exception has nowhere to go. It is kept here instead,
+Ipopt is told to stop, and the solver raises it afterwards.
+"""
+
+import math
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+
+from symid.errors import SolveError
+from symid.nlp import NonlinearProgram
+
+
+class RejectedPoint(Exception):
+    """The functions cannot be evaluated at a trial point; Ipopt should take a shorter step."""
+
+
+@dataclass(frozen=True)
+class Iteration:
+    """What Ipopt knows after an iteration, as handed to ``on_iteration``."""
+
+    number: int
+    objective: float
+    infeasibility: float
+    dual_infeasibility: float
+    barrier: float
+
+
+class Evaluation:
+    """Evaluates `nlp` for a solver; afterwards holds what happened.
+
+    Attributes
+    ----------
+    seconds : dict[str, float]
+        Time spent in each function of the program.
+    failure : BaseException or None
+        What a function raised.
+    not_a_number : str or None
+        Where NaN or infinity was met last, in words.
+    iterations : int
+        The last iteration's number.
+    """
+
+    def __init__(self, nlp: NonlinearProgram, on_iteration: Callable[[Iteration], bool | None] | None):
+        self.nlp = nlp
+        self.on_iteration = on_iteration
+        self.seconds = dict.fromkeys(("objective", "gradient", "constraints", "jacobian", "hessian"), 0.0)
+        self.failure: BaseException | None = None
+        self.not_a_number: str | None = None
+        self.interrupted = False
+        self.iterations = 0
+
+    def objective(self, z: np.ndarray) -> float:
+        value = float(self._timed("objective", z))
+        if not math.isfinite(value):
+            self._reject("The objective", value)
+        return value
+
+    def gradient(self, z: np.ndarray) -> np.ndarray:
+        values = self._timed("gradient", z)
+        self._insist(values, lambda k: f"The gradient for {self.nlp.describe_variable(k)}")
+        return values
+
+    def constraints(self, z: np.ndarray) -> np.ndarray:
+        values = self._timed("constraints", z)
+        if not self._finite(values):
+            row = int(np.argmin(np.isfinite(values)))
+            self._reject(f"{self.nlp.describe_constraint(row)} (constraint row {row})", values[row])
+        return values
+
+    def jacobian(self, z: np.ndarray) -> np.ndarray:
+        values = self._timed("jacobian", z)
+        self._insist(values, self._jacobian_words)
+        return values
+
+    def hessian(self, z: np.ndarray, multipliers: np.ndarray, factor: float) -> np.ndarray:
+        values = self._timed("hessian", z, multipliers, factor)
+        self._insist(values, self._hessian_words)
+        return values
+
+    def iteration(self, number: int, objective: float, primal: float, dual: float, barrier: float) -> bool:
+        """Note an iteration and tell whether to go on."""
+        self.iterations = number
+        if self.interrupted or self.failure is not None:
+            return False
+        if self.on_iteration is None:
+            return True
+        return self.on_iteration(Iteration(number, objective, primal, dual, barrier)) is not False
+
+    @contextmanager
+    def ctrl_c_stops(self) -> Iterator[None]:
+        """Turn Ctrl-C into a stop at the next iteration, then raise KeyboardInterrupt."""
+        if threading.current_thread() is not threading.main_thread():
+            yield  # only the main thread receives signals
+            return
+
+        def note(*_: object) -> None:
+            self.interrupted = True
+
+        previous = signal.signal(signal.SIGINT, note)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, previous)
+        if self.interrupted:
+            raise KeyboardInterrupt("the solve was interrupted")
+
+    def _timed(self, name: str, *arguments):
+        start = time.perf_counter()
+        try:
+            return getattr(self.nlp, name)(*arguments)
+        finally:
+            self.seconds[name] += time.perf_counter() - start
+
+    @staticmethod
+    def _finite(values: np.ndarray) -> bool:
+        # The sum is several times quicker than looking at each value and misses nothing.
+        return math.isfinite(values.sum()) or bool(np.isfinite(values).all())
+
+    def _reject(self, what: str, value: float) -> None:
+        self.not_a_number = f"{what} is {value}"
+        raise RejectedPoint
+
+    def _insist(self, values: np.ndarray, describe: Callable[[int], str]) -> None:
+        """Refuse derivatives that are NaN or infinite: no shorter step would help at this point."""
+        if not self._finite(values):
+            k = int(np.argmin(np.isfinite(values)))
+            raise SolveError(
+                f"{describe(k)} is {values[k]} although the functions themselves are finite. "
+                "Look there for a square root, division or logarithm at the edge of its domain, "
+                "or tighten the bounds."
+            )
+
+    def _jacobian_words(self, k: int) -> str:
+        row, column = int(self.nlp.jacobian_rows[k]), int(self.nlp.jacobian_cols[k])
+        return (
+            f"The derivative of {self.nlp.describe_constraint(row)} (constraint row {row}) "
+            f"by {self.nlp.describe_variable(column)}"
+        )
+
+    def _hessian_words(self, k: int) -> str:
+        row, column = int(self.nlp.hessian_rows[k]), int(self.nlp.hessian_cols[k])
+        return (
+            f"The second derivative by {self.nlp.describe_variable(row)} "
+            f"and {self.nlp.describe_variable(column)}"
+        )

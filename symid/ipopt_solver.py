@@ -1,0 +1,343 @@
+"""Solve a nonlinear program with Ipopt. The only place that imports cyipopt."""
+
+import ctypes
+import functools
+import sys
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from symid import ipopt_library
+from symid.errors import SolveError
+from symid.ipopt_evaluation import Evaluation, Iteration, RejectedPoint
+from symid.ipopt_status import SOLVED, STOPPED_BY_LIMIT, explain
+from symid.nlp import NonlinearProgram
+
+__all__ = ["Iteration", "SolverResult", "WorstConstraint", "solve_nlp"]
+
+# MUMPS without its matching, scaling and choice of ordering: collocation systems are well scaled
+# already, and the three cost a quarter of a solve.
+DEFAULTS: dict[str, str | int | float] = {
+    "tol": 1e-6,
+    "mu_strategy": "adaptive",
+    "linear_solver": "mumps",
+    "mumps_permuting_scaling": 0,
+    "mumps_scaling": 0,
+    "mumps_pivot_order": 0,
+    "print_level": 0,
+    "sb": "yes",
+}
+
+# From a previous solution: start at it, not at a distance from the bounds (Ipopt manual, "Warm Start").
+WARM_START: dict[str, str | int | float] = {
+    "warm_start_init_point": "yes",
+    "warm_start_bound_push": 1e-9,
+    "warm_start_bound_frac": 1e-9,
+    "warm_start_slack_bound_push": 1e-9,
+    "warm_start_slack_bound_frac": 1e-9,
+    "warm_start_mult_bound_push": 1e-9,
+    "mu_strategy": "monotone",
+    "mu_init": 1e-6,
+}
+
+# Ipopt lets other threads run, but MUMPS keeps state of its own between calls.
+_ONE_AT_A_TIME = threading.Lock()
+
+
+@dataclass(frozen=True)
+class WorstConstraint:
+    """The constraint violated most, relative to its scale: number, violation, and in words."""
+
+    index: int
+    violation: float
+    words: str
+
+
+@dataclass(frozen=True, eq=False)
+class SolverResult:
+    """Where Ipopt stopped, and why.
+
+    Attributes
+    ----------
+    z : array, shape (n,)
+    objective : float
+    constraints, multipliers : array, shape (m,)
+    bound_multipliers_lower, bound_multipliers_upper : array, shape (n,)
+        Non-negative.
+    status, status_name : int, str
+        Ipopt's.
+    solved : bool
+        Whether `z` is a local optimum (at least to the acceptable tolerance).
+    message : str
+        What the status means and what to do next.
+    iterations : int
+    seconds : dict[str, float]
+        Wall time: ``objective``, ``gradient``, ``constraints``, ``jacobian``, ``hessian``;
+        ``functions``, their sum; ``solver``, the rest (Ipopt, mostly linear algebra); ``total``.
+    worst_constraint : WorstConstraint or None
+        None where there are no constraints.
+    """
+
+    z: np.ndarray
+    objective: float
+    constraints: np.ndarray
+    multipliers: np.ndarray
+    bound_multipliers_lower: np.ndarray
+    bound_multipliers_upper: np.ndarray
+    status: int
+    status_name: str
+    solved: bool
+    message: str
+    iterations: int
+    seconds: dict[str, float]
+    worst_constraint: WorstConstraint | None
+
+    def __repr__(self) -> str:
+        return (
+            f"SolverResult({self.status_name}, objective {self.objective:.8g}, "
+            f"{self.iterations} iterations, {self.seconds['total']:.2f} s)\n{self.message}"
+        )
+
+
+def solve_nlp(
+    nlp: NonlinearProgram,
+    *,
+    options: dict[str, str | int | float] | None = None,
+    start: np.ndarray | None = None,
+    warm_start: SolverResult | None = None,
+    on_iteration: Callable[[Iteration], bool | None] | None = None,
+    max_iterations: int = 3000,
+    time_limit_s: float | None = None,
+    hessian: str = "exact",
+) -> SolverResult:
+    """Solve `nlp` with Ipopt.
+
+    Parameters
+    ----------
+    options : dict, optional
+        Ipopt options over the defaults of this module.
+    start : array, shape (n,), optional
+        Instead of the program's start (or the point of `warm_start`).
+    warm_start : SolverResult, optional
+        A previous result of a program of the same size: its point and multipliers are the start.
+    on_iteration : callable, optional
+        Called with an Iteration; returning False stops the solve.
+    max_iterations : int
+    time_limit_s : float, optional
+        Wall time [s].
+    hessian : {"exact", "limited-memory"}
+        Which second derivatives Ipopt uses.
+
+    Returns
+    -------
+    SolverResult
+        Also where Ipopt gave up: look at `solved` and `message`.
+
+    Raises
+    ------
+    SolveError
+        cyipopt is absent; the start is out of bounds or of the wrong size; an option is refused;
+        a function gave NaN or infinity that no shorter step avoids.
+    KeyboardInterrupt
+        Ctrl-C, at the end of the current iteration.
+    """
+    point = _starting_point(nlp, start, warm_start)
+    chosen = _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian)
+    run = _runner()
+    _keep_freed_memory()
+    evaluation = Evaluation(nlp, on_iteration)
+    with _ONE_AT_A_TIME, evaluation.ctrl_c_stops():
+        began = time.perf_counter()
+        status = run(nlp, evaluation, chosen, _scales(nlp), point)
+        total = time.perf_counter() - began
+    _raise_failure(evaluation, status)
+    return _result(nlp, evaluation, status, point, total)
+
+
+def _starting_point(nlp, start, warm_start) -> dict[str, np.ndarray]:
+    point = {
+        "z": warm_start.z if warm_start else nlp.start,
+        "constraints": np.zeros(nlp.m),
+        "objective": np.zeros(1),
+        "multipliers": warm_start.multipliers if warm_start else np.zeros(nlp.m),
+        "lower": warm_start.bound_multipliers_lower if warm_start else np.zeros(nlp.n),
+        "upper": warm_start.bound_multipliers_upper if warm_start else np.zeros(nlp.n),
+    }
+    if start is not None:
+        point["z"] = start
+    point = {name: np.array(value, dtype=float) for name, value in point.items()}
+    sizes = {"z": nlp.n, "multipliers": nlp.m, "lower": nlp.n, "upper": nlp.n}
+    for name, size in sizes.items():
+        if point[name].shape != (size,):
+            raise SolveError(
+                f"The start does not fit the program: {name} has shape {point[name].shape}, "
+                f"expected ({size},). Transcribe the previous solution to this program first."
+            )
+    _check_inside(nlp, point["z"], allowance=1e-7 if warm_start else 0.0)
+    return point
+
+
+def _check_inside(nlp: NonlinearProgram, z: np.ndarray, allowance: float) -> None:
+    """Refuse a start out of bounds; a previous solution may overstep by Ipopt's own relaxation."""
+    slack = allowance * np.maximum(1.0, np.abs(z))
+    inside = (z >= nlp.lower - slack) & (z <= nlp.upper + slack)
+    if not inside.all():
+        i = int(np.argmin(inside))
+        raise SolveError(
+            f"The start is out of bounds: {nlp.describe_variable(i)} starts at {z[i]:g}, allowed are "
+            f"{nlp.lower[i]:g} to {nlp.upper[i]:g} ({np.sum(~inside)} variables in all). "
+            "Change the start or widen the bounds."
+        )
+
+
+def _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian) -> dict:
+    if hessian not in ("exact", "limited-memory"):
+        raise SolveError(f"hessian={hessian!r} is unknown: choose 'exact' or 'limited-memory'.")
+    if hessian == "exact" and nlp.hessian is None:
+        raise SolveError(
+            "The program has no exact Hessian: give NonlinearProgram.hessian or solve with "
+            "hessian='limited-memory'."
+        )
+    chosen = DEFAULTS | {"hessian_approximation": hessian, "max_iter": int(max_iterations)}
+    if nlp.variable_scale is not None or nlp.constraint_scale is not None or nlp.objective_scale != 1:
+        chosen["nlp_scaling_method"] = "user-scaling"
+    if time_limit_s is not None:
+        chosen["max_wall_time"] = float(time_limit_s)
+    return chosen | (WARM_START if warm_start else {}) | (options or {})
+
+
+def _scales(nlp: NonlinearProgram) -> tuple[float, np.ndarray, np.ndarray]:
+    """Turn typical sizes into the factors that Ipopt wants."""
+    z = np.ones(nlp.n) if nlp.variable_scale is None else 1 / nlp.variable_scale
+    g = np.ones(nlp.m) if nlp.constraint_scale is None else 1 / nlp.constraint_scale
+    return 1 / nlp.objective_scale, z, g
+
+
+@functools.cache
+def _runner() -> Callable[..., int]:
+    """Choose the way to Ipopt: its C interface through cyipopt's library, else cyipopt itself."""
+    try:
+        import cyipopt
+    except ImportError as absent:
+        raise SolveError(
+            f"cyipopt cannot be imported ({absent}). Run `python -m symid.setup_ipopt` once, or "
+            "`conda install -c conda-forge cyipopt`."
+        ) from absent
+    library = ipopt_library.open_library(sys.modules[cyipopt.Problem.__module__].__file__)
+    return _run_cyipopt if library is None else functools.partial(ipopt_library.solve, library)
+
+
+class _CyipoptFunctions:
+    """An Evaluation under the method names that cyipopt looks for."""
+
+    def __init__(self, nlp: NonlinearProgram, evaluation: Evaluation, rejected: type[Exception]):
+        self.nlp, self.evaluation, self.rejected = nlp, evaluation, rejected
+
+    def _call(self, name: str, *arguments):
+        try:
+            return getattr(self.evaluation, name)(*arguments)
+        except RejectedPoint as point:
+            raise self.rejected from point
+
+    def objective(self, z):
+        return self._call("objective", z)
+
+    def gradient(self, z):
+        return self._call("gradient", z)
+
+    def constraints(self, z):
+        return self._call("constraints", z)
+
+    def jacobian(self, z):
+        return self._call("jacobian", z)
+
+    def hessian(self, z, multipliers, factor):
+        return self._call("hessian", z, multipliers, factor)
+
+    def jacobianstructure(self):
+        return self.nlp.jacobian_rows, self.nlp.jacobian_cols
+
+    def hessianstructure(self):
+        return self.nlp.hessian_rows, self.nlp.hessian_cols
+
+    def intermediate(self, mode, number, objective, primal, dual, barrier, *_):
+        return self.evaluation.iteration(number, objective, primal, dual, barrier)
+
+
+def _run_cyipopt(nlp, evaluation, options, scales, point) -> int:
+    """Solve through cyipopt; the same contract as ipopt_library.solve."""
+    import cyipopt
+
+    problem = cyipopt.Problem(
+        nlp.n, nlp.m, _CyipoptFunctions(nlp, evaluation, cyipopt.CyIpoptEvaluationError),
+        nlp.lower, nlp.upper, nlp.constraint_lower, nlp.constraint_upper,
+    )  # fmt: skip
+    for name, value in options.items():
+        try:
+            problem.add_option(name, value)
+        except TypeError as refused:
+            raise SolveError(f"Ipopt refused the option {name}={value!r}: check its spelling and type.") from refused
+    problem.set_problem_scaling(*scales)
+    try:
+        _, info = problem.solve(point["z"], point["multipliers"], point["lower"], point["upper"])
+    except BaseException as failure:
+        evaluation.failure = failure
+        return 5
+    for name, key in (("z", "x"), ("constraints", "g"), ("multipliers", "mult_g"),
+                      ("lower", "mult_x_L"), ("upper", "mult_x_U"), ("objective", "obj_val")):  # fmt: skip
+        point[name][...] = info[key]
+    return info["status"]
+
+
+@functools.cache
+def _keep_freed_memory() -> None:
+    """Tell glibc to keep freed memory, else MUMPS's work space is mapped anew at each factorisation."""
+    m_trim_threshold, m_mmap_threshold = -1, -3  # malloc.h
+    try:
+        mallopt = ctypes.CDLL(None).mallopt
+    except (OSError, AttributeError, TypeError):  # no glibc: macOS, musl, Windows
+        return
+    mallopt(m_mmap_threshold, 2**25)  # the largest that glibc accepts
+    mallopt(m_trim_threshold, 2**30)
+
+
+def _raise_failure(evaluation: Evaluation, status: int) -> None:
+    if evaluation.failure is not None:
+        raise evaluation.failure
+    if evaluation.not_a_number and status not in SOLVED + STOPPED_BY_LIMIT:
+        name, _ = explain(status)
+        raise SolveError(
+            f"{evaluation.not_a_number} at iteration {evaluation.iterations}, and no shorter step "
+            f"avoids it ({name}). Start elsewhere, tighten the bounds, or look there for a square "
+            "root, division or logarithm out of its domain."
+        )
+
+
+def _result(nlp, evaluation: Evaluation, status: int, point: dict, total: float) -> SolverResult:
+    name, message = explain(status)
+    worst = _worst_constraint(nlp, point["constraints"])
+    if status not in SOLVED and worst is not None:
+        message += f" Worst constraint: {worst.words}, violated by {worst.violation:.3g}."
+    functions = sum(evaluation.seconds.values())
+    seconds = evaluation.seconds | {
+        "functions": functions, "solver": total - functions, "total": total,
+    }  # fmt: skip
+    return SolverResult(
+        z=point["z"], objective=float(point["objective"][0]), constraints=point["constraints"],
+        multipliers=point["multipliers"],
+        bound_multipliers_lower=point["lower"], bound_multipliers_upper=point["upper"],
+        status=status, status_name=name, solved=status in SOLVED, message=message,
+        iterations=evaluation.iterations, seconds=seconds, worst_constraint=worst,
+    )  # fmt: skip
+
+
+def _worst_constraint(nlp: NonlinearProgram, values: np.ndarray) -> WorstConstraint | None:
+    if nlp.m == 0:
+        return None
+    excess = np.maximum(0.0, np.maximum(nlp.constraint_lower - values, values - nlp.constraint_upper))
+    scaled = excess if nlp.constraint_scale is None else excess / nlp.constraint_scale
+    i = int(np.argmax(scaled))
+    return WorstConstraint(i, float(excess[i]), nlp.describe_constraint(i))

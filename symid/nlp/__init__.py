@@ -1,0 +1,16 @@
+"""What must be zero and small: a sparse nonlinear program, and its checkers.
+
+Knows no time, no mechanics and no solver; NumPy and SciPy alone.
+"""
+
+from symid.nlp.derivatives import DerivativeReport, check_derivatives
+from symid.nlp.optimality import OptimalityReport, check_optimality
+from symid.nlp.program import NonlinearProgram
+
+__all__ = [
+    "DerivativeReport",
+    "NonlinearProgram",
+    "OptimalityReport",
+    "check_derivatives",
+    "check_optimality",
+]
