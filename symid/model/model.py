@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -155,6 +155,19 @@ class Model:
         """The output expressions in order of the outputs, with all named expressions put in."""
         return tuple(self.inline(e.expr) for e in self.outputs.values())
 
+    def rates(self) -> dict[str, str]:
+        """Which states are rates of others by an equation of the form 0 = x' - v: {v: x}."""
+        states = {s.symbol: s for s in self.states.values()}
+        found = {}
+        for residual in self.residual():
+            for x in states.values():
+                slope = residual.coeff(x.dot)
+                if slope.is_Number and slope != 0:
+                    rate = (x.dot - residual / slope).expand()
+                    if rate in states:
+                        found[states[rate].name] = x.name
+        return found
+
     def delayed(self, expr, lag) -> sm.Expr:
         """`expr` with each state and input taken at time t - lag.
 
@@ -238,14 +251,13 @@ class Model:
                      [(str(k), str(d.of), sm.srepr(d.lag)) for k, d in self.delays.items()]))
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
-    def violations(self) -> Iterator[str]:
-        """Everything that is wrong with this model, one sentence each."""
-        from symid.model.check import violations
-        return violations(self)
+    def check(self, units: bool = True) -> Model:
+        """This model, if it can be used; ModelError with every violation at once if not.
 
-    def check(self) -> Model:
-        """This model, if it can be used; ModelError with every violation at once if not."""
-        found = tuple(self.violations())
+        `units=False` leaves out the check of physical dimensions, which takes most of the time.
+        """
+        from symid.model.check import violations
+        found = tuple(violations(self, units))
         if found:
             lines = "\n".join(f"  - {v}" for v in found)
             raise ModelError(f"model '{self.name}' cannot be used yet:\n{lines}", found)

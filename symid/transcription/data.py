@@ -1,0 +1,103 @@
+"""What a recording gives to a transcription: step, inputs, targets, history, a first trajectory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from symid.errors import TranscriptionError
+from symid.model import Model, nearest
+from symid.recording import Recording
+
+
+@dataclass(frozen=True, eq=False)
+class Measured:
+    """One recording as a model sees it; window = samples `first` to `last`, which are the nodes.
+
+    Parameters
+    ----------
+    name : of the recording.
+    time : (samples,) s, of the whole recording.
+    inputs : input name -> (samples,) in SI units.
+    targets : (samples, outputs) recorded outputs in SI units.
+    states : (samples, n) recorded or differentiated states, zero where nothing is known.
+    first, last : the window's first and last sample.
+    """
+
+    name: str
+    time: np.ndarray
+    inputs: dict[str, np.ndarray]
+    targets: np.ndarray
+    states: np.ndarray
+    first: int
+    last: int
+
+    @property
+    def intervals(self) -> int:
+        return self.last - self.first
+
+    @property
+    def step(self) -> float:
+        return float(self.time[self.last] - self.time[self.first]) / self.intervals
+
+    @property
+    def nodes(self) -> slice:
+        return slice(self.first, self.last + 1)
+
+    def input_at(self, name: str, abscissa: float, smooth: bool) -> np.ndarray:
+        """(intervals,) the input at a point of each interval: linear between samples, or cubic."""
+        u = self.inputs[name]
+        if abscissa in (0.0, 1.0) or not smooth:
+            return (1 - abscissa) * u[self.first:self.last] + abscissa * u[self.first + 1:self.last + 1]
+        t = self.time[self.first:self.last] + abscissa * self.step
+        return CubicSpline(self.time, u)(t)
+
+
+def measure(model: Model, recording: Recording, window: tuple[float, float] | None) -> Measured:
+    """Take from `recording` what `model` needs, over `window` (t0, t1) [s] or over all of it."""
+    missing = [(c.name, c.channel) for c in (*model.inputs.values(), *model.outputs.values())
+               if c.channel not in recording.channels]
+    if missing:
+        raise TranscriptionError("; ".join(
+            f"'{name}' of model '{model.name}' needs the channel '{channel}', which {recording.name} does not have: "
+            + nearest(channel, recording.channels) for name, channel in missing))
+    first, last = _window_samples(recording, window)
+    outputs = model.outputs.values()
+    targets = np.column_stack([recording.channels[y.channel] for y in outputs]) if outputs else np.zeros((len(recording.time), 0))
+    return Measured(recording.name, recording.time, {u.name: recording.channels[u.channel] for u in model.inputs.values()},
+                    targets, first_states(model, recording), first, last)
+
+
+def _window_samples(recording: Recording, window: tuple[float, float] | None) -> tuple[int, int]:
+    time = recording.time
+    if window is None:
+        return 0, len(time) - 1
+    t0, t1 = map(float, window)
+    slack = 0.5 * (time[1] - time[0])
+    if not (time[0] - slack <= t0 < t1 <= time[-1] + slack):
+        raise TranscriptionError(f"window {t0:g} to {t1:g} s does not lie in {recording.name}, which has "
+                                 f"{time[0]:g} to {time[-1]:g} s")
+    first, last = np.searchsorted(time, [t0 - slack, t1 - slack])
+    if last - first < 2:
+        raise TranscriptionError(f"window {t0:g} to {t1:g} s holds only {last - first + 1} samples of {recording.name}")
+    return int(first), int(last)
+
+
+def first_states(model: Model, recording: Recording) -> np.ndarray:
+    """(samples, n) a first trajectory of all states.
+
+    A state is taken from the channel of its name, or from that of an output which shows just this
+    state; else, where an equation says that it is the rate of such a state, from the derivative;
+    else it is zero (the internal states of controllers and added physics).
+    """
+    shown = {str(y.expr): y.channel for y in model.outputs.values()}
+    known = {s: recording.channels[c] for s in model.states
+             for c in (s, shown.get(s)) if c in recording.channels}
+    for rate, of in model.rates().items():
+        if rate not in known and of in known:
+            known[rate] = np.gradient(known[of], recording.time)
+    zero = np.zeros(len(recording.time))
+    return np.column_stack([known.get(s, zero) for s in model.states])
+
