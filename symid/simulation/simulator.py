@@ -1,0 +1,233 @@
+"""A compiled forward simulator for any Model, with lags, sensitivities and sample corrections."""
+
+from __future__ import annotations
+
+import ctypes as ct
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from symid.codegen.build import load_library
+from symid.codegen.ode import OdeSource, ode_source
+from symid.errors import SymidError
+from symid.model import Model, nearest
+from symid.simulation.linear import Linearised
+
+_DOUBLES = ct.POINTER(ct.c_double)
+_FIELDS = [*((n, ct.c_long) for n in ("N", "substeps", "method", "nq", "nqp", "nqx", "nh")),
+           *((n, ct.c_void_p) for n in ("t", "u", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "ht", "hx")),
+           ("limit", ct.c_double), *((n, ct.c_void_p) for n in ("X", "Y", "SX", "SY"))]
+METHODS = {"rk4": 0, "euler": 1}
+
+
+class _Run(ct.Structure):
+    _fields_ = _FIELDS
+
+
+@dataclass(frozen=True, eq=False)
+class Trajectory:
+    """What a simulation gave.
+
+    Attributes
+    ----------
+    time : (N,) [s].
+    x : (N, n) states, y : (N, m) outputs; rows after the end of a run that diverged are NaN.
+    wrt : names of the unknowns of the sensitivities: parameters, then ``<state>(0)``.
+    dx : (N, n, q) and dy : (N, m, q) derivatives of x and y, or None.
+    reached : samples before the run diverged; N if it did not.
+    """
+
+    time: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    state_names: tuple[str, ...]
+    output_names: tuple[str, ...]
+    wrt: tuple[str, ...] = ()
+    dx: np.ndarray | None = None
+    dy: np.ndarray | None = None
+    reached: int = 0
+
+    @property
+    def diverged(self) -> bool:
+        return self.reached < len(self.time)
+
+    @property
+    def states(self) -> dict[str, np.ndarray]:
+        return dict(zip(self.state_names, self.x.T, strict=True))
+
+    @property
+    def outputs(self) -> dict[str, np.ndarray]:
+        return dict(zip(self.output_names, self.y.T, strict=True))
+
+    def sensitivity(self, output: str, unknown: str) -> np.ndarray:
+        """(N,) derivative of one output by one unknown."""
+        return self.dy[:, self.output_names.index(output), self.wrt.index(unknown)]
+
+
+class Simulator:
+    """Forward simulation of one model, compiled once and cached by its equations.
+
+    Residuals are solved for the rates at every stage and integrated by Runge-Kutta 4 (or
+    explicit Euler) with fixed substeps. Inputs are linear between samples, noise is constant
+    over a sample interval, delayed states come from the run's own dense output.
+    """
+
+    def __init__(self, model: Model):
+        self.model = model
+        self.source: OdeSource = ode_source(model)
+        loop = Path(__file__).with_name("loop.c").read_text()
+        self._library = load_library(self.source.text + "\n" + loop)
+        self._library.simulate.restype = ct.c_long
+        self._library.simulate.argtypes = [ct.POINTER(_Run)]
+        self._library.linearise.restype = None
+        s = self.source
+        self.states, self.outputs, self.parameters = s.states, s.outputs, s.parameters
+        self.constants = np.array([c.value for c in model.constants.values()], dtype=float)
+
+    # ---- running ---------------------------------------------------------------------
+    def simulate(self, parameters: Mapping[str, float] | np.ndarray, initial_state: Mapping[str, float] | np.ndarray,
+                 time: np.ndarray, inputs: Mapping[str, np.ndarray] | None = None, *,
+                 noise: Mapping[str, np.ndarray] | None = None, sensitivity: Sequence[str] = (),
+                 initial_sensitivity: Sequence[str] = (), substeps: int = 1, method: str = "rk4",
+                 history: tuple[np.ndarray, np.ndarray] | None = None, gain: np.ndarray | None = None,
+                 recorded: np.ndarray | None = None, limit: float = 1e4, keep_states: bool = True) -> Trajectory:
+        """Integrate over `time` and report states and outputs at its samples.
+
+        Parameters
+        ----------
+        parameters : value [SI] of every parameter, by name or as an array in declared order.
+        initial_state : likewise for the states at ``time[0]``.
+        time : (N,) increasing [s]; inputs and noise : name -> (N,), noise of an interval at its start.
+        sensitivity, initial_sensitivity : parameters and states (initial values) to differentiate by.
+        substeps : steps of the integrator per sample interval.
+        history : (K,) times before ``time[0]`` and (K, n) states, for delayed signals; without it
+            the initial state held before the start.
+        gain, recorded : (n, m) and (N, m): after each sample the state is moved by
+            gain @ (recorded - y), as in an observer or Kalman filter; NaN rows are skipped.
+        limit : a state larger than this ends the run (`Trajectory.diverged`).
+
+        Raises
+        ------
+        SymidError : a value, input or name is missing, of the wrong length or not finite.
+        """
+        time = _array(time)
+        n, q = len(time), len(sensitivity) + len(initial_sensitivity)
+        if n < 2 or not np.all(np.diff(time) > 0):
+            raise SymidError(f"simulation of '{self.model.name}': time needs at least two increasing samples, found {n}")
+        keep = {
+            "t": time, "u": self._columns("input", self.source.inputs, inputs, n),
+            "w": self._columns("noise", self.source.noises, noise, n, missing=0.0),
+            "p": self._vector("parameter", self.parameters, parameters), "c": self.constants,
+            "x0": self._vector("initial state", self.states, initial_state),
+            "qp": self._indices("parameter", self.parameters, sensitivity),
+            "qx": self._indices("state", self.states, initial_sensitivity),
+            "gain": None if gain is None else _array(gain), "recorded": None if gain is None else _array(recorded),
+            "ht": None if history is None else _array(history[0]), "hx": None if history is None else _array(history[1]),
+            "X": np.full((n, len(self.states)), np.nan) if keep_states else None, "Y": np.full((n, len(self.outputs)), np.nan),
+            "SX": np.full((n, len(self.states), q), np.nan) if q and keep_states else None,
+            "SY": np.full((n, len(self.outputs), q), np.nan) if q else None,
+        }
+        run = _Run(N=n, substeps=substeps, method=METHODS[method], nq=q, nqp=len(sensitivity),
+                   nqx=len(initial_sensitivity), nh=0 if history is None else len(history[0]), limit=limit,
+                   **{k: None if a is None else a.ctypes.data for k, a in keep.items()})
+        reached = self._library.simulate(ct.byref(run))
+        if reached < 0:
+            raise MemoryError(f"simulation of '{self.model.name}' over {n} samples with {q} sensitivities")
+        wrt = (*sensitivity, *(f"{s}(0)" for s in initial_sensitivity))
+        return Trajectory(time, keep["X"], keep["Y"], self.states, self.outputs, wrt, keep["SX"], keep["SY"], reached)
+
+    def batch(self, runs: Sequence[Mapping], *, threads: int = 2, **common) -> list[Trajectory]:
+        """`simulate(**common, **run)` for every run, on threads; the same numbers as a loop."""
+        with ThreadPoolExecutor(threads) as pool:
+            return list(pool.map(lambda run: self.simulate(**common, **run), runs))
+
+    def linearise(self, parameters, state, inputs=None, rates=None, late=None) -> Linearised:
+        """The model linearised at one state [SI arrays or names], rates and inputs zero by default."""
+        s, f = self.source, lambda k: np.zeros(k)
+        n, m, late_n, w = len(s.states), len(s.outputs), len(s.late), len(s.noises)
+        x = self._vector("state", self.states, state)
+        late = np.array([x[s.states.index(o)] if (o := str(self.model.delays[_late(self.model, y)].of)) in s.states else 0.0
+                         for y in s.late]) if late is None else _array(late)
+        a = {"xd": f(n) if rates is None else _array(rates), "x": x, "l": late,
+             "u": f(len(s.inputs)) if inputs is None else _array(inputs), "w": f(w),
+             "p": self._vector("parameter", self.parameters, parameters), "c": self.constants}
+        out = [np.zeros(k) for k in ((n, n), (n, n), (n, late_n), (n, w), (m, n), (m, late_n), (late_n,))]
+        call = [_pointer(v) for v in a.values()] + [ct.c_double(0.0)] + [_pointer(v) for v in out]
+        self._library.linearise(*call)
+        mass, rx, rl, rw, hx, hl, lag = out
+        late_of = tuple(str(self.model.delays[_late(self.model, y)].of) for y in s.late)
+        return Linearised.from_residual(mass, rx, rl, rw, hx, hl, lag, s.states, late_of)
+
+    # ---- checking --------------------------------------------------------------------
+    def _vector(self, kind: str, names: tuple[str, ...], values) -> np.ndarray:
+        if isinstance(values, Mapping):
+            missing = [k for k in names if k not in values]
+            if missing:
+                raise SymidError(f"simulation of '{self.model.name}' needs a value of the {kind} {missing[0]!r}; "
+                                 f"{nearest(missing[0], values)}")
+            values = [values[k] for k in names]
+        out = _array(values)
+        if out.shape != (len(names),) or not np.all(np.isfinite(out)):
+            raise SymidError(f"simulation of '{self.model.name}': {kind} must be {len(names)} finite numbers in the order "
+                             f"{names}, found {out}")
+        return out
+
+    def _columns(self, kind: str, names, signals, n: int, missing: float | None = None) -> np.ndarray:
+        table = np.zeros((n, max(len(names), 1)))
+        for i, name in enumerate(names):
+            if not signals or name not in signals:
+                if missing is None:
+                    raise SymidError(f"simulation of '{self.model.name}' needs the {kind} {name!r} at all {n} samples")
+                continue
+            column = _array(signals[name])
+            if column.shape != (n,) or not np.all(np.isfinite(column)):
+                raise SymidError(f"simulation of '{self.model.name}': {kind} {name!r} must be {n} finite numbers, "
+                                 f"found shape {column.shape} with {np.sum(~np.isfinite(column))} not finite")
+            table[:, i] = column
+        return table
+
+    def _indices(self, kind: str, names, chosen) -> np.ndarray:
+        for c in chosen:
+            if c not in names:
+                raise SymidError(f"simulation of '{self.model.name}' has no {kind} {c!r}; {nearest(c, names)}")
+        return np.array([names.index(c) for c in chosen], dtype=np.intc)
+
+
+class _Keyed:
+    """A model that compares by its equations and constants, for the cache of simulators."""
+
+    def __init__(self, model: Model):
+        self.model = model
+        self.key = (model.fingerprint, tuple((c.name, c.value) for c in model.constants.values()))
+
+    def __hash__(self):
+        return hash(self.key)
+
+    def __eq__(self, other):
+        return self.key == other.key
+
+
+@lru_cache(maxsize=512)
+def _cached(keyed: _Keyed) -> Simulator:
+    return Simulator(keyed.model)
+
+
+def simulator(model: Model) -> Simulator:
+    """The Simulator of `model`; the same object for equal equations and constants."""
+    return _cached(_Keyed(model))
+
+
+def _late(model: Model, name: str):
+    return next(s for s in model.delays if str(s) == name)
+
+
+def _array(values) -> np.ndarray:
+    return np.ascontiguousarray(values, dtype=float)
+
+
+def _pointer(a: np.ndarray):
+    return a.ctypes.data_as(_DOUBLES)
