@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sm
 
-from symid.codegen.cprint import c_statements
+from symid.codegen.cprint import PREAMBLE, c_statements
 from symid.errors import CodegenError
 from symid.model import TIME, Model, symbol
 
@@ -56,9 +56,9 @@ def ode_source(model: Model) -> OdeSource:
         raise CodegenError(f"model '{model.name}' is not linear in its rates x', so it cannot be solved for them")
     lags = sm.Matrix([model.delays[s].lag for s in late])
     text = "\n".join([
-        "#include <math.h>",
+        PREAMBLE,
         _sizes(groups, observed, model, late, states, inputs),
-        _dense("mass", {"M": mass, "r0": residual.xreplace({r: sm.Integer(0) for r in rates})}, names),
+        _dense("mass", {"M": mass, "force": residual.xreplace({r: sm.Integer(0) for r in rates})}, names),
         _sparse("slopes", residual, {"x": groups["x"], "l": late, "p": groups["p"], "w": groups["w"]}, names),
         _dense("observe", {"y": observed}, names),
         _sparse("observe_slopes", observed, {"x": groups["x"], "l": late, "p": groups["p"], "xd": rates}, names),

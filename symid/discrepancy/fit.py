@@ -1,0 +1,228 @@
+"""Fit a model to data by prediction errors: Gauss-Newton on exact sensitivities.
+
+Random forces that act on the system cannot be simulated, but each sample tells what they did:
+the state is moved by a Kalman gain after every sample (Ljung 1999, ch. 7; Mehra 1971), and the
+remaining surprises are white if the model is right. Without random forces the gain is zero and
+the fit is plain output error. The covariance of the surprises is concentrated out, so that
+-N log det of it is twice the log-likelihood.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from symid.discrepancy.data import Data
+from symid.discrepancy.gain import kalman_gain, linearised_along
+from symid.errors import DiagnosisError
+from symid.model import Model
+from symid.simulation import Simulator, simulator
+
+TOLERANCE = 0.02
+"""A fit has converged when twice the log-likelihood changes by less than this."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A model with all of its unknowns fitted.
+
+    Attributes
+    ----------
+    model : what was fitted. values : parameter -> SI.
+    initial : (E, n) state at the start of each episode.
+    process : (w,) standard deviations of the model's noises that the gain was made for.
+    gain : (n, m) or None. surprise : per episode (N, m), recorded minus predicted.
+    covariance : (m, m) of the surprises. loglik2 : twice the log-likelihood.
+    errors : parameter -> standard error, NaN where the data say nothing.
+    information : (q, q) of the shared unknowns `names` after the others were eliminated.
+    """
+
+    model: Model
+    values: dict[str, float]
+    initial: np.ndarray
+    process: np.ndarray
+    gain: np.ndarray | None
+    surprise: tuple[np.ndarray, ...]
+    covariance: np.ndarray
+    loglik2: float
+    errors: dict[str, float] = field(default_factory=dict)
+    iterations: int = 0
+    converged: bool = False
+
+    @property
+    def simulator(self) -> Simulator:
+        return simulator(self.model)
+
+
+class Fitter:
+    """Fits of one model to one set of data.
+
+    Parameters
+    ----------
+    fixed : parameters that keep their start value.
+    """
+
+    def __init__(self, model: Model, data: Data, fixed=()):
+        self.model, self.data = model, data
+        self.sim = simulator(model)
+        self.free = [p for p in self.sim.parameters if p not in fixed]
+        self.bounds = np.array([model.parameters[p].bounds for p in self.sim.parameters], dtype=float).reshape(-1, 2)
+        self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
+        self.driven = data.driven and bool(model.noises)
+        self.step = data.episodes[0].step
+        self.substeps = max(1, int(np.ceil(self.step / 0.0101)))
+
+    # ---- one evaluation --------------------------------------------------------------
+    def run(self, p, x0, gain, sensitivities: bool, keep_states: bool = False):
+        """Trajectories of all episodes, or None if one diverged."""
+        out = []
+        for e, start in zip(self.data.episodes, x0, strict=True):
+            t = self.sim.simulate(p, start, e.time, e.inputs, substeps=self.substeps, gain=gain, recorded=e.recorded,
+                                  sensitivity=self.free if sensitivities else (), keep_states=keep_states,
+                                  initial_sensitivity=self.sim.states if sensitivities else ())
+            if t.diverged:
+                return None
+            out.append(t)
+        return out
+
+    def surprises(self, runs) -> list[np.ndarray]:
+        return [e.recorded - t.y for e, t in zip(self.data.episodes, runs, strict=True)]
+
+    def score(self, surprise) -> tuple[float, np.ndarray]:
+        """Twice the log-likelihood and the covariance of the surprises."""
+        every = np.vstack(surprise)
+        cov = every.T @ every / len(every)
+        if not self.driven:
+            cov = np.diag(np.diag(cov))
+        sign, logdet = np.linalg.slogdet(cov / np.outer(self.data.sensor_noise, self.data.sensor_noise))
+        return (-len(every) * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), cov
+
+    def evaluate(self, p, x0, gain) -> float:
+        runs = self.run(p, x0, gain, sensitivities=False)
+        return -np.inf if runs is None else self.score(self.surprises(runs))[0]
+
+    def gain(self, p, x0, process, previous=None):
+        """Kalman gain at these values, linearised along the trajectory that the present gain gives."""
+        if not self.driven:
+            return None
+        states = np.vstack([e.recorded for e in self.data.episodes])
+        runs = self.run(p, x0, previous, False, keep_states=True) if previous is not None else None
+        path = np.vstack([t.x for t in runs]) if runs else np.array(x0)
+        del states
+        return kalman_gain(linearised_along(self.sim, p, path), self.step, process, self.data.sensor_noise)
+
+    # ---- the iteration ---------------------------------------------------------------
+    def fit(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray, iterations: int = 40,
+            tolerance: float = TOLERANCE, learn_noise: bool = True) -> Fit:
+        """Levenberg-Marquardt from `start`; DiagnosisError if the start itself diverges."""
+        p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
+        x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
+        gain = self.gain(p, x0, process)
+        gain = self.gain(p, x0, process, gain)
+        best, damping, quiet, k = self.evaluate(p, x0, gain), 1e-3, 0, 0
+        if not np.isfinite(best):
+            raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
+        for k in range(1, iterations + 1):
+            system = self._normal(p, x0, gain, process, learn_noise)
+            if system is None:
+                break
+            improved = False
+            for _ in range(8):
+                step = _solve(system, damping, self.bounds[self.index], p[self.index])
+                p1, x1, process1 = self._moved(p, x0, process, step)
+                gain1 = self.gain(p1, x1, process1, gain)
+                value = self.evaluate(p1, x1, gain1)
+                if value > best - 1e-9:
+                    improved = True
+                    break
+                damping = max(damping * 10, 1e-6)
+            if not improved:
+                break
+            change, best = value - best, value
+            p, x0, process, gain, damping = p1, x1, process1, gain1, damping * 0.1
+            quiet = quiet + 1 if change < tolerance else 0
+            if quiet >= 1:
+                break
+        return self._result(p, x0, process, gain, k, quiet >= 1)
+
+    def _moved(self, p, x0, process, step):
+        q, (E, n) = len(self.free), x0.shape
+        p1 = p.copy()
+        p1[self.index] += step[:q]
+        p1 = np.clip(p1, *self.bounds.T)
+        process1 = process * np.exp(np.clip(step[q:q + len(process)], -1.5, 1.5)) if self.driven else process
+        return p1, x0 + step[-E * n:].reshape(E, n), process1
+
+    def _normal(self, p, x0, gain, process, learn_noise):
+        """Normal equations of shared unknowns (parameters, log noise) and initial states."""
+        runs = self.run(p, x0, gain, sensitivities=True)
+        if runs is None:
+            return None
+        surprise = self.surprises(runs)
+        _, cov = self.score(surprise)
+        white = np.linalg.inv(np.linalg.cholesky(cov))
+        noise = self._noise_columns(p, x0, gain, process, surprise) if self.driven and learn_noise else \
+            [np.zeros((*s.shape, len(process) if self.driven else 0)) for s in surprise]
+        q, n, w, E = len(self.free), x0.shape[1], noise[0].shape[2], len(runs)
+        size = q + w + E * n
+        H, g = np.zeros((size, size)), np.zeros(size)
+        for i, (t, s, extra) in enumerate(zip(runs, surprise, noise, strict=True)):
+            J = np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2)
+            J = np.einsum("ab,nbq->naq", white, J).reshape(-1, q + w + n)
+            r = (s @ white.T).reshape(-1)
+            where = np.r_[0:q + w, q + w + i * n:q + w + (i + 1) * n]
+            H[np.ix_(where, where)] += J.T @ J
+            g[where] += J.T @ r
+        return H, g, q
+
+    def _noise_columns(self, p, x0, gain, process, surprise):
+        """Change of the surprises per unit of log noise, by differences through the gain."""
+        columns, path = [], None
+        runs = self.run(p, x0, gain, False, keep_states=True)
+        path = linearised_along(self.sim, p, np.vstack([t.x for t in runs]))
+        for j in range(len(process)):
+            more = process.copy()
+            more[j] *= np.exp(0.1)
+            other = self.run(p, x0, kalman_gain(path, self.step, more, self.data.sensor_noise), False)
+            columns.append([np.zeros_like(s) for s in surprise] if other is None else
+                           [(a - b) / 0.1 for a, b in zip(self.surprises(other), surprise, strict=True)])
+        return [np.stack([c[i] for c in columns], axis=2) for i in range(len(surprise))]
+
+    def _result(self, p, x0, process, gain, iterations, converged) -> Fit:
+        system = self._normal(p, x0, gain, process, True)
+        runs = self.run(p, x0, gain, sensitivities=False)
+        surprise = self.surprises(runs)
+        loglik2, cov = self.score(surprise)
+        errors = dict.fromkeys(self.sim.parameters, 0.0)
+        if system is not None:
+            H, _, q = system
+            d = np.sqrt(np.maximum(np.diag(H), 1e-300))
+            inverse = np.linalg.pinv(H / np.outer(d, d), rcond=1e-13) / np.outer(d, d)
+            errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0))) for i, k in enumerate(self.free)}
+        return Fit(self.model, dict(zip(self.sim.parameters, map(float, p), strict=True)), x0, process, gain,
+                   tuple(surprise), cov, float(loglik2), errors, iterations, converged)
+
+
+def _solve(system, damping, bounds, at) -> np.ndarray:
+    """The damped step; parameters that would leave their bounds are held there."""
+    H, g, q = system
+    held = np.zeros(len(g), dtype=bool)
+    d = np.maximum(np.diag(H), 1e-12 * max(np.diag(H).max(), 1e-300))
+    for _ in range(q + 1):
+        use = ~held
+        scale = np.sqrt(d[use])
+        A = H[np.ix_(use, use)] / np.outer(scale, scale) + damping * np.eye(use.sum())
+        step = np.zeros(len(g))
+        step[use] = np.linalg.lstsq(A, g[use] / scale, rcond=1e-13)[0] / scale
+        target = at + step[:q]
+        out = ((target < bounds[:, 0]) & (at <= bounds[:, 0])) | ((target > bounds[:, 1]) & (at >= bounds[:, 1]))
+        out &= ~held[:q]
+        if not out.any():
+            return step
+        held[:q] |= out
+    return step
+
+
+def replace_model(fit: Fit, model: Model) -> Fit:
+    return replace(fit, model=model)

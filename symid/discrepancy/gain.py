@@ -1,0 +1,42 @@
+"""How much of each sample's surprise belongs to the state: the stationary Kalman gain."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import LinAlgError, expm, solve_discrete_are
+
+from symid.simulation import Linearised, Simulator
+
+
+def linearised_along(simulator: Simulator, values: np.ndarray, states: np.ndarray, points: int = 40) -> Linearised:
+    """The mean of the linearisations at `points` states of a trajectory (statistical linearisation)."""
+    rows = states[np.isfinite(states).all(axis=1)]
+    rows = rows[np.linspace(0, len(rows) - 1, points).astype(int)]
+    every = [simulator.linearise(values, x) for x in rows]
+    mean = {k: np.mean([getattr(e, k) for e in every], axis=0) for k in ("A", "G", "C", "A_late", "C_late", "lag")}
+    return Linearised(**mean, late_state=every[0].late_state)
+
+
+def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray) -> np.ndarray:
+    """(n, m) gain that moves the state after a sample by gain @ (recorded - predicted).
+
+    Parameters
+    ----------
+    step : seconds between samples; the process noise is held over each (Anderson & Moore 1979, 4.4).
+    process : (w,) standard deviation of each noise of the model; sensor : (m,) of each output.
+    """
+    A, G, C = linear.without_delay()
+    n, w = G.shape
+    block = np.zeros((n + w, n + w))
+    block[:n, :n], block[:n, n:] = A * step, G * step
+    exact = expm(block)
+    F, B = exact[:n, :n], exact[:n, n:] * process
+    R, Q = np.diag(sensor**2), B @ B.T
+    scale = 1.0 / np.maximum(np.abs(np.diag(R)).mean(), 1e-300)
+    for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
+        try:
+            P = solve_discrete_are((leak * F).T, C.T, Q * scale + 1e-12 * np.eye(n), R * scale)
+            return np.linalg.solve(C @ P @ C.T + R * scale, C @ P)[:, :len(linear.A)].T
+        except (LinAlgError, ValueError):
+            continue
+    return np.zeros((len(linear.A), len(C)))
