@@ -1,6 +1,29 @@
 """What was measured: recordings and body files, with units and a history. See `Recording`."""
 
+from symid.recording.body import read_body
+from symid.recording.prepare import (
+    differentiate,
+    fill_gaps,
+    lowpass,
+    rate_name,
+    rate_unit,
+    resample,
+)
 from symid.recording.read import read_recording
 from symid.recording.recording import Recording
+from symid.recording.smooth import smooth_states
+from symid.recording.spikes import find_spikes
 
-__all__ = ["Recording", "read_recording"]
+__all__ = [
+    "Recording",
+    "differentiate",
+    "fill_gaps",
+    "find_spikes",
+    "lowpass",
+    "rate_name",
+    "rate_unit",
+    "read_body",
+    "read_recording",
+    "resample",
+    "smooth_states",
+]

@@ -78,6 +78,7 @@ def _read_table(path: Path, columns: list[Column], allow_gaps: bool) -> dict[str
                 dtype=kinds,
                 skipinitialspace=True,
                 encoding="utf-8-sig",
+                **_every_digit(pd.__version__),
             )
     except (ValueError, pd.errors.ParserWarning) as error:
         _explain(path, columns, allow_gaps)
@@ -86,6 +87,12 @@ def _read_table(path: Path, columns: list[Column], allow_gaps: bool) -> dict[str
     if not _usable(table, allow_gaps):
         _explain(path, columns, allow_gaps)
     return table
+
+
+def _every_digit(pandas_version: str) -> dict[str, str]:
+    """Option that makes read_csv exact to the last digit; needless and deprecated from 3.1 on."""
+    release = tuple(int(part) for part in pandas_version.split(".")[:2])
+    return {} if release >= (3, 1) else {"float_precision": "round_trip"}
 
 
 def _usable(table: dict[str, np.ndarray], allow_gaps: bool) -> bool:
@@ -212,20 +219,21 @@ def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> l
     remarks = []
     for name, values in recording.channels.items():
         spikes = [
-            (run.start + int(i), ratio)
+            (float(ratio), run.start + int(i))
             for run in recording.runs
             for i, ratio in zip(*find_spikes(values[run]), strict=True)
         ]
         if spikes:
-            worst, ratio = max(spikes, key=lambda spike: spike[1])
-            rows = ", ".join(str(i + 1) for i, _ in spikes[:5]) + (" ..." if spikes[5:] else "")
+            ratio, worst = max(spikes)
+            others = sorted(i + 1 for _, i in spikes if i != worst)
+            more = f"; likewise row {', '.join(map(str, others[:5]))}" if others else ""
+            more += f" and {len(others) - 5} more" if others[5:] else ""
             remarks.append(
-                f"{path}: column '{texts[name]}': {len(spikes)} sample(s) stand out from their "
-                f"neighbours: row {rows}; the worst is row {worst + 1} (line "
-                f"{_line_of(path, worst + 1)}, time {recording.time[worst]:g} s), "
-                f"{values[worst]:.4g} {recording.units[name]} between {values[worst - 1]:.4g} and "
-                f"{values[worst + 1]:.4g}, {ratio:.0f} times more than usual there; leave it out "
-                f"by window(), or correct it"
+                f"{path}: column '{texts[name]}', row {worst + 1} (line "
+                f"{_line_of(path, worst + 1)}, time {recording.time[worst]:g} s): "
+                f"{values[worst]:.4g} {recording.units[name]} stands out between "
+                f"{values[worst - 1]:.4g} and {values[worst + 1]:.4g}, {ratio:.0f} times more "
+                f"than is usual there{more}; keep it out of the window, or correct it"
             )
     return remarks
 

@@ -1,9 +1,8 @@
 """The frozen noun of this room: what was measured, in SI, with a name and a unit on every column."""
 
-import html
 import os
 import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
@@ -13,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symid.errors import RecordingError
+from symid.recording.show import as_html, as_text
 from symid.recording.timing import sampling_interval_of
 from symid.units import FloatArray, IntArray, column_name, known_unit, nearest
 
@@ -149,7 +149,7 @@ class Recording:
         RecordingError
             If the window is empty or reaches outside; the message gives the recorded range.
         """
-        step = self._even_step("window")
+        step = self.even_step("window")
         if np.any(np.diff(self.time) <= 0):
             raise RecordingError(
                 f"{self.name}: time starts anew in each segment, so a window of time means "
@@ -168,7 +168,7 @@ class Recording:
                 f"{step:g} s; take a longer one"
             )
         rows = slice(int(rows[0]), int(rows[-1]) + 1)
-        return self._rows(rows, f"window {start:g} s to {end:g} s")
+        return self.rows(rows, f"window {start:g} s to {end:g} s")
 
     def segments(self, split: str | None = None) -> list["Recording"]:
         """One recording for each segment, in order; only those with this split label, if given."""
@@ -262,36 +262,15 @@ class Recording:
     # -- showing ------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
-        rows = [f"  {n:<24s} {u:<8s} {lo:>11s} to {hi:>11s}" for n, u, lo, hi in self._summary()]
-        return "\n".join([f"Recording {self.name}: {self._extent()}", *rows])
+        return as_text(self)
 
     def _repr_html_(self) -> str:
-        cells = "".join(
-            "<tr>" + "".join(f"<td>{html.escape(text)}</td>" for text in row) + "</tr>"
-            for row in self._summary()
-        )
-        steps = "".join(f"<li>{html.escape(step)}</li>" for step in self.history)
-        return (
-            f"<b>Recording {html.escape(self.name)}</b>: {html.escape(self._extent())}"
-            f"<table><tr><th>channel</th><th>unit</th><th>lowest</th><th>highest</th></tr>"
-            f"{cells}</table><details><summary>history</summary><ol>{steps}</ol></details>"
-        )
-
-    def _extent(self) -> str:
-        step, (first, last) = self.sampling_interval, self.interval
-        rate = "unevenly sampled" if step is None else f"{1 / step:g} Hz"
-        runs = f", {len(self.runs)} segments" if len(self.runs) > 1 else ""
-        return f"{len(self)} samples, {first:g} s to {last:g} s, {rate}{runs}"
-
-    def _summary(self) -> Iterator[tuple[str, str, str, str]]:
-        for name, values in self.channels.items():
-            some = values[np.isfinite(values)]
-            ends = (f"{some.min():.4g}", f"{some.max():.4g}") if some.size else ("none", "none")
-            yield name, self.units[name], *ends
+        return as_html(self)
 
     # -- helpers ------------------------------------------------------------------------------
 
-    def _even_step(self, verb: str) -> float:
+    def even_step(self, verb: str) -> float:
+        """Sampling interval [s], or a RecordingError that says which verb needs an even one."""
         if self.sampling_interval is None:
             raise RecordingError(
                 f"{self.name}: {verb} needs evenly spaced samples; use fill_gaps() or resample()"
@@ -302,7 +281,8 @@ class Recording:
         close = nearest(name, self.channels) or list(self.channels)
         return f"has no channel '{name}'; it has {', '.join(close)}"
 
-    def _rows(self, rows: slice, note: str | None) -> "Recording":
+    def rows(self, rows: slice, note: str | None = None) -> "Recording":
+        """Some of the rows, without looking at their times."""
         return replace(
             self,
             time=self.time[rows],
@@ -317,7 +297,7 @@ class Recording:
             return self
         labels = [label[run.start] for label in (self.split, self.segment) if label is not None]
         title = " ".join(["segment", *map(str, labels)])
-        return replace(self._rows(run, f"{title} taken"), name=f"{self.name} {title}")
+        return replace(self.rows(run, f"{title} taken"), name=f"{self.name} {title}")
 
     def _with_channels(self, channels, units, note: str | None) -> "Recording":
         return replace(

@@ -1,0 +1,44 @@
+"""How a recording shows itself, as text and in a notebook."""
+
+import html
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from symid.recording.recording import Recording
+
+
+def as_text(recording: "Recording") -> str:
+    """Name and extent, then one line for each channel with its unit and range."""
+    rows = [f"  {n:<24s} {u:<8s} {lo:>11s} to {hi:>11s}" for n, u, lo, hi in _rows(recording)]
+    return "\n".join([f"Recording {recording.name}: {_extent(recording)}", *rows])
+
+
+def as_html(recording: "Recording") -> str:
+    """The same as a table, with the history to unfold."""
+    body = "".join(
+        "<tr>" + "".join(f"<td>{html.escape(text)}</td>" for text in row) + "</tr>"
+        for row in _rows(recording)
+    )
+    steps = "".join(f"<li>{html.escape(step)}</li>" for step in recording.history)
+    return (
+        f"<b>Recording {html.escape(recording.name)}</b>: {html.escape(_extent(recording))}"
+        f"<table><tr><th>channel</th><th>unit</th><th>lowest</th><th>highest</th></tr>"
+        f"{body}</table><details><summary>history</summary><ol>{steps}</ol></details>"
+    )
+
+
+def _extent(recording: "Recording") -> str:
+    step, (first, last) = recording.sampling_interval, recording.interval
+    rate = "unevenly sampled" if step is None else f"{1 / step:g} Hz"
+    runs = f", {len(recording.runs)} segments" if len(recording.runs) > 1 else ""
+    return f"{len(recording)} samples, {first:g} s to {last:g} s, {rate}{runs}"
+
+
+def _rows(recording: "Recording") -> Iterator[tuple[str, str, str, str]]:
+    for name, values in recording.channels.items():
+        some = values[np.isfinite(values)]
+        ends = (f"{some.min():.4g}", f"{some.max():.4g}") if some.size else ("none", "none")
+        yield name, recording.units[name], *ends

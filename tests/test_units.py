@@ -1,0 +1,148 @@
+"""Units: factors agree with pint, column names go both ways, dimensions can be calculated with."""
+
+import math
+import subprocess
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from symid import units
+from symid.errors import RecordingError, UnitError
+from symid.units import column_name, dimension, known_unit, same_dimension, si_factor, split_column_name
+
+
+@pytest.mark.parametrize("suffix", units._SUFFIXES)
+def test_the_table_of_column_units_agrees_with_pint(suffix):
+    unit = units._SUFFIXES[suffix]
+    factor, _ = units._base_of(unit.text)
+    assert unit.factor == pytest.approx(factor, rel=1e-14)
+    assert units._base_of(unit.si)[0] == 1.0
+    assert dimension(unit.si) == dimension(unit.text)
+
+
+@pytest.mark.parametrize(
+    ("text", "factor"),
+    [
+        ("deg", math.pi / 180),
+        ("mm", 1e-3),
+        ("ms", 1e-3),
+        ("g", 1e-3),  # gram
+        ("g0", 9.80665),
+        ("deg/s^2", math.pi / 180),
+        ("deg/s**2", math.pi / 180),
+        ("km/hour", 1 / 3.6),
+        ("kN*mm", 1.0),
+        ("rpm", 2 * math.pi / 60),
+        ("", 1.0),
+        ("1", 1.0),
+    ],
+)
+def test_si_factor(text, factor):
+    assert si_factor(text) == pytest.approx(factor, rel=1e-14)
+
+
+@pytest.mark.parametrize("text", ["N*m", "Nm", "N m", "N · m", " N * m ", "N*m "])
+def test_one_unit_in_many_spellings(text):
+    assert known_unit(text).text == "N*m"
+
+
+def test_si_text_of_a_unit_outside_the_table():
+    assert known_unit("km") == ("km", "m", 1000.0)
+    assert known_unit("W") == ("W", "W", 1.0)
+
+
+def test_dimensions_multiply_divide_and_have_powers():
+    assert dimension("N*m*s/rad") == dimension("N") * dimension("m") * dimension("s")
+    assert dimension("rad/s^2") == dimension("s") ** -2 == dimension("1") / dimension("s") ** 2
+    assert dimension("kg*m^2") * dimension("rad/s^2") == dimension("N*m")
+    assert dimension("N*m") != dimension("N")
+
+
+def test_an_angle_is_dimensionless():
+    assert same_dimension("deg", "rad") and same_dimension("rad", "1")
+    assert not same_dimension("rad", "m")
+    assert not same_dimension("g", "m/s^2") and same_dimension("g0", "m/s^2")
+
+
+@pytest.mark.parametrize(
+    ("column", "expected"),
+    [
+        ("ankle_angle_deg", ("ankle_angle", "deg")),
+        ("platform_acceleration_m_s2", ("platform_acceleration", "m/s^2")),
+        ("ankle_velocity_deg_s", ("ankle_velocity", "deg/s")),
+        ("stiffness_Nm_rad", ("stiffness", "N*m/rad")),
+        ("damping_Nm_s_rad", ("damping", "N*m*s/rad")),
+        ("damping_Nms_rad", ("damping", "N*m*s/rad")),
+        ("k1_N_m_s_rad", ("k1", "N*m*s/rad")),
+        ("I_L_kg_m2", ("I_L", "kg*m^2")),
+        ("l_L_m", ("l_L", "m")),
+        ("m_T_kg", ("m_T", "kg")),
+        ("g_m_s2", ("g", "m/s^2")),
+        ("time_s", ("time", "s")),
+        ("activation_1", ("activation", "1")),
+        ("head_acceleration_g", ("head_acceleration", "g0")),
+        ("finger_mass_g", ("finger_mass", "g")),
+    ],
+)
+def test_column_names_are_taken_apart(column, expected):
+    assert split_column_name(column) == expected
+
+
+@given(
+    st.from_regex(r"[A-Za-z][A-Za-z0-9]{0,5}(_[a-z]{4,8}){0,2}", fullmatch=True),
+    st.sampled_from(sorted({u.text for u in units._SUFFIXES.values()})),
+)
+def test_column_names_go_both_ways(name, unit):
+    assert split_column_name(column_name(name, unit)) == (name, unit)
+
+
+def test_a_column_name_is_found_for_a_unit_in_other_order():
+    assert column_name("damping", "m*N*s/rad") == "damping_Nm_s_rad"
+
+
+@pytest.mark.parametrize(
+    ("column", "message"),
+    [
+        ("ankle_angle_degrees", "'ankle_angle_degrees' does not end in a known unit.*deg"),
+        ("ankle_angle_rads", "nearest known units: .*rad"),
+        ("ankle_angle", "known units: .*rad"),
+        ("deg", "does not end in a known unit"),
+        ("_deg", "does not end in a known unit"),
+        ("weight_g", "gram or standard gravity"),
+    ],
+)
+def test_column_names_that_are_refused(column, message):
+    with pytest.raises(RecordingError, match=message):
+        split_column_name(column)
+
+
+def test_a_unit_that_no_column_can_carry():
+    with pytest.raises(RecordingError, match="'flow' has the unit m\\^3/s"):
+        column_name("flow", "m^3/s")
+
+
+@pytest.mark.parametrize("text", ["rda", "m)", "(", "kg/", "m//s", "1e5", "N**", "?"])
+def test_unit_texts_that_are_refused(text):
+    with pytest.raises(UnitError, match="is not a unit that is understood"):
+        si_factor(text)
+
+
+def test_a_misspelt_unit_is_answered_with_the_nearest():
+    with pytest.raises(UnitError, match="did you mean rad"):
+        dimension("radd")
+
+
+def test_a_unit_with_an_offset_is_refused():
+    with pytest.raises(UnitError, match="has an offset"):
+        si_factor("degC")
+
+
+def test_reading_column_units_does_not_import_pint():
+    code = (
+        "import sys; from symid import units; "
+        "units.known_unit(units.split_column_name('ankle_angle_deg')[1]); "
+        "sys.exit('pint' in sys.modules)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
