@@ -135,10 +135,11 @@ def _time_named_wrongly(cells: list[str]) -> bool:
 def _measured(text: str) -> Column:
     name, unit_text = split_column_name(text)
     unit = known_unit(unit_text)
-    right = _UNITS_OF_QUANTITY.get(name.split("_")[-1], {unit.si})
+    quantity = name.split("_")[-1]
+    right = _UNITS_OF_QUANTITY.get(quantity, {unit.si})
     if unit.si not in right:
         raise RecordingError(
-            f"column '{text}' is in {unit.text}, but a {name.split('_')[-1]} is measured in "
+            f"column '{text}' is in {unit.text}, but {quantity} is measured in "
             f"{' or '.join(sorted(right))} or a multiple of it"
         )
     return Column(text, name, unit)

@@ -77,7 +77,7 @@ def resample(recording: Recording, rate_hz: float) -> Recording:
             raise RecordingError(f"{part.name}: too short for a rate of {rate_hz:g} Hz")
         time = start + np.arange(count) / rate_hz
         values = {name: _spline(even.time, even[name], time) for name in even.channels}
-        return _resampled(part, time, values)
+        return _resampled(even, time, values)
 
     rates = [1 / np.median(np.diff(recording.time[run])) for run in recording.runs]
     note = f"resampled from {np.median(rates):g} Hz to {rate_hz:g} Hz by cubic splines"

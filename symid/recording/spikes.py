@@ -19,7 +19,7 @@ def find_spikes(values: FloatArray) -> tuple[IntArray, FloatArray]:
     A spike lies above both neighbours or below both. Its height over the nearer one is compared
     with the largest second difference close by, those that contain the sample left out, and
     with the usual second difference of the whole channel, so that neither steps, pulses, noise
-    nor the steps of an encoder count.
+    nor the steps of an encoder count. The first and the last sample cannot be judged.
 
     Parameters
     ----------
@@ -35,6 +35,8 @@ def find_spikes(values: FloatArray) -> tuple[IntArray, FloatArray]:
     steps = np.diff(values)
     rise, fall = steps[:-1], -steps[1:]  # at sample i + 1, over its left and right neighbour
     height = np.where(rise * fall > 0, np.minimum(np.abs(rise), np.abs(fall)), 0.0)
+    beside = np.pad(height, 1)  # the neighbour of a spike looks like a small one the other way
+    height[height < np.maximum(beside[:-2], beside[2:])] = 0.0
     bend = np.abs(rise + fall) / 2
     floor = max(3 * float(np.nanmedian(bend)), 2 * _smallest_step(steps))
     index, ratio = [], []
