@@ -1,1 +1,31 @@
-"""symid: identify mechanical systems and their feedback controllers from recordings."""
+"""symid: identify mechanical systems and their feedback controllers from recordings.
+
+The public names below are loaded when first used, so that ``import symid`` is quick and the
+command line starts at once.
+"""
+
+from importlib import import_module
+
+_WHERE = {
+    "symid.errors": ("CodegenError", "DiagnosisError", "ModelError", "RecordingError", "SolveError", "SymidError",
+                     "TranscriptionError"),
+    "symid.model": ("Constant", "Equation", "Expression", "Input", "Law", "LawParameter", "Model", "Noise", "Output",
+                    "Parameter", "Port", "State", "Term"),
+    "symid.recording": ("Recording", "read_recording"),
+    "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
+    "symid.identification": ("Identification", "Solution"),
+}
+_MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}
+__all__ = ["mechanics", *sorted(_MODULE_OF)]
+
+
+def __getattr__(name: str):
+    if name == "mechanics":
+        return import_module("symid.mechanics")
+    if name not in _MODULE_OF:
+        raise AttributeError(f"module 'symid' has no attribute '{name}'")
+    return getattr(import_module(_MODULE_OF[name]), name)
+
+
+def __dir__():
+    return __all__

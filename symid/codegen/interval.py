@@ -99,6 +99,15 @@ def objective_program(model: Model) -> Program:
                    constants=(*_constants(model), *map(scale_symbol, (*states, *parameters)), *weights))
 
 
+def output_program(model: Model) -> Program:
+    """The outputs at one node, in SI units; arguments as in `objective_program`, without its weights."""
+    states, parameters = [s.symbol for s in model.states.values()], [p.symbol for p in model.parameters.values()]
+    table = {s: s * scale_symbol(s) for s in (*states, *parameters)}
+    return Program(name=f"{model.name} outputs", rows=tuple(y.xreplace(table) for y in model.observed()),
+                   local=tuple(states), shared=tuple(parameters), data=used_data(model, model.observed()),
+                   constants=(*_constants(model), *map(scale_symbol, (*states, *parameters))))
+
+
 def _constants(model: Model) -> list[sm.Symbol]:
     return [c.symbol for c in model.constants.values()]
 

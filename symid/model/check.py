@@ -17,11 +17,8 @@ from symid.units import dimension, known_unit
 def violations(model: Model, units: bool = True) -> Iterator[str]:
     """One sentence for each thing that is wrong; `units=False` leaves the dimensions out."""
     yield from _values(model)
-    unknown = list(_unknown_symbols(model))
-    yield from unknown
+    yield from _unknown_symbols(model)
     yield from _ports(model)
-    if unknown:
-        return          # what follows needs every symbol to be known
     try:
         residual = model.residual()
     except ModelError as cycle:

@@ -10,6 +10,7 @@ from scipy.interpolate import CubicSpline
 from symid.errors import TranscriptionError
 from symid.model import Model, nearest
 from symid.recording import Recording
+from symid.units import same_dimension
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,11 +64,24 @@ def measure(model: Model, recording: Recording, window: tuple[float, float] | No
         raise TranscriptionError("; ".join(
             f"'{name}' of model '{model.name}' needs the channel '{channel}', which {recording.name} does not have: "
             + nearest(channel, recording.channels) for name, channel in missing))
+    _refuse_other_units(model, recording)
+    if not recording.complete or len(recording.runs) > 1:
+        raise TranscriptionError(
+            f"{recording.name} has uneven or missing samples, or several segments; use symid.recording.resample or "
+            "fill_gaps, and recording.segments() as a list of recordings")
     first, last = _window_samples(recording, window)
     outputs = model.outputs.values()
     targets = np.column_stack([recording.channels[y.channel] for y in outputs]) if outputs else np.zeros((len(recording.time), 0))
     return Measured(recording.name, recording.time, {u.name: recording.channels[u.channel] for u in model.inputs.values()},
                     targets, first_states(model, recording), first, last)
+
+
+def _refuse_other_units(model: Model, recording: Recording) -> None:
+    for c in (*model.inputs.values(), *model.outputs.values()):
+        unit = recording.units[c.channel]
+        if not same_dimension(unit, c.unit or "1"):
+            raise TranscriptionError(f"'{c.name}' of model '{model.name}' is in {c.unit or '1'}, but the channel "
+                                     f"'{c.channel}' of {recording.name} is in {unit}: they cannot be compared")
 
 
 def _window_samples(recording: Recording, window: tuple[float, float] | None) -> tuple[int, int]:

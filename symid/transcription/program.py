@@ -85,20 +85,20 @@ class CollocationProgram:
         return np.maximum(a, b).astype(np.int64) * self.layout.size + np.minimum(a, b)
 
     # ---- values ----------------------------------------------------------------------
-    def _interval_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
+    def interval_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
         return self.layout.local_view(z, e), z[self.layout.parameter_columns(e)], self.data[e].interval, self.constants[e]
 
-    def _error_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
+    def error_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
         return self.layout.node_view(z, e), z[self.layout.parameter_columns(e)], self.data[e].node, self.error_constants
 
     def objective(self, z: np.ndarray) -> float:
-        return float(sum(d.step * self.error.residual(*self._error_arguments(z, e)).sum() for e, d in enumerate(self.data)))
+        return float(sum(d.step * self.error.residual(*self.error_arguments(z, e)).sum() for e, d in enumerate(self.data)))
 
     def gradient(self, z: np.ndarray) -> np.ndarray:
         out, k = np.zeros(self.layout.size), self.error
         local = k.jacobian_cols < k.n_local
         for e, d in enumerate(self.data):
-            slopes = d.step * k.jacobian(*self._error_arguments(z, e))
+            slopes = d.step * k.jacobian(*self.error_arguments(z, e))
             self.layout.node_view(out, e)[:, k.jacobian_cols[local]] = slopes[:, local]
             np.add.at(out, self.layout.parameter_columns(e)[k.jacobian_cols[~local] - k.n_local], slopes[:, ~local].sum(axis=0))
         return out
@@ -107,7 +107,7 @@ class CollocationProgram:
         out = np.empty(self.rows)
         for e, count in enumerate(self.layout.intervals):
             block = out[self.row_starts[e]:self.row_starts[e + 1]].reshape(count, self.interval.m)
-            self.interval.residual(*self._interval_arguments(z, e), out=block)
+            self.interval.residual(*self.interval_arguments(z, e), out=block)
         for signal in self.late:
             out[signal.row] = signal.residual(z)
         for i, (a, b) in enumerate(self.linked):
@@ -120,7 +120,7 @@ class CollocationProgram:
         out, nnz, start = np.empty(len(self.jacobian_rows)), len(self.interval.jacobian_rows), 0
         for e, count in enumerate(self.layout.intervals):
             block = out[start:start + count * nnz].reshape(count, nnz)
-            self.interval.jacobian(*self._interval_arguments(z, e), out=block)
+            self.interval.jacobian(*self.interval_arguments(z, e), out=block)
             start += count * nnz
         for signal in self.late:
             values = signal.jacobian(z)
@@ -135,8 +135,8 @@ class CollocationProgram:
         for e, d in enumerate(self.data):
             count = self.layout.intervals[e]
             lam = multipliers[self.row_starts[e]:self.row_starts[e + 1]].reshape(count, self.interval.m)
-            self.interval.hessian_into(out, next(scatter), *self._interval_arguments(z, e), lam)
-            self.error.hessian_into(out, next(scatter), *self._error_arguments(z, e),
+            self.interval.hessian_into(out, next(scatter), *self.interval_arguments(z, e), lam)
+            self.error.hessian_into(out, next(scatter), *self.error_arguments(z, e),
                                     np.full((count + 1, 1), objective_factor * d.step))
         for signal, index in zip(self.late, scatter, strict=True):
             out += np.bincount(index, signal.hessian(z, multipliers), minlength=len(out))

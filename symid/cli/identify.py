@@ -1,0 +1,70 @@
+"""`symid identify`: find the parameters of a standing model from a recording."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from contextlib import nullcontext
+
+from symid.cli.options import add_episode_arguments, add_model_arguments, build_model, process_pool
+
+SUMMARY = "identify the parameters of a model from a recording"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("recording", metavar="RECORDING.csv", help="samples with units in the column names")
+    add_model_arguments(parser)
+    parser.add_argument("--window", nargs=2, type=float, metavar=("T0", "T1"), help="part to fit, s (default: all)")
+    parser.add_argument("--held-out", nargs=2, type=float, metavar=("T0", "T1"),
+                        help="part to judge the fit on: a free run from a fitted initial state, s")
+    add_episode_arguments(parser)
+    parser.add_argument("--starts", type=int, default=1, metavar="K",
+                        help="1: one start made from the recording (default); more: K random starts")
+    parser.add_argument("--scheme", default="midpoint",
+                        help="midpoint, backward_euler, trapezoid or hermite_simpson (default: midpoint)")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes for the starts (default: 1)")
+    parser.add_argument("--max-iterations", type=int, default=3000, metavar="N", help="of each solve (default: 3000)")
+    parser.add_argument("--json", metavar="OUT.json", help="write everything as JSON")
+    parser.add_argument("--report", metavar="OUT.html", help="write a report with figures")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from symid.files import write_json
+    from symid.identification import Identification
+    from symid.recording import read_recording
+    from symid.transcription import Episodes, scheme_by_name
+
+    scheme = scheme_by_name(arguments.scheme)
+    model = build_model(arguments.body, arguments.controller)
+    noise = {"torque": arguments.noise} if arguments.episodes > 1 else {}
+    problem = Identification(model, read_recording(arguments.recording), arguments.window, scheme=scheme,
+                             episodes=Episodes(arguments.episodes, seed=arguments.seed, **noise))
+    with process_pool(min(arguments.jobs, arguments.starts)) or nullcontext() as executor:
+        solution = problem.solve(arguments.starts, seed=arguments.seed, executor=executor,
+                                 on_iteration=_progress if arguments.starts == 1 else None,
+                                 on_start=_tell_start if arguments.starts > 1 else None,
+                                 max_iterations=arguments.max_iterations)
+    document = solution.to_dict()
+    print(solution)
+    if arguments.held_out and solution.solved:
+        document["fit"]["held_out"] = solution.fit_on(tuple(arguments.held_out))
+        rms = document["fit"]["held_out"]["rms_deg"]["all"]
+        print(f"Held-out {arguments.held_out[0]:g} to {arguments.held_out[1]:g} s, free run: RMS {rms:.4g} deg")
+    if arguments.json:
+        write_json(arguments.json, document)
+    if arguments.report:
+        from symid.report import write_report
+        write_report(solution, arguments.report, held_out=document["fit"].get("held_out"))
+    return 0 if solution.solved else 1
+
+
+def _progress(iteration) -> None:
+    end = "\r" if sys.stderr.isatty() else ""
+    if end or iteration.number % 10 == 0:
+        print(f"iteration {iteration.number:4d}  objective {iteration.objective:.6g}  infeasibility "
+              f"{iteration.infeasibility:.1e} ", end=end or "\n", file=sys.stderr, flush=True)
+
+
+def _tell_start(row) -> None:
+    print(f"start {row.number + 1:3d}  {row.status}  RMS {row.rms:.6g}  {row.iterations} iterations  "
+          f"{row.seconds:.1f} s", file=sys.stderr, flush=True)

@@ -1,0 +1,51 @@
+"""Parse the command line, run the command, turn errors into one sentence and an exit code."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import warnings
+from collections.abc import Sequence
+from importlib import import_module
+from importlib.metadata import version
+
+from symid.errors import SymidError
+
+# Command -> module with SUMMARY, add_arguments(parser) and run(arguments) -> exit code.
+COMMANDS = ("identify", "simulate", "diagnose", "conceal", "reproduce", "regenerate", "bench", "demo")
+SOLVED, NOT_SOLVED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run one command: exit code 0 done or solved, 1 not solved, 2 bad input."""
+    parsed = _parser().parse_args(arguments)
+    warnings.showwarning = _show_warning
+    try:
+        return parsed.run(parsed)
+    except SymidError as error:
+        print(f"symid: error: {error}", file=sys.stderr)
+        return BAD_INPUT
+    except OSError as error:
+        print(f"symid: error: {error.strerror}: {error.filename}", file=sys.stderr)
+        return BAD_INPUT
+    except KeyboardInterrupt:
+        print("symid: interrupted", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="symid", description="Identify mechanical systems and their feedback controllers from recordings, "
+        "and find the physics that a model left out.")
+    parser.add_argument("--version", action="version", version=f"symid {version('symid')}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for name in COMMANDS:
+        module = import_module(f"symid.cli.{name}")
+        command = commands.add_parser(name, help=module.SUMMARY, description=module.SUMMARY)
+        module.add_arguments(command)
+        command.set_defaults(run=module.run)
+    return parser
+
+
+def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:
+    print(f"symid: warning: {message}", file=sys.stderr)

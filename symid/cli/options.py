@@ -1,0 +1,44 @@
+"""Arguments that several commands share, and what they stand for."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from concurrent.futures import Executor, ProcessPoolExecutor
+from multiprocessing import get_context
+
+from symid.errors import ModelError
+
+CONTROLLERS = ("pd", "fpd", "fpd-delay", "nn")
+
+
+def add_model_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--body", metavar="BODY.json", required=True, help="body parameters with units in their names")
+    parser.add_argument("--controller", choices=CONTROLLERS, default="fpd", help="feedback law (default: fpd)")
+
+
+def add_episode_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--episodes", type=int, default=1, metavar="M",
+                        help="noisy repetitions that share the parameters (default: 1, without noise)")
+    parser.add_argument("--noise", type=float, default=0.25, metavar="NM",
+                        help="half width of the uniform joint-torque noise of the episodes, N m (default: 0.25)")
+    parser.add_argument("--seed", type=int, default=0, help="of random starts and noise (default: 0)")
+
+
+def build_model(body: str, controller: str):
+    """The standing model of a body file under one of CONTROLLERS."""
+    from symid import mechanics
+    laws = {"pd": mechanics.PD, "fpd": mechanics.FullStatePD, "nn": mechanics.NeuralNetwork,
+            "fpd-delay": lambda: mechanics.FullStatePD(delay=(0.0, 0.3))}
+    if controller not in laws:
+        raise ModelError(f"no controller '{controller}'; known: {', '.join(laws)}")
+    return mechanics.DoubleLinkPendulum.from_json(body).with_feedback(laws[controller]())
+
+
+def process_pool(jobs: int) -> Executor | None:
+    """`jobs` local processes of one thread each, or None for this process alone."""
+    if jobs <= 1:
+        return None
+    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
+        os.environ.setdefault(name, "1")
+    return ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))

@@ -1,0 +1,33 @@
+"""How well a trajectory follows a recording, per channel and overall."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+
+def fit_measures(names: Sequence[str], units: Sequence[str], model: np.ndarray, recorded: np.ndarray) -> dict:
+    """RMS error, variance accounted for and R^2 of each output and of all.
+
+    Parameters
+    ----------
+    model, recorded : (samples, m) SI; samples of several episodes one below the other.
+
+    Returns
+    -------
+    dict
+        ``rms`` [SI] and, for angles, ``rms_deg`` by channel with "all" for the RMS over all
+        samples of all channels; ``vaf_percent`` = 100 (1 - var(error) / var(recorded));
+        ``r_squared`` = 1 - sum(error^2) / sum((recorded - mean)^2).
+    """
+    error = recorded - model
+    rms = dict(zip(names, np.sqrt(np.mean(error**2, axis=0)), strict=True))
+    measures = {"rms": rms | {"all": np.sqrt(np.mean(error**2))}}
+    if all(u == "rad" for u in units):
+        measures["rms_deg"] = {k: np.rad2deg(v) for k, v in measures["rms"].items()}
+    spread = np.var(recorded, axis=0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        measures["vaf_percent"] = dict(zip(names, 100 * (1 - np.var(error, axis=0) / spread), strict=True))
+        measures["r_squared"] = dict(zip(names, 1 - np.mean(error**2, axis=0) / spread, strict=True))
+    return {k: {c: float(x) for c, x in v.items()} for k, v in measures.items()}

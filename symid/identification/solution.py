@@ -1,0 +1,235 @@
+"""What an identification found, by name, with units, errors and where it came from."""
+
+from __future__ import annotations
+
+import platform
+import sys
+from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
+from functools import cached_property
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from symid.codegen import compile_program
+from symid.codegen.interval import output_program
+from symid.errors import SolveError
+from symid.identification.covariance import bound_active, parameter_covariance
+from symid.identification.fit import fit_measures
+from symid.ipopt_solver import SolverResult
+from symid.model import Model
+from symid.transcription import Transcription
+
+if TYPE_CHECKING:
+    from symid.identification.problem import Identification
+
+
+@dataclass(frozen=True)
+class StartRow:
+    """One start and how it ended: RMS over all outputs in their SI unit (rad for angles)."""
+
+    number: int
+    kind: str
+    solved: bool
+    status: str
+    objective: float
+    rms: float
+    iterations: int
+    seconds: float
+    parameters: dict[str, float]
+
+    @classmethod
+    def of(cls, t: Transcription, result: SolverResult, kind, number: int, at_start: float) -> StartRow:
+        error = np.concatenate([(y - d).ravel() for y, d in outputs_and_targets(t, result.z)])
+        values = dict(zip(t.layout.parameter_names, map(float, t.layout.parameters(result.z)), strict=True))
+        return cls(number=number, kind=kind if isinstance(kind, str) else "given", solved=result.solved,
+                   status=result.status_name, objective=result.objective, rms=float(np.sqrt(np.mean(error**2))),
+                   iterations=result.iterations, seconds=result.seconds["total"] + at_start, parameters=values)
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """The best solution of an Identification.
+
+    Attributes
+    ----------
+    problem : what was solved.
+    result : what Ipopt returned for the best start.
+    starts : one row for each start, in their order.
+    best : which of them this is.
+    """
+
+    problem: Identification
+    result: SolverResult
+    starts: tuple[StartRow, ...]
+    best: int
+    fingerprint: str
+    created: str
+
+    @property
+    def transcription(self) -> Transcription:
+        t = self.problem.transcription
+        if self.problem.model.fingerprint != self.fingerprint:
+            raise SolveError(f"model '{self.problem.model.name}' changed since it was solved: solve it again")
+        return t
+
+    @property
+    def model(self) -> Model:
+        return self.problem.model
+
+    @property
+    def solved(self) -> bool:
+        return self.result.solved
+
+    @property
+    def message(self) -> str:
+        """What Ipopt's status means and what to do next."""
+        return self.result.message
+
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """Free parameters by name, SI."""
+        t = self.transcription
+        return dict(zip(t.layout.parameter_names, map(float, t.layout.parameters(self.result.z)), strict=True))
+
+    @cached_property
+    def covariance(self) -> pd.DataFrame:
+        """Covariance of the free parameters [SI], see `identification.covariance`."""
+        t, names = self.transcription, list(self.values)
+        if not self.solved:
+            return pd.DataFrame(np.nan, index=names, columns=names)
+        pairs = outputs_and_targets(t, self.result.z)
+        errors = [np.mean([y - d for (y, d), of in zip(pairs, t.recording_of, strict=True) if of == r], axis=0)
+                  for r in range(len(t.measured))]
+        matrix = parameter_covariance(t, self.result, errors, output_slopes(t, self.result.z))
+        return pd.DataFrame(matrix, index=names, columns=names)
+
+    @cached_property
+    def parameters(self) -> pd.DataFrame:
+        """One row per free parameter: value, std_error, unit, lower, upper, at_bound, meaning."""
+        t = self.transcription
+        first, scale = t.layout.offsets[-1], t.layout.parameter_scale
+        parts = [self.model.parameters[name.split("[")[0]] for name in self.values]
+        return pd.DataFrame({
+            "value": list(self.values.values()), "std_error": np.sqrt(np.diag(self.covariance)),
+            "unit": [p.unit for p in parts], "lower": t.program.lower[first:] * scale,
+            "upper": t.program.upper[first:] * scale, "at_bound": bound_active(t, self.result)[first:],
+            "meaning": [p.meaning for p in parts]}, index=pd.Index(self.values, name="parameter"))
+
+    @cached_property
+    def trajectories(self) -> tuple[pd.DataFrame, ...]:
+        """One table per episode: states, outputs and "<output> recorded" over time_s, SI."""
+        t, frames = self.transcription, []
+        for e, (y, d) in enumerate(outputs_and_targets(t, self.result.z)):
+            m = t.measured[t.recording_of[e]]
+            columns = dict(zip(t.model.states, t.layout.states(self.result.z, e).T, strict=True))
+            for i, name in enumerate(t.model.outputs):
+                columns |= {name: y[:, i], f"{name} recorded": d[:, i]}
+            frame = pd.DataFrame(columns, index=pd.Index(m.time[m.nodes], name="time_s"))
+            frame.attrs.update(recording=m.name, episode=e)
+            frames.append(frame)
+        return tuple(frames)
+
+    @cached_property
+    def fit(self) -> dict:
+        """Fit of the collocation trajectory over all episodes, see `identification.fit`."""
+        pairs = outputs_and_targets(self.transcription, self.result.z)
+        outputs = self.model.outputs
+        return fit_measures(list(outputs), [y.unit for y in outputs.values()],
+                            *(np.concatenate(side) for side in zip(*pairs, strict=True)))
+
+    def fit_on(self, window: tuple[float, float], recording=None) -> dict:
+        """Fit on another window, or another recording, with all parameters kept.
+
+        The model runs freely over the window, driven by the recorded inputs only; its initial
+        state, and nothing else, is fitted to that window.
+        """
+        from symid.identification.problem import Identification
+        known = {name: value for name, value in self.values.items() if "[" not in name}
+        if len(known) < len(self.values):
+            raise SolveError("fit_on: parameters differ between recordings; fix those you mean with model.fixed()")
+        other = Identification(self.model.fixed(**known), recording or self.problem.recordings[0], window,
+                               scheme=self.problem.scheme, weights=self.problem.weights, backend=self.problem.backend)
+        solution = other.solve()
+        if not solution.solved:
+            raise SolveError(f"fit_on: the free run over {window[0]:g} to {window[1]:g} s was not found: {solution.message}")
+        return solution.fit
+
+    @cached_property
+    def provenance(self) -> dict:
+        """Versions, data and options, enough to repeat the identification."""
+        p, t = self.problem, self.transcription
+        return {
+            "created": self.created, "symid": version("symid"), "python": platform.python_version(),
+            "command": sys.argv, "model": self.model.name, "model_fingerprint": self.fingerprint,
+            "terms": [str(term) for term in self.model.terms],
+            "constants": {c.name: c.value for c in self.model.constants.values()},
+            "recordings": [{"name": m.name, "window_s": [float(m.time[m.first]), float(m.time[m.last])],
+                            "nodes": m.intervals + 1, "history": list(r.history)}
+                           for m, r in zip(t.measured, p.recordings, strict=True)],
+            "scheme": p.scheme.name, "episodes": asdict(p.episodes) | {"by_word": dict(p.episodes.by_word)},
+            "weights": dict(p.weights),
+        }
+
+    def to_dict(self) -> dict:
+        """All of the above but the trajectories, as plain JSON types; the command line writes this."""
+        rows = self.parameters.drop(columns="meaning").to_dict("index")
+        return {
+            "format": "symid solution 1",
+            "parameters": {name: {k: row[k] for k in ("value", "std_error", "unit", "at_bound")}
+                           | {"bounds": [row["lower"], row["upper"]]} for name, row in rows.items()},
+            "fit": self.fit,
+            "solver": {"status": self.result.status_name, "solved": self.solved, "sentence": self.message,
+                       "iterations": self.result.iterations, "seconds": self.seconds},
+            "starts": [asdict(row) for row in self.starts],
+            "provenance": self.provenance,
+        }
+
+    @property
+    def seconds(self) -> dict[str, float]:
+        """Wall time [s]: build (compile included), compile, functions, linear_algebra (with the rest of Ipopt), total."""
+        build, spent = self.transcription.seconds, self.result.seconds
+        compiled = sum(v for k, v in build.items() if k != "build")
+        return {"build": build["build"], "compile": compiled, "functions": spent["functions"],
+                "linear_algebra": spent["solver"], "total": build["build"] + spent["total"]}
+
+    def __repr__(self) -> str:
+        from symid.identification.show import text
+        return text(self)
+
+    def _repr_html_(self) -> str:
+        from symid.identification.show import html
+        return html(self)
+
+
+def build_solution(problem: Identification, result: SolverResult, starts: tuple[StartRow, ...], best: int) -> Solution:
+    return Solution(problem, result, starts, best, problem.model.fingerprint,
+                    datetime.now(UTC).isoformat(timespec="seconds"))
+
+
+def _output_arguments(t: Transcription, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
+    layout, outputs = t.layout, len(t.model.outputs)
+    node = t.program.data[e].node
+    return (np.ascontiguousarray(layout.node_view(z, e)), z[layout.parameter_columns(e)],
+            np.ascontiguousarray(node[:, :node.shape[1] - outputs]), t.program.error_constants[:-outputs])
+
+
+def outputs_and_targets(t: Transcription, z: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Per episode the model's outputs and the recorded ones, (nodes, m) each, SI."""
+    kernel = compile_program(output_program(t.model), backend="numpy")
+    return [(kernel.residual(*_output_arguments(t, z, e)), t.program.data[e].node[:, -len(t.model.outputs):])
+            for e in range(len(t.recording_of))]
+
+
+def output_slopes(t: Transcription, z: np.ndarray) -> list[np.ndarray]:
+    """Per episode (nodes, m, n) derivatives of the outputs to the scaled states."""
+    kernel, slopes = compile_program(output_program(t.model), backend="numpy"), []
+    local = kernel.jacobian_cols < kernel.n_local
+    for e, intervals in enumerate(t.layout.intervals):
+        dense = np.zeros((intervals + 1, kernel.m, t.layout.n))
+        dense[:, kernel.jacobian_rows[local], kernel.jacobian_cols[local]] = \
+            kernel.jacobian(*_output_arguments(t, z, e))[:, local]
+        slopes.append(dense)
+    return slopes

@@ -1,0 +1,57 @@
+"""What several tests share: small models, and the folder of reference material beside the checkout."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sm
+
+import symid.model as si
+from symid.recording import Recording
+
+SHARED = Path(__file__).resolve().parents[2] / "shared"
+
+
+@pytest.fixture(scope="session")
+def shared() -> Path:
+    """The reference material; tests that need it skip where it is absent."""
+    if not SHARED.is_dir():
+        pytest.skip(f"no reference material at {SHARED}")
+    return SHARED
+
+
+def pendulum() -> si.Model:
+    """A driven, damped pendulum with one unknown: the smallest model with all kinds of parts."""
+    m = si.Model("driven pendulum")
+    m.angle = si.State(unit="rad", bounds=(-3, 3))
+    m.rate = si.State(unit="rad/s", bounds=(-20, 20))
+    m.drive = si.Input(unit="1/s^2")
+    m.stiffness = si.Constant(4.0, unit="1/s^2")
+    m.damping = si.Parameter(unit="1/s", bounds=(0, 5))
+    m.push = si.Noise(unit="1/s^2")
+    m.kinematics = si.Equation(m.angle.dot - m.rate)
+    m.balance = si.Equation(m.rate.dot + m.stiffness * sm.sin(m.angle) + m.damping * m.rate - m.drive - m.push)
+    m.measured = si.Output(m.angle)
+    return m
+
+
+@pytest.fixture
+def pendulum_model() -> si.Model:
+    return pendulum()
+
+
+def pendulum_recording(damping: float = 0.4, duration: float = 6.0, step: float = 0.02, noise: float = 0.0,
+                       seed: int = 0) -> Recording:
+    """The pendulum's motion under a smooth drive, from SciPy's integrator, which symid does not use."""
+    from scipy.integrate import solve_ivp
+    time = np.arange(0, duration + step / 2, step)
+
+    def drive(t):
+        return 1.5 * np.sin(2.1 * t) + np.cos(0.7 * t)
+
+    def f(t, x):
+        return [x[1], -4 * np.sin(x[0]) - damping * x[1] + drive(t)]
+
+    x = solve_ivp(f, (0, time[-1]), [0.3, 0.0], t_eval=time, rtol=1e-11, atol=1e-12).y
+    angle = x[0] + noise * np.random.default_rng(seed).standard_normal(len(time))
+    return Recording("pendulum", time, {"angle": angle, "drive": drive(time)}, {"angle": "rad", "drive": "rad/s^2"})
