@@ -1,0 +1,223 @@
+"""The forward simulator against analytic solutions, conservation laws and finite differences."""
+
+import numpy as np
+import pytest
+import sympy as sm
+from scipy.linalg import expm
+
+from symid.errors import CodegenError, SymidError
+from symid.model import Constant, Equation, Input, Model, Noise, Output, Parameter, State
+from symid.simulation import PlatformProtocol, Simulator, synthetic_recording
+
+
+def oscillator(lag: float | None = None) -> Model:
+    m = Model("oscillator")
+    m.angle, m.rate = State(unit="rad"), State(unit="rad/s")
+    m.push, m.jolt = Input(unit="N*m"), Noise(unit="N*m")
+    m.inertia = Constant(2.0, unit="kg*m^2")
+    m.stiffness, m.damping = Parameter(unit="N*m/rad"), Parameter(unit="N*m*s/rad")
+    if lag is not None:
+        m.lag = Parameter(unit="s")
+    late = m.delayed(m.angle, m.lag) if lag is not None else m.angle
+    m.kinematics = Equation(m.angle.dot - m.rate)
+    m.balance = Equation(m.inertia * m.rate.dot + m.damping * m.rate + m.stiffness * late - m.push - m.jolt)
+    m.seen = Output(m.angle)
+    m.torque = Output(m.stiffness * late + m.damping * m.rate, unit="N*m")
+    return m
+
+
+def double_pendulum() -> Model:
+    """Two unit point masses on unit rods, absolute angles; energy is an output."""
+    m = Model("double pendulum")
+    m.a, m.b, m.va, m.vb = State(unit="rad"), State(unit="rad"), State(unit="rad/s"), State(unit="rad/s")
+    m.g = Parameter(unit="m/s^2")
+    c, s = sm.cos(m.a - m.b), sm.sin(m.a - m.b)
+    m.ka, m.kb = Equation(m.a.dot - m.va), Equation(m.b.dot - m.vb)
+    m.ea = Equation(2 * m.va.dot + c * m.vb.dot + s * m.vb**2 + 2 * m.g * sm.sin(m.a))
+    m.eb = Equation(c * m.va.dot + m.vb.dot - s * m.va**2 + m.g * sm.sin(m.b))
+    m.energy = Output(m.va**2 + m.vb**2 / 2 + c * m.va * m.vb - 2 * m.g * sm.cos(m.a) - m.g * sm.cos(m.b), unit="J")
+    return m
+
+
+def central(run, values, key, h):
+    return (run(values | {key: values[key] + h}) - run(values | {key: values[key] - h})) / (2 * h)
+
+
+VALUES = {"stiffness": 18.0, "damping": 0.6}
+
+
+def test_linear_system_matches_the_matrix_exponential():
+    t = np.linspace(0, 5, 501)
+    A = np.array([[0, 1], [-9.0, -0.3]])
+    exact = np.array([expm(A * s) @ [0.4, -1.0] for s in t])
+    got = Simulator(oscillator()).simulate(VALUES, [0.4, -1.0], t, {"push": 0 * t}, substeps=4)
+    np.testing.assert_allclose(got.x, exact, atol=1e-8)
+
+
+def test_inputs_are_linear_between_samples_and_noise_is_held():
+    t = np.array([0.0, 0.5, 1.0])
+    sim = Simulator(oscillator())
+    free = {"stiffness": 0.0, "damping": 0.0}
+    ramp = sim.simulate(free, [0.0, 0.0], t, {"push": np.array([0.0, 1.0, 2.0])})
+    np.testing.assert_allclose(ramp.states["rate"], t**2 / 2, atol=1e-14)
+    held = sim.simulate(free, [0.0, 0.0], t, {"push": 0 * t}, noise={"jolt": np.array([2.0, -4.0, 99.0])})
+    np.testing.assert_allclose(held.states["rate"], [0.0, 0.5, -0.5], atol=1e-14)
+
+
+@pytest.mark.parametrize("method, order", [("rk4", 4), ("euler", 1)])
+@pytest.mark.parametrize("lag", [None, 0.13])
+def test_order_of_accuracy(method, order, lag):
+    t = np.linspace(0, 2, 21)
+    sim = Simulator(oscillator(lag))
+    values = VALUES | ({} if lag is None else {"lag": lag})
+    history = (np.linspace(-0.2, 0, 3), np.outer(np.ones(3), [0.4, 0.0]))
+    run = lambda k, how: sim.simulate(values, [0.4, 0.0], t, {"push": 0 * t}, substeps=k, method=how, history=history).x[-1]  # noqa: E731
+    best = run(2048, "rk4")
+    errors = [np.abs(run(k, method) - best).max() for k in (8, 16)]
+    # A lag that is no multiple of the step meets the kinks of the derivative, which cost part of an order.
+    assert np.log2(errors[0] / errors[1]) > order - (0.2 if lag is None else 0.8)
+
+
+def test_delayed_system_matches_the_method_of_steps():
+    m = Model("decay by the past")
+    m.x = State(unit="m")
+    m.decay = Equation(m.x.dot + m.delayed(m.x, 1.0))
+    m.seen = Output(m.x)
+    t = np.linspace(0, 3, 301)
+    exact = np.where(t < 1, 1 - t, np.where(t < 2, 1 - t + (t - 1) ** 2 / 2, 1 - t + (t - 1) ** 2 / 2 - (t - 2) ** 3 / 6))
+    np.testing.assert_allclose(Simulator(m).simulate({}, [1.0], t).x[:, 0], exact, atol=1e-12)
+
+
+def test_delayed_input_is_the_shifted_input():
+    m = Model("integrator")
+    m.x, m.u, m.shift = State(unit="m"), Input(unit="m/s"), Parameter(unit="s")
+    m.flow = Equation(m.x.dot - m.delayed(m.u, m.shift))
+    m.seen = Output(m.x)
+    t = np.linspace(0, 4, 401)
+    for shift in (0.25, -0.25):
+        x = Simulator(m).simulate({"shift": shift}, [0.0], t, {"u": t}, substeps=4).x[:, 0]
+        inside = np.clip(t - shift, 0, 4)
+        exact = inside**2 / 2 - np.clip(-shift, 0, 4) ** 2 / 2 + 4 * np.clip(t - shift - 4, 0, None)
+        np.testing.assert_allclose(x, exact, atol=1e-4)
+
+
+def test_pendulum_keeps_its_energy():
+    t = np.linspace(0, 10, 1001)
+    energy = Simulator(double_pendulum()).simulate({"g": 9.81}, [1.0, -0.5, 0.3, 0.0], t, substeps=8).y[:, 0]
+    assert np.ptp(energy) < 1e-7 * abs(energy[0])
+
+
+@pytest.mark.parametrize("lag", [None, 0.073, 0.004])
+def test_sensitivities_match_central_differences(lag):
+    t = np.linspace(0, 4, 201)
+    push = np.sin(3 * t) + 0.2
+    sim = Simulator(oscillator(lag))
+    values = VALUES | ({} if lag is None else {"lag": lag})
+    start = {"angle": 0.2, "rate": -0.5}
+    common = {"time": t, "inputs": {"push": push}, "substeps": 2}
+    got = sim.simulate(values, start, sensitivity=sim.parameters, initial_sensitivity=sim.states, **common)
+    for key in values:
+        slope = central(lambda v: sim.simulate(v, start, **common).y, values, key, 1e-4 * values[key])
+        np.testing.assert_allclose(got.dy[:, :, got.wrt.index(key)], slope, rtol=2e-6, atol=2e-6 * np.abs(slope).max())
+    for key in start:
+        slope = central(lambda s: sim.simulate(values, s, **common).y, start, key, 1e-5)
+        np.testing.assert_allclose(got.sensitivity("torque", f"{key}(0)"), slope[:, 1], atol=1e-6 * np.abs(slope).max())
+
+
+def test_sensitivities_follow_the_sample_corrections():
+    t = np.linspace(0, 4, 201)
+    sim = Simulator(oscillator())
+    rng = np.random.default_rng(2)
+    common = {"time": t, "inputs": {"push": np.sin(2 * t)}, "gain": np.array([[0.3, 0.01], [1.0, 0.1]]),
+              "recorded": rng.normal(size=(201, 2)) * 0.1, "initial_state": [0.1, 0.0]}
+    got = sim.simulate(VALUES, sensitivity=["stiffness"], **common)
+    slope = central(lambda v: sim.simulate(v, **common).y, VALUES, "stiffness", 1e-3)
+    np.testing.assert_allclose(got.dy[:, :, 0], slope, atol=1e-7 * np.abs(slope).max() + 1e-12)
+    assert not np.allclose(got.y, sim.simulate(VALUES, [0.1, 0.0], t, {"push": np.sin(2 * t)}).y)
+
+
+def test_nonlinear_sensitivities():
+    t = np.linspace(0, 3, 301)
+    sim = Simulator(double_pendulum())
+    start = [1.0, -0.5, 0.3, 0.0]
+    got = sim.simulate({"g": 9.81}, start, t, sensitivity=["g"])
+    slope = central(lambda v: sim.simulate(v, start, t).x, {"g": 9.81}, "g", 1e-4)
+    np.testing.assert_allclose(got.dx[:, :, 0], slope, atol=1e-6 * np.abs(slope).max())
+
+
+def test_batch_equals_a_loop():
+    t = np.linspace(0, 2, 101)
+    sim = Simulator(oscillator())
+    runs = [{"initial_state": [0.1 * k, 0.0]} for k in range(7)]
+    common = {"parameters": VALUES, "time": t, "inputs": {"push": np.cos(t)}}
+    for got, run in zip(sim.batch(runs, **common), runs, strict=True):
+        np.testing.assert_array_equal(got.x, sim.simulate(**run, **common).x)
+
+
+def test_a_run_that_diverges_is_reported_and_ends():
+    t = np.linspace(0, 100, 1001)
+    run = Simulator(oscillator()).simulate({"stiffness": -50.0, "damping": 0.0}, [1.0, 0.0], t, {"push": 0 * t})
+    assert run.diverged and 0 < run.reached < 1001
+    assert np.isfinite(run.x[: run.reached]).all() and np.isnan(run.x[run.reached:]).all()
+
+
+def test_linearisation_and_pade():
+    sim = Simulator(oscillator(0.1))
+    linear = sim.linearise(VALUES | {"lag": 0.1}, [0.0, 0.0])
+    np.testing.assert_allclose(linear.A, [[0, 1], [0, -0.3]])
+    np.testing.assert_allclose(linear.A_late, [[0], [-9]])
+    np.testing.assert_allclose(linear.G, [[0], [0.5]])
+    A, _, _ = linear.without_delay(4)
+    s = max(np.linalg.eigvals(A), key=lambda v: (v.real, v.imag))
+    assert abs(s**2 + 0.3 * s + 9 * np.exp(-0.1 * s)) < 1e-4
+
+
+@pytest.mark.parametrize("change, words", [
+    ({"parameters": {"stiffness": 1.0}}, "parameter 'damping'"),
+    ({"initial_state": [0.0]}, "initial state must be 2"),
+    ({"inputs": None}, "needs the input 'push'"),
+    ({"inputs": {"push": np.full(11, np.nan)}}, "11 not finite"),
+    ({"time": np.zeros(11)}, "increasing"),
+    ({"sensitivity": ["stifness"]}, "did you mean 'stiffness'"),
+])
+def test_messages(change, words):
+    t = np.linspace(0, 1, 11)
+    given = {"parameters": VALUES, "initial_state": [0.0, 0.0], "time": t, "inputs": {"push": 0 * t}} | change
+    with pytest.raises(SymidError, match=words):
+        Simulator(oscillator()).simulate(**given)
+
+
+def test_models_that_cannot_be_simulated():
+    m = Model("square")
+    m.x = State(unit="m")
+    m.rule = Equation(m.x.dot**2 - m.x)
+    with pytest.raises(CodegenError, match="not linear in its rates"):
+        Simulator(m)
+    m = Model("short")
+    m.x, m.y = State(unit="m"), State(unit="m")
+    m.rule = Equation(m.x.dot + m.y)
+    with pytest.raises(CodegenError, match="1 equations for 2 states"):
+        Simulator(m)
+
+
+def test_platform_motion_is_that_of_the_article():
+    t = np.arange(0, 300, 0.01)
+    position, velocity, acceleration = PlatformProtocol().motion(t, 3)
+    assert 0.5 < acceleration.std() < 0.64 and 3.0 < np.abs(acceleration).max() < 4.6
+    assert np.abs(position).max() < 0.0501
+    np.testing.assert_allclose(np.gradient(position, t)[1:-1], velocity[1:-1], atol=2e-3)
+    np.testing.assert_array_equal(acceleration, PlatformProtocol().acceleration(t, 3))
+    assert not np.array_equal(acceleration, PlatformProtocol().acceleration(t, 4))
+
+
+def test_synthetic_recording_is_seeded_and_noisy():
+    make = lambda seed: synthetic_recording(oscillator(), VALUES, duration=30, rate=50, seed=seed,  # noqa: E731
+                                            process_noise={"jolt": 1.0}, sensor_noise={"angle": 0.01})
+    a, b, c = make(1), make(1), make(2)
+    assert len(a) == 1501 and a.time[0] == 0
+    np.testing.assert_array_equal(a["angle"], b["angle"])
+    assert not np.array_equal(a["angle"], c["angle"])
+    with pytest.raises(SymidError, match="no process noise 'jult'"):
+        synthetic_recording(oscillator(), VALUES, duration=5, rate=50, seed=1, process_noise={"jult": 1.0})
+    with pytest.raises(SymidError, match="diverges"):
+        synthetic_recording(oscillator(), {"stiffness": -50.0, "damping": 0.0}, duration=60, rate=50, seed=1)
