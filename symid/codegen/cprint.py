@@ -1,0 +1,127 @@
+"""Straight-line programs as C."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from math import isinf, isnan
+
+import sympy as sm
+
+from symid.codegen.graph import UNIFORM, Graph
+from symid.codegen.lower import lower
+
+# glibc has vector versions of these for x86-64 (libmvec); the compiler uses them once told so.
+PREAMBLE = """\
+#include <math.h>
+#include <stddef.h>
+#if defined(SYMID_LIBMVEC)
+#define SYMID_VECTOR __attribute__((simd("notinbranch")))
+SYMID_VECTOR extern double sin(double);
+SYMID_VECTOR extern double cos(double);
+SYMID_VECTOR extern double exp(double);
+SYMID_VECTOR extern double log(double);
+SYMID_VECTOR extern double pow(double, double);
+#if __GLIBC_PREREQ(2, 35)
+SYMID_VECTOR extern double tan(double);
+SYMID_VECTOR extern double asin(double);
+SYMID_VECTOR extern double acos(double);
+SYMID_VECTOR extern double atan(double);
+SYMID_VECTOR extern double atan2(double, double);
+SYMID_VECTOR extern double sinh(double);
+SYMID_VECTOR extern double cosh(double);
+SYMID_VECTOR extern double tanh(double);
+#endif
+#endif
+"""
+
+# An operand that a pattern repeats is always a variable (REPEATING). NaN must pass through:
+# every comparison with NaN is false, hence the order of the branches.
+PATTERNS = {
+    "add": "({} + {})", "sub": "({} - {})", "mul": "{} * {}", "neg": "(-{})", "inv": "(1.0 / {})",
+    "lt": "({} < {})", "le": "({} <= {})", "gt": "({} > {})", "ge": "({} >= {})", "eq": "({} == {})",
+    "ne": "({} != {})", "and": "({} & {})", "or": "({} | {})", "not": "(!{})", "select": "({} ? {} : {})",
+    "abs": "fabs({})", "sign": "({0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})",
+    "max": "({0} > {1} ? {0} : {1} >= {0} ? {1} : {0} + {1})",
+    "min": "({0} < {1} ? {0} : {1} <= {0} ? {1} : {0} + {1})",
+    **{f: f + "({})" for f in ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh",
+                               "tanh", "floor")},
+    "atan2": "atan2({}, {})", "pow": "pow({}, {})",
+}
+REPEATING = ("sign", "max", "min")
+CONDITIONS = ("lt", "le", "gt", "ge", "eq", "ne", "and", "or", "not")
+
+
+def number(value: float) -> str:
+    """A C literal that gives exactly this double."""
+    if isnan(value):
+        return "NAN"
+    text = "INFINITY" if isinf(value) else repr(abs(value))
+    return f"(-{text})" if value < 0 else text
+
+
+class Statements:
+    """Assignments that compute operations of a graph, each operation once.
+
+    What is used a single time is written where it is used.
+
+    Parameters
+    ----------
+    names : how a symbol's key is written, where it is not written as the key itself.
+    patterns, number : how operations and numbers are written.
+    """
+
+    def __init__(self, graph: Graph, outputs: Iterable[int], names=None, patterns=PATTERNS, number=number):
+        self.graph, self.names, self.patterns, self.number = graph, names or {}, patterns, number
+        order = graph.needed(outputs)
+        uses = Counter(a for k in order for a in graph.operands(k))
+        apart = {a for k in order for a in graph.operands(k)
+                 if graph.level[a] != graph.level[k] or graph.ops[k] in REPEATING}
+        named = [k for k in order if graph.operands(k) and (uses[k] > 1 or k in apart)]
+        self.variable = {k: f"v{n}" for n, k in enumerate(named)}
+
+    def expression(self, k: int, top: bool = False) -> str:
+        if k in self.variable and not top:
+            return self.variable[k]
+        op, args = self.graph.ops[k], self.graph.args[k]
+        if op == "number":
+            return self.number(args[0])
+        if op == "symbol":
+            return self.names.get(args[0], args[0])
+        parts = [self.expression(a) for a in args]
+        if op == "mul" and self._is_product(args[1]):
+            parts[1] = f"({parts[1]})"      # keeps the order of rounding that the graph has
+        return self.patterns[op].format(*parts)
+
+    def _is_product(self, k: int) -> bool:
+        return self.graph.ops[k] == "mul" and k not in self.variable
+
+    def assigned(self, level: int) -> list[tuple[str, str, str]]:
+        """(C type, variable, expression) of each named operation of this level, in order."""
+        return [("int" if self.graph.ops[k] in CONDITIONS else "double", v, self.expression(k, top=True))
+                for k, v in self.variable.items() if self.graph.level[k] == level]
+
+    def declarations(self, level: int) -> list[str]:
+        return [f"const {kind} {v} = {text};" for kind, v, text in self.assigned(level)]
+
+
+def c_statements(pairs: list[tuple[str, sm.Expr]], names: dict[sm.Symbol, str]) -> str:
+    """C statements that assign expressions, their common parts computed once.
+
+    Parameters
+    ----------
+    pairs : (what is assigned to, a SymPy expression).
+    names : the C expression that stands for each symbol.
+
+    Returns
+    -------
+    str
+        Declarations of ``const double v0, v1 ...`` and the assignments; to be put inside a block
+        where math.h is included. All values are computed before the first assignment.
+    """
+    g = Graph()
+    leaves = {s: g.symbol(text, UNIFORM) for s, text in names.items()}
+    outputs = lower(g, [e for _, e in pairs], leaves)
+    text = Statements(g, outputs)
+    results = [f"const double r{i} = {text.expression(k)};" for i, k in enumerate(outputs)]
+    return "\n".join([*text.declarations(UNIFORM), *results, *(f"{lvalue} = r{i};" for i, (lvalue, _) in enumerate(pairs))])

@@ -1,0 +1,47 @@
+"""Straight-line programs as NumPy functions: the same operations in the same order as in C."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from symid.codegen.cprint import PATTERNS, Statements
+from symid.codegen.derive import Derived
+from symid.codegen.graph import POINT, UNIFORM
+
+NUMPY_PATTERNS = PATTERNS | {
+    "not": "np.logical_not({})", "select": "np.where({}, {}, {})", "abs": "np.abs({})", "sign": "np.sign({})",
+    "max": "np.maximum({}, {})", "min": "np.minimum({}, {})", "asin": "np.arcsin({})", "acos": "np.arccos({})",
+    "atan": "np.arctan({})", "atan2": "np.arctan2({}, {})", "pow": "np.power({}, {})",
+    **{f: f"np.{f}({{}})" for f in ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "floor")},
+}
+
+
+def numpy_functions(derived: Derived) -> dict[str, Callable]:
+    """Functions by the names of those of the C source.
+
+    Each is called with (shared, constants) and returns a function of (local, data, multipliers,
+    value), where ``local[j]`` is the column of symbol j at all points of a block, and ``value[j]``
+    receives the column of result j.
+    """
+    outputs = {"residual": derived.residual, "jacobian": list(derived.jacobian.values()),
+               "hessian_into": list(derived.hessian.values())}
+    functions = {}
+    for name, operations in outputs.items():
+        exec(compile(_text(name, derived, operations), f"<symid {name}>", "exec"), {"np": np}, functions)
+    return functions
+
+
+def _text(name: str, derived: Derived, outputs: list[int]) -> str:
+    body = Statements(derived.graph, outputs, patterns=NUMPY_PATTERNS, number=_number)
+    lines = [f"def {name}(shared, constants):"]
+    lines += [f"    {v} = {text}" for _, v, text in body.assigned(UNIFORM)]
+    lines += ["    def block(local, data, multipliers, value):"]
+    lines += [f"        {v} = {text}" for _, v, text in body.assigned(POINT)]
+    lines += [f"        value[{j}] = {body.expression(k)}" for j, k in enumerate(outputs)] or ["        pass"]
+    return "\n".join([*lines, "    return block"])
+
+
+def _number(value: float) -> str:
+    return repr(value) if np.isfinite(value) else f"np.float64('{value}')"
