@@ -67,6 +67,7 @@ class Chain:
     absolute, upright : which angles, see above.
     base_channel : channel with the recorded forward acceleration of the base; "" for a fixed base.
     angle_bound, velocity_bound : bounds of the states [rad], [rad/s].
+    friction_speed : width of the smoothed jump of any dry friction that is added [rad/s].
     """
 
     links: tuple[ChainLink, ...]
@@ -77,6 +78,7 @@ class Chain:
     base_channel: str = ""
     angle_bound: float = float("inf")
     velocity_bound: float = float("inf")
+    friction_speed: float = 0.05
     name: str = ""
 
     def __post_init__(self):
@@ -142,6 +144,8 @@ class Chain:
                                               meaning="forward component of gravity")
         model.gravity_vertical = Expression(model.gravity, unit="m/s^2", role="gravity", at="global", latex="g_y",
                                             meaning="downward component of gravity")
+        model.friction_speed = Constant(self.friction_speed, unit="rad/s", role="friction_speed", latex=r"\omega_0",
+                                        meaning="width of the smoothed jump of dry friction")
         moved = sm.S.Zero
         if self.base_channel:
             setattr(model, self.base_channel, Input(

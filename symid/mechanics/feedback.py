@@ -14,7 +14,7 @@ import sympy as sm
 
 from symid.errors import ModelError
 from symid.mechanics.chain import subscripts
-from symid.model import Expression, Model, Parameter
+from symid.model import Equation, Expression, Model, Parameter, State
 from symid.model.declare import Bounds
 
 GAIN_BOUND = 5000.0
@@ -38,9 +38,12 @@ class Feedback(ABC):
     Parameters
     ----------
     delay : bounds [s] of one unknown delay of all signals; None for no delay.
+    muscle : bounds [s] of one unknown time constant with which the torques follow what the law
+        asks for (first-order activation, Zajac 1989); None for no lag.
     """
 
     delay: Bounds | None = None
+    muscle: Bounds | None = None
 
     @abstractmethod
     def torques(self, model: Model, joints: tuple[str, ...]) -> list[sm.Expr]:
@@ -60,6 +63,11 @@ class Feedback(ABC):
             setattr(closed, f"{joint}_torque", Expression(torque, unit="N*m", role="feedback_torque", at=joint,
                                                           latex=f"T_{s}", meaning=f"feedback torque at the {joint}"))
             closed.add_effort(joint, -closed[f"{joint}_torque"].symbol)
+        if self.muscle is not None:
+            closed.muscle_time_constant = Parameter(unit="s", bounds=self.muscle, latex="T_m",
+                                                    meaning="time constant of the muscles' activation")
+            for joint in joints:
+                lag_torque(closed, f"{joint}_torque", closed.muscle_time_constant.symbol, "muscle")
         return closed
 
     def signals(self, model: Model, joints: tuple[str, ...], references: bool, lag: float = 0.0,
@@ -104,6 +112,20 @@ class FullStatePD(Feedback):
         references(model, joints)
         signals = self.signals(model, joints, references=True)
         return [sum(k * s for k, s in zip(row, (*signals.errors, *signals.rates), strict=True)) for row in gains]
+
+
+def lag_torque(model: Model, torque: str, time_constant: sm.Expr, name: str) -> None:
+    """Let the expression `torque` follow what it was so far with a first-order lag [s].
+
+    The state ``<torque>_<name>`` that this adds forgets its start within a few time constants;
+    begin it at the torque asked for.
+    """
+    old = model[torque]
+    setattr(model, f"{torque}_{name}", State(unit=old.unit, role="memory", at=old.at,
+                                             meaning=f"{old.meaning}, as it follows; begin it at what is asked for"))
+    x = model[f"{torque}_{name}"]
+    setattr(model, f"{torque}_{name}_equation", Equation(time_constant * x.dot + x - old.expr))
+    model.redefine(torque, x)
 
 
 def gain(model: Model, name: str, unit: str, own: bool, meaning: str) -> sm.Symbol:

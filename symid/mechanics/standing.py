@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
 from symid.mechanics.chain import Chain, ChainLink
 from symid.model import Model
+from symid.recording import read_body
 
-_UNITS = {"length": "m", "com": "m", "mass": "kg", "inertia": "kg_m2"}
+_UNITS = {"length": "m", "com": "m", "mass": "kg", "inertia": "kg*m^2", "gravity": "m/s^2"}
 
 
 @dataclass(frozen=True)
@@ -38,10 +38,7 @@ class DoubleLinkPendulum:
     @classmethod
     def from_json(cls, path: str | Path) -> DoubleLinkPendulum:
         """Read a body file with ``name_unit`` keys (``leg_length_m`` ... ``gravity_m_s2``)."""
-        body = json.loads(Path(path).read_text())
-        names = [n for n in cls.__dataclass_fields__ if n != "gravity"]
-        values = {n: body[f"{n}_{_UNITS[n.split('_')[1]]}"] for n in names}
-        return cls(**values, gravity=body.get("gravity_m_s2", 9.81))
+        return cls(**read_body(path, {n: _UNITS[n.split("_")[-1]] for n in cls.__dataclass_fields__}))
 
     def with_feedback(self, law) -> Model:
         """The closed loop: this body under a feedback law such as `PD()`."""
@@ -52,4 +49,5 @@ class DoubleLinkPendulum:
         leg = ChainLink("leg", self.leg_mass, self.leg_com, self.leg_inertia, self.leg_length)
         trunk = ChainLink("trunk", self.trunk_mass, self.trunk_com, self.trunk_inertia)
         return Chain((leg, trunk), ("ankle", "hip"), self.gravity, upright=True, base_channel="platform_acceleration",
-                     angle_bound=1.0, velocity_bound=2.0, name="standing on a moving platform").plant()
+                     angle_bound=1.0, velocity_bound=2.0, friction_speed=0.02,
+                     name="standing on a moving platform").plant()

@@ -42,24 +42,30 @@ class Law:
     ----------
     name : canonical name (``"coulomb_friction"``).
     acts_on : the role of the parts at which it can act (``"joint"``, ``"sensor"`` ...): the
-        places are the `at` of all parts of a model with that role.
+        places are the `at` of all parts of a model with that role; of several roles, the
+        places that have parts with each of them.
     parameters : its unknowns.
     build : ``build(model, place, p)`` changes `model` (a fresh copy) so that it contains the
         law at `place`; `p` has the symbols of the law's parameters by key.
     sentence : plain words with ``{place}`` and the parameter keys as blanks.
     source : author and year of the formula.
+    place : name of its one place, for a law that acts on all parts with that role at once
+        (``"global"``); "" for a law that acts at one part's place.
     """
 
     name: str
-    acts_on: str
+    acts_on: str | tuple[str, ...]
     parameters: tuple[LawParameter, ...]
     build: Callable[[Model, str, SimpleNamespace], None]
     sentence: str = ""
     source: str = ""
+    place: str = ""
 
     def places(self, model: Model) -> list[str]:
         """Where in `model` this law could act, each place once, in order of declaration."""
-        return list(dict.fromkeys(c.at for c in model.find(role=self.acts_on)))
+        first, *others = (self.acts_on,) if isinstance(self.acts_on, str) else self.acts_on
+        everywhere = dict.fromkeys(c.at for c in model.find(role=first))
+        return list(dict.fromkeys(self.place or at for at in everywhere if all(model.find(r, at) for r in others)))
 
     def at(self, place: str) -> Term:
         return Term(self, place)
@@ -86,7 +92,7 @@ class Term:
         if self.location not in self.law.places(model):
             raise ModelError(
                 f"{self.law.name} cannot act at '{self.location}' of model '{model.name}': it acts on "
-                f"parts with role '{self.law.acts_on}', which are at {self.law.places(model) or 'no place'}"
+                f"parts with role {self.law.acts_on!r}, which are at {self.law.places(model) or 'no place'}"
             )
         p = SimpleNamespace()
         for q in self.law.parameters:

@@ -1,0 +1,86 @@
+"""What the missing-physics laws share: their port, their units, fixed numbers, switches in time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from types import SimpleNamespace
+
+import sympy as sm
+
+from symid.errors import ModelError
+from symid.model import Component, Constant, Law, LawParameter, Model, Port
+
+FRICTION_SPEED = 0.05
+"""Width [rad/s or m/s] of the smoothed jump of dry friction where a model states none."""
+
+
+def parameter_name(law: str, place: str, key: str) -> str:
+    """Name of something that `law` declares at `place`, as `Term.parameter_name` makes it."""
+    return f"{law}_{''.join(c if c.isalnum() else '_' for c in place)}_{key}"
+
+
+def port_at(model: Model, role: str, place: str) -> Port:
+    """The one port with this role at this place."""
+    found = [c for c in model.find(role, place) if isinstance(c, Port)]
+    if not found:
+        raise ModelError(f"model '{model.name}' has no Port with role='{role}' at='{place}', where a force could act: "
+                         "declare one")
+    return found[0]
+
+
+def is_linear(port: Port) -> bool:
+    """Whether the port carries a force [N] along a displacement instead of a torque."""
+    return port.unit == "N"
+
+
+def fixed(model: Model, name: str, value: float, unit: str, meaning: str) -> sm.Symbol:
+    """Declare a number that belongs to a law; its symbol."""
+    setattr(model, name, Constant(value, unit=unit, meaning=meaning))
+    return model[name].symbol
+
+
+def acceleration(model: Model, port: Port) -> sm.Expr:
+    """Time derivative of the port's rate."""
+    return sum(sm.diff(port.rate, s.symbol) * s.dot for s in model.states.values())
+
+
+def dry(model: Model, port: Port, law: str) -> sm.Expr:
+    """The smoothed sign of the port's rate, tanh(rate/width), in -1 ... 1."""
+    stated = model.find("friction_speed")
+    if stated:
+        return sm.tanh(port.rate / stated[0].symbol)
+    width = fixed(model, parameter_name(law, port.at, "speed_width"), FRICTION_SPEED,
+                  "m/s" if is_linear(port) else "rad/s", "width of the smoothed jump of dry friction")
+    return sm.tanh(port.rate / width)
+
+
+def switched_on(model: Model, time, width) -> sm.Expr:
+    """0 before `time` and 1 after it [s], smoothed over `width` [s]."""
+    return (1 + sm.tanh((model.time - time) / width)) / 2
+
+
+def effort_law(name: str, role: str, parameters: tuple[LawParameter, ...],
+               force: Callable[[Model, Port, SimpleNamespace], sm.Expr], sentence: str, source: str) -> Law:
+    """A law whose whole effect is a force at a port: ``force(model, port, p)`` along its rate.
+
+    Units of parameters are stated for a rotation; at a port of a displacement N m/rad reads N/m.
+    """
+    def build(model: Model, place: str, p: SimpleNamespace) -> None:
+        port = port_at(model, role, place)
+        if is_linear(port):
+            for s in vars(p).values():
+                give_unit(model, s, lambda unit: unit.replace("N*m", "N").replace("rad", "m"))
+        model.add_effort(port.name, force(model, port, p))
+    return Law(name, role, parameters, build, sentence, source)
+
+
+def give_unit(model: Model, s: sm.Symbol, change: Callable[[str], str]) -> None:
+    """Let the parameter `s` of a law have the unit that fits the place where it acts."""
+    part: Component = model[str(s)]
+    model.components[part.name] = replace(part, unit=change(part.unit))
+
+
+def late_symbols(model: Model, signal: sm.Symbol) -> list[sm.Symbol]:
+    """The symbols that stand for `signal` at earlier times."""
+    return [late for late, delay in model.delays.items() if delay.of == signal]

@@ -1,0 +1,25 @@
+"""The library of laws that a model may have left out, and all places where they could act."""
+
+from __future__ import annotations
+
+from symid.mechanics.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
+from symid.mechanics.joint_laws import FURTHER_JOINT_LAWS, JOINT_LAWS, LINK_LAWS
+from symid.mechanics.world_laws import WORLD_LAWS
+from symid.model import Law, Model, Term
+
+CANONICAL: tuple[str, ...] = tuple(law.name for law in (*FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS))
+"""Names of the laws that answer files know."""
+
+LIBRARY: dict[str, Law] = {law.name: law for law in (
+    *FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS, *FURTHER_FEEDBACK_LAWS, *FURTHER_JOINT_LAWS)}
+"""Every law by name: the canonical ones first, then what else the field knows."""
+
+
+def suspects(model: Model, laws: dict[str, Law] | None = None) -> list[Term]:
+    """Every law at every place of `model` where it could act.
+
+    Parameters
+    ----------
+    laws : by name; the whole `LIBRARY` where not given. A user's own law is one more entry.
+    """
+    return [law.at(place) for law in (LIBRARY if laws is None else laws).values() for place in law.places(model)]

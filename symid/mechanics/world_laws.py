@@ -1,0 +1,110 @@
+"""What may be wrong outside of the joints: drive, sensors, gravity, base, stated masses."""
+
+from __future__ import annotations
+
+from math import inf
+from types import SimpleNamespace
+
+import sympy as sm
+
+from symid.errors import ModelError
+from symid.mechanics.laws import give_unit, late_symbols
+from symid.model import Law, LawParameter, Model
+
+_OFFSET = LawParameter("offset_rad", "rad", (-inf, inf), typical=0.01)
+
+
+def _input_gain(model: Model, place: str, p: SimpleNamespace) -> None:
+    for u in model.find("excitation", place):
+        model.substitute({s: p.gain * s for s in (u.symbol, *late_symbols(model, u.symbol))})
+
+
+def _input_delay(model: Model, place: str, p: SimpleNamespace) -> None:
+    for u in model.find("excitation", place):
+        present = (u.symbol, *late_symbols(model, u.symbol))
+        model.substitute({s: model.delayed(s, p.delay_s) for s in present})
+
+
+def _extra_mass(model: Model, place: str, p: SimpleNamespace) -> None:
+    """Put the mass, centre of mass and inertia of link and point mass together (Steiner 1840)."""
+    mass, com, inertia = (_stated(model, role, place) for role in ("mass", "center_of_mass", "inertia"))
+    total = mass + p.mass_kg
+    model.substitute({
+        mass: total,
+        com: (mass * com + p.mass_kg * p.height_m) / total,
+        inertia: inertia + mass * p.mass_kg / total * (p.height_m - com) ** 2,
+    })
+
+
+def _stated(model: Model, role: str, place: str) -> sm.Symbol:
+    found = model.find(role, place)
+    if not found:
+        raise ModelError(f"model '{model.name}' states no '{role}' of the '{place}': declare a Constant with "
+                         f"role='{role}', at='{place}'")
+    return found[0].symbol
+
+
+def _inertia(model: Model, place: str, p: SimpleNamespace) -> None:
+    inertia = _stated(model, "inertia", place)
+    model.substitute({inertia: p.factor * inertia})
+
+
+def _sensor_gain(model: Model, place: str, p: SimpleNamespace) -> None:
+    for sensor in model.find("sensor", place):
+        model.redefine(sensor.name, p.gain * sensor.expr)
+
+
+def _sensor_offset(model: Model, place: str, p: SimpleNamespace) -> None:
+    for sensor in model.find("sensor", place):
+        give_unit(model, p.offset_rad, lambda _, unit=sensor.unit: unit)
+        model.redefine(sensor.name, sensor.expr + p.offset_rad)
+
+
+def _sensor_delay(model: Model, place: str, p: SimpleNamespace) -> None:
+    for sensor in model.find("sensor", place):
+        model.redefine(sensor.name, model.delayed(sensor.expr, p.delay_s))
+
+
+def _tilt(model: Model, place: str, p: SimpleNamespace) -> None:
+    components = model.find("gravity")
+    if len(components) != 2:
+        raise ModelError(f"model '{model.name}' has {len(components)} expressions with role='gravity'; a tilt needs two: "
+                         "the forward component first, then the downward one")
+    forward, down = components
+    cos, sin = sm.cos(p.bias_rad), sm.sin(p.bias_rad)
+    model.redefine(forward.name, p.g_scale * (forward.expr * cos + down.expr * sin))
+    model.redefine(down.name, p.g_scale * (down.expr * cos - forward.expr * sin))
+
+
+def _base_motion(model: Model, place: str, p: SimpleNamespace) -> None:
+    speed = 2 * sm.pi * p.frequency_Hz
+    for base in model.find("base_acceleration", place):
+        model.redefine(base.name, base.expr - p.amplitude_m * speed**2 * sm.sin(speed * model.time + p.phase_rad))
+
+
+WORLD_LAWS: tuple[Law, ...] = (
+    Law("input_gain", "excitation", (LawParameter("gain", "1", (0.2, 5.0), 1.0, (0.8, 1.25), 0.1),), _input_gain,
+        "The true excitation is {gain} times the recorded one", "Ljung 1999"),
+    Law("input_delay", "excitation",
+        (LawParameter("delay_s", "s", (-0.3, 0.3), 0.0, (-0.1, -0.04, 0.04, 0.1), 0.05),), _input_delay,
+        "The true excitation comes {delay_s} after the recorded one", "Ljung 1999"),
+    Law("extra_mass", ("mass", "center_of_mass", "inertia"),
+        (LawParameter("mass_kg", "kg", (0.0, inf)), LawParameter("height_m", "m", (0.0, 2.0), None, (0.1, 0.4, 0.7), 0.3)),
+        _extra_mass, "The {place} carries a further {mass_kg} at {height_m} from its joint", "Steiner 1840"),
+    Law("link_inertia_error", "inertia", (LawParameter("factor", "1", (0.2, 5.0), 1.0, (0.8, 1.25), 0.1),), _inertia,
+        "The inertia of the {place} is {factor} times the stated one", "Euler 1765"),
+    Law("sensor_gain", "sensor", (LawParameter("gain", "1", (0.2, 5.0), 1.0, (0.8, 1.25), 0.1),), _sensor_gain,
+        "The {place} shows {gain} times the truth", "Ljung 1999"),
+    Law("sensor_offset", "sensor", (_OFFSET,), _sensor_offset,
+        "The {place} is off by {offset_rad}", "Ljung 1999"),
+    Law("sensor_delay", "sensor", (LawParameter("delay_s", "s", (0.0, 0.2), 0.0, (0.005, 0.02, 0.05), 0.01),), _sensor_delay,
+        "The {place} shows what was {delay_s} before", "Ljung 1999"),
+    Law("gravity_tilt", "gravity",
+        (LawParameter("g_scale", "1", (0.5, 1.5), 1.0, typical=0.01), LawParameter("bias_rad", "rad", (-0.5, 0.5), typical=0.01)),
+        _tilt, "Gravity is {g_scale} times the stated one and the vertical is turned by {bias_rad}", "Newton 1687", "global"),
+    Law("base_motion", "base_acceleration",
+        (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3),
+         LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.5, 1.0, 2.0, 4.0, 8.0)),
+         LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,))),
+        _base_motion, "The base moves back and forth by {amplitude_m} at {frequency_Hz}", "d'Alembert 1743"),
+)
