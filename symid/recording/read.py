@@ -6,6 +6,7 @@ unusable, it is read again slowly, cell by cell, to say in which column and row 
 
 import os
 import warnings
+from itertools import islice
 from pathlib import Path
 
 import numpy as np
@@ -66,6 +67,7 @@ def _read_table(path: Path, columns: list[Column], allow_gaps: bool) -> dict[str
     """Column name -> shape(N,), as in the file: numbers as float64, split labels as text."""
     import pandas as pd  # here and not at the top: 0.4 s that a mere `import symid` should not pay
 
+    _check_first_row(path, columns)
     kinds = {c.name: str if c.name == "split" else np.float64 for c in columns}
     try:
         with warnings.catch_warnings():
@@ -81,12 +83,21 @@ def _read_table(path: Path, columns: list[Column], allow_gaps: bool) -> dict[str
                 **_every_digit(pd.__version__),
             )
     except (ValueError, pd.errors.ParserWarning) as error:
-        _explain(path, columns, allow_gaps)
-        raise RecordingError(f"{path}: cannot be read as numbers: {error}") from error
+        raise _explained(path, columns, allow_gaps, str(error)) from error
     table = {name: frame[name].to_numpy() for name in kinds}
     if not _usable(table, allow_gaps):
-        _explain(path, columns, allow_gaps)
+        raise _explained(path, columns, allow_gaps, "a value is missing or not finite")
     return table
+
+
+def _check_first_row(path: Path, columns: list[Column]):
+    """Refuse a column of true and false, which pandas would take for 1 and 0 without a word."""
+    line, cells = next(islice(file_rows(path), 1, None))
+    for column, cell in zip(columns, cells, strict=False):
+        if cell.strip().lower() in ("true", "false"):
+            raise RecordingError(
+                f"{path}: column '{column.text}', row 1 (line {line}): {_shown(cell)} is not a number"
+            )
 
 
 def _every_digit(pandas_version: str) -> dict[str, str]:
@@ -104,28 +115,27 @@ def _usable(table: dict[str, np.ndarray], allow_gaps: bool) -> bool:
         else:
             good = np.isfinite(values).all()
         if name == "segment":
-            good = good and bool((values == np.round(values)).all())
+            good = good and bool((values == np.round(values)).all() and np.abs(values).max() < 2**53)
         if not good:
             return False
     return True
 
 
-def _explain(path: Path, columns: list[Column], allow_gaps: bool):
-    """Raise a RecordingError for the first cell that cannot be used; return if there is none."""
+def _explained(path: Path, columns: list[Column], allow_gaps: bool, last_resort: str) -> RecordingError:
+    """A RecordingError for the first cell that cannot be used."""
     rows = file_rows(path)
     next(rows)
     for row, (line, cells) in enumerate(rows, 1):
+        place = f"row {row} (line {line})"
         if len(cells) != len(columns):
-            raise RecordingError(
-                f"{path}: row {row} (line {line}) has {len(cells)} cells, the header has "
-                f"{len(columns)}"
+            return RecordingError(
+                f"{path}: {place} has {len(cells)} cells, the header has {len(columns)}"
             )
         for column, cell in zip(columns, cells, strict=True):
             fault = _cell_fault(column, cell.strip(), allow_gaps)
             if fault:
-                raise RecordingError(
-                    f"{path}: column '{column.text}', row {row} (line {line}): {fault}"
-                )
+                return RecordingError(f"{path}: column '{column.text}', {place}: {fault}")
+    return RecordingError(f"{path}: cannot be read as numbers: {last_resort}")
 
 
 def _cell_fault(column: Column, cell: str, allow_gaps: bool) -> str | None:
@@ -138,14 +148,20 @@ def _cell_fault(column: Column, cell: str, allow_gaps: bool) -> str | None:
     if column.name == "split":
         return None
     try:
-        value = float(cell)
+        # Python alone would also take 1_000 and the digits of other scripts for numbers.
+        value = float(cell if cell.isascii() and "_" not in cell else "no number")
     except ValueError:
-        return f"'{cell}' is not a number"
+        return f"{_shown(cell)} is not a number"
     if not np.isfinite(value):
-        return f"'{cell}' is not finite"
-    if column.name == "segment" and value != round(value):
-        return f"a segment is a whole number, found '{cell}'"
+        return f"{_shown(cell)} is not finite"
+    if column.name == "segment" and (value != round(value) or abs(value) >= 2**53):
+        return f"a segment is a whole number, found {_shown(cell)}"
     return None
+
+
+def _shown(cell: str) -> str:
+    """A cell in quotes, on one line and not too long."""
+    return repr(cell if len(cell) <= 40 else cell[:37] + "...")
 
 
 def _assemble(path: Path, columns: list[Column], table: dict, allow_gaps: bool) -> Recording:
@@ -156,7 +172,8 @@ def _assemble(path: Path, columns: list[Column], table: dict, allow_gaps: bool) 
         if unit.text != unit.si:
             history.append(f"{name} converted from {unit.text} to {unit.si}: x {unit.factor:.9g}")
             table[name] = table[name] * unit.factor
-    time, note = _checked_time(path, table, allow_gaps)
+    text = next(column.text for column in columns if column.name == "time")
+    time, note = _checked_time(path, text, table, allow_gaps)
     names = [name for name in units if name != "time"]
     return Recording(
         name=path.stem,
@@ -170,7 +187,9 @@ def _assemble(path: Path, columns: list[Column], table: dict, allow_gaps: bool) 
     )
 
 
-def _checked_time(path: Path, table: dict, allow_gaps: bool) -> tuple[FloatArray, str | None]:
+def _checked_time(
+    path: Path, text: str, table: dict, allow_gaps: bool
+) -> tuple[FloatArray, str | None]:
     """Times of all rows [s], moved onto an even grid where they are nearly so, and a note."""
     time = table["time"].copy()
     largest = 0.0
@@ -182,7 +201,7 @@ def _checked_time(path: Path, table: dict, allow_gaps: bool) -> tuple[FloatArray
         elif not (allow_gaps and fault.kind in ("gap", "uneven")):
             row = run.start + fault.sample + 1
             raise RecordingError(
-                f"{path}: column 'time', row {row} (line {_line_of(path, row)}): "
+                f"{path}: column '{text}', row {row} (line {_line_of(path, row)}): "
                 f"{fault.text}; {_CURES[fault.kind]}"
             )
     if largest == 0.0:

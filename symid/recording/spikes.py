@@ -30,7 +30,7 @@ def find_spikes(values: FloatArray) -> tuple[IntArray, FloatArray]:
     index : shape(s,), positions of the spikes
     ratio : shape(s,), how many times each stands out
     """
-    if values.size < 2 * _REACH:
+    if np.isfinite(values).sum() < 2 * _REACH:
         return np.empty(0, dtype=np.int64), np.empty(0)
     steps = np.diff(values)
     rise, fall = steps[:-1], -steps[1:]  # at sample i + 1, over its left and right neighbour

@@ -54,14 +54,14 @@ def time_fault(time: FloatArray) -> TimeFault | None:
     if late.size:
         i = int(late[0]) + 1
         if steps[i - 1] == 0:
-            return TimeFault("repeated", i, f"time {time[i]:g} s is repeated")
-        return TimeFault("backwards", i, f"time goes back from {time[i - 1]:g} s to {time[i]:g} s")
+            return TimeFault("repeated", i, f"time {time[i]:.15g} s is repeated")
+        return TimeFault("backwards", i, f"time goes back from {time[i - 1]:.15g} s to {time[i]:.15g} s")
     gaps = np.flatnonzero(steps > 1.5 * usual)
     if gaps.size:
         i = int(gaps[0]) + 1
         missing = max(1, round(steps[i - 1] / usual) - 1)
         text = (
-            f"time jumps from {time[i - 1]:g} s to {time[i]:g} s, about {missing} sample(s) of "
+            f"time jumps from {time[i - 1]:.15g} s to {time[i]:.15g} s, about {missing} sample(s) of "
             f"{usual:g} s are missing"
         )
         return TimeFault("gap", i, text)
@@ -69,7 +69,7 @@ def time_fault(time: FloatArray) -> TimeFault | None:
         step, departure = _departure(time)
         i = int(np.argmax(np.abs(departure)))
         text = (
-            f"time is uneven: {time[i]:g} s is {100 * abs(departure[i]) / step:.2g} % of a step "
+            f"time is uneven: {time[i]:.15g} s is {100 * abs(departure[i]) / step:.2g} % of a step "
             f"of {step:g} s away from an even grid"
         )
         return TimeFault("uneven", i, text)
@@ -86,7 +86,7 @@ def _tolerance(time: FloatArray, step: float) -> float:
     """Distance from an even grid [s] that jitter or the rounding of the printed times explains."""
     for decimals in range(7):
         rounded = np.round(time, decimals)
-        if np.abs(time - rounded).max() < 1e-9 * max(1.0, np.abs(time).max()):
+        if np.abs(time - rounded).max() <= 4 * np.spacing(np.abs(time).max()):
             rounding = 10.0**-decimals  # half a unit at the sample and half at the grid's ends
             return max(JITTER * step, min(rounding, _ROUNDING_LIMIT * step))
     return JITTER * step
