@@ -163,7 +163,7 @@ class CollocationProgram:
     def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
         zero = np.zeros(self.rows)
         return NonlinearProgram(
-            n=self.layout.size, m=self.rows, lower=self.lower, upper=self.upper, constraint_lower=zero,
+            lower=self.lower, upper=self.upper, constraint_lower=zero,
             constraint_upper=zero, start=start, objective=self.objective, gradient=self.gradient,
             constraints=self.constraints, jacobian=self.jacobian, jacobian_rows=self.jacobian_rows,
             jacobian_cols=self.jacobian_cols, hessian=self.hessian, hessian_rows=self.hessian_rows,
