@@ -1,12 +1,13 @@
 """Ipopt's own C interface, reached through the library that cyipopt is linked to.
 
-cyipopt copies every vector of every call element by element, which costs a fifth to a third of a
-solve of collocation size. Here Ipopt's buffers are seen as NumPy arrays and filled in one copy.
+cyipopt copies every vector of every call element by element, which costs a quarter of a solve of
+collocation size. Here Ipopt's buffers are seen as NumPy arrays and filled in one copy.
 Functions and types: IpStdCInterface.h of Ipopt 3.14.
 """
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_void_p
 
 import numpy as np
@@ -91,9 +92,26 @@ def solve(library: ctypes.CDLL, nlp: NonlinearProgram, evaluation: Evaluation, o
         library.SetIpoptProblemScaling(problem, scales[0], *map(_address, factors))
         library.SetIntermediateCallback(problem, step)
         vectors = ("z", "constraints", "objective", "multipliers", "lower", "upper")
-        return library.IpoptSolve(problem, *(_address(point[name]) for name in vectors), None)
+        with _one_blas_thread(library):
+            return library.IpoptSolve(problem, *(_address(point[name]) for name in vectors), None)
     finally:
         library.FreeIpoptProblem(problem)
+
+
+@contextmanager
+def _one_blas_thread(library: ctypes.CDLL) -> Iterator[None]:
+    """Keep OpenBLAS from spinning on a second core: the fronts of collocation systems are small."""
+    try:
+        get, put = library.openblas_get_num_threads, library.openblas_set_num_threads
+    except AttributeError:  # another BLAS
+        yield
+        return
+    threads = get()
+    put(1)
+    try:
+        yield
+    finally:
+        put(threads)
 
 
 def _address(array: np.ndarray) -> int:

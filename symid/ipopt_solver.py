@@ -6,13 +6,13 @@ import sys
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
 from symid import ipopt_library
 from symid.errors import SolveError
 from symid.ipopt_evaluation import Evaluation, Iteration, RejectedPoint
+from symid.ipopt_result import SolverResult, WorstConstraint, make_result
 from symid.ipopt_status import SOLVED, STOPPED_BY_LIMIT, explain
 from symid.nlp import NonlinearProgram
 
@@ -45,61 +45,6 @@ WARM_START: dict[str, str | int | float] = {
 
 # Ipopt lets other threads run, but MUMPS keeps state of its own between calls.
 _ONE_AT_A_TIME = threading.Lock()
-
-
-@dataclass(frozen=True)
-class WorstConstraint:
-    """The constraint violated most, relative to its scale: number, violation, and in words."""
-
-    index: int
-    violation: float
-    words: str
-
-
-@dataclass(frozen=True, eq=False)
-class SolverResult:
-    """Where Ipopt stopped, and why.
-
-    Attributes
-    ----------
-    z : array, shape (n,)
-    objective : float
-    constraints, multipliers : array, shape (m,)
-    bound_multipliers_lower, bound_multipliers_upper : array, shape (n,)
-        Non-negative.
-    status, status_name : int, str
-        Ipopt's.
-    solved : bool
-        Whether `z` is a local optimum (at least to the acceptable tolerance).
-    message : str
-        What the status means and what to do next.
-    iterations : int
-    seconds : dict[str, float]
-        Wall time: ``objective``, ``gradient``, ``constraints``, ``jacobian``, ``hessian``;
-        ``functions``, their sum; ``solver``, the rest (Ipopt, mostly linear algebra); ``total``.
-    worst_constraint : WorstConstraint or None
-        None where there are no constraints.
-    """
-
-    z: np.ndarray
-    objective: float
-    constraints: np.ndarray
-    multipliers: np.ndarray
-    bound_multipliers_lower: np.ndarray
-    bound_multipliers_upper: np.ndarray
-    status: int
-    status_name: str
-    solved: bool
-    message: str
-    iterations: int
-    seconds: dict[str, float]
-    worst_constraint: WorstConstraint | None
-
-    def __repr__(self) -> str:
-        return (
-            f"SolverResult({self.status_name}, objective {self.objective:.8g}, "
-            f"{self.iterations} iterations, {self.seconds['total']:.2f} s)\n{self.message}"
-        )
 
 
 def solve_nlp(
@@ -154,7 +99,7 @@ def solve_nlp(
         status = run(nlp, evaluation, chosen, _scales(nlp), point)
         total = time.perf_counter() - began
     _raise_failure(evaluation, status)
-    return _result(nlp, evaluation, status, point, total)
+    return make_result(nlp, evaluation, status, point, total)
 
 
 def _starting_point(nlp, start, warm_start) -> dict[str, np.ndarray]:
@@ -237,10 +182,15 @@ class _CyipoptFunctions:
         self.nlp, self.evaluation, self.rejected = nlp, evaluation, rejected
 
     def _call(self, name: str, *arguments):
+        if self.evaluation.failure is not None:
+            raise self.rejected
         try:
             return getattr(self.evaluation, name)(*arguments)
         except RejectedPoint as point:
             raise self.rejected from point
+        except BaseException as failure:  # cyipopt 1.7 itself would lose one raised by the Hessian
+            self.evaluation.failure = failure
+            raise self.rejected from failure
 
     def objective(self, z):
         return self._call("objective", z)
@@ -264,7 +214,11 @@ class _CyipoptFunctions:
         return self.nlp.hessian_rows, self.nlp.hessian_cols
 
     def intermediate(self, mode, number, objective, primal, dual, barrier, *_):
-        return self.evaluation.iteration(number, objective, primal, dual, barrier)
+        try:
+            return self.evaluation.iteration(number, objective, primal, dual, barrier)
+        except BaseException as failure:
+            self.evaluation.failure = failure
+            return False
 
 
 def _run_cyipopt(nlp, evaluation, options, scales, point) -> int:
@@ -281,11 +235,7 @@ def _run_cyipopt(nlp, evaluation, options, scales, point) -> int:
         except TypeError as refused:
             raise SolveError(f"Ipopt refused the option {name}={value!r}: check its spelling and type.") from refused
     problem.set_problem_scaling(*scales)
-    try:
-        _, info = problem.solve(point["z"], point["multipliers"], point["lower"], point["upper"])
-    except BaseException as failure:
-        evaluation.failure = failure
-        return 5
+    _, info = problem.solve(point["z"], point["multipliers"], point["lower"], point["upper"])
     for name, key in (("z", "x"), ("constraints", "g"), ("multipliers", "mult_g"),
                       ("lower", "mult_x_L"), ("upper", "mult_x_U"), ("objective", "obj_val")):  # fmt: skip
         point[name][...] = info[key]
@@ -300,7 +250,8 @@ def _keep_freed_memory() -> None:
         mallopt = ctypes.CDLL(None).mallopt
     except (OSError, AttributeError, TypeError):  # no glibc: macOS, musl, Windows
         return
-    mallopt(m_mmap_threshold, 2**25)  # the largest that glibc accepts
+    if not mallopt(m_mmap_threshold, 2**30):
+        mallopt(m_mmap_threshold, 2**25)  # the most that older glibc accepts
     mallopt(m_trim_threshold, 2**30)
 
 
@@ -314,30 +265,3 @@ def _raise_failure(evaluation: Evaluation, status: int) -> None:
             f"avoids it ({name}). Start elsewhere, tighten the bounds, or look there for a square "
             "root, division or logarithm out of its domain."
         )
-
-
-def _result(nlp, evaluation: Evaluation, status: int, point: dict, total: float) -> SolverResult:
-    name, message = explain(status)
-    worst = _worst_constraint(nlp, point["constraints"])
-    if status not in SOLVED and worst is not None:
-        message += f" Worst constraint: {worst.words}, violated by {worst.violation:.3g}."
-    functions = sum(evaluation.seconds.values())
-    seconds = evaluation.seconds | {
-        "functions": functions, "solver": total - functions, "total": total,
-    }  # fmt: skip
-    return SolverResult(
-        z=point["z"], objective=float(point["objective"][0]), constraints=point["constraints"],
-        multipliers=point["multipliers"],
-        bound_multipliers_lower=point["lower"], bound_multipliers_upper=point["upper"],
-        status=status, status_name=name, solved=status in SOLVED, message=message,
-        iterations=evaluation.iterations, seconds=seconds, worst_constraint=worst,
-    )  # fmt: skip
-
-
-def _worst_constraint(nlp: NonlinearProgram, values: np.ndarray) -> WorstConstraint | None:
-    if nlp.m == 0:
-        return None
-    excess = np.maximum(0.0, np.maximum(nlp.constraint_lower - values, values - nlp.constraint_upper))
-    scaled = excess if nlp.constraint_scale is None else excess / nlp.constraint_scale
-    i = int(np.argmax(scaled))
-    return WorstConstraint(i, float(excess[i]), nlp.describe_constraint(i))

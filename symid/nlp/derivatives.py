@@ -122,7 +122,7 @@ def _worst_entry(function, matrix, z, step, moved) -> tuple[float, int, int | No
 
     def error(direction: np.ndarray) -> np.ndarray:
         ahead, behind = z + RELATIVE_STEP * direction, z - RELATIVE_STEP * direction
-        difference = (function(ahead) - function(behind)) / (2 * RELATIVE_STEP)
+        difference = (np.array(function(ahead)) - function(behind)) / (2 * RELATIVE_STEP)
         return np.abs(difference - matrix @ direction) / (
             np.abs(difference) + size @ np.abs(direction) + floor
         )

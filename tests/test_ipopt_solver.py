@@ -1,0 +1,286 @@
+"""Ipopt finds known answers, explains each failure, and loses neither errors nor Ctrl-C."""
+
+import dataclasses
+import os
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from nlp_problems import HS071_OBJECTIVE, HS071_SOLUTION, hs071, one_variable, tracking
+
+from symid import ipopt_solver
+from symid.errors import SolveError
+from symid.ipopt_solver import solve_nlp
+from symid.ipopt_status import STATUS, explain
+from symid.nlp import check_optimality
+
+pytest.importorskip("cyipopt", reason="cyipopt is absent: run `python -m symid.setup_ipopt`")
+
+
+@pytest.fixture(params=["C interface", "cyipopt"])
+def either_way(request, monkeypatch):
+    """Run a test through Ipopt's C interface and through cyipopt."""
+    if request.param == "cyipopt":
+        monkeypatch.setattr(ipopt_solver, "_runner", lambda: ipopt_solver._run_cyipopt)
+    elif ipopt_solver._runner() is ipopt_solver._run_cyipopt:
+        pytest.skip("this cyipopt hides Ipopt's C interface")
+
+
+def test_hs071_has_its_published_solution(either_way):
+    result = solve_nlp(hs071())
+    assert result.solved
+    assert result.status_name == "Solve_Succeeded"
+    assert result.objective == pytest.approx(HS071_OBJECTIVE, abs=1e-6)
+    np.testing.assert_allclose(result.z, HS071_SOLUTION, atol=1e-5)
+    np.testing.assert_allclose(result.constraints, [25, 40], atol=1e-5)
+    assert "Solve_Succeeded" in repr(result)
+
+
+@pytest.mark.parametrize("hessian", ["exact", "limited-memory"])
+@pytest.mark.parametrize("scaled", [False, True])
+def test_tracking_finds_the_friction_and_satisfies_the_first_order_conditions(either_way, hessian, scaled):
+    nlp = tracking()
+    if scaled:
+        nlp = tracking(
+            variable_scale=np.tile([1.0, 2.0, 0.4], nlp.n)[: nlp.n],
+            constraint_scale=np.full(nlp.m, 0.05), objective_scale=10.0,
+        )  # fmt: skip
+    result = solve_nlp(nlp, hessian=hessian)
+    assert result.solved
+    assert result.z[-1] == pytest.approx(0.4, abs=1e-4)
+    report = check_optimality(
+        nlp, result.z, result.multipliers, result.bound_multipliers_lower, result.bound_multipliers_upper
+    )
+    assert report.ok, str(report)
+
+
+def test_both_ways_to_ipopt_take_the_same_steps(monkeypatch):
+    direct = solve_nlp(tracking())
+    monkeypatch.setattr(ipopt_solver, "_runner", lambda: ipopt_solver._run_cyipopt)
+    copied = solve_nlp(tracking())
+    assert direct.iterations == copied.iterations
+    np.testing.assert_allclose(direct.z, copied.z, atol=1e-10)
+    np.testing.assert_allclose(direct.multipliers, copied.multipliers, atol=1e-10)
+
+
+def test_contradicting_constraints_are_infeasible_and_the_worst_is_named():
+    nlp = hs071(constraint_lower=[700, 40], describe_constraint=["the product", "the sphere"].__getitem__)
+    result = solve_nlp(nlp)
+    assert not result.solved
+    assert result.status_name == "Infeasible_Problem_Detected"
+    assert result.worst_constraint.words in {"the product", "the sphere"}
+    assert result.worst_constraint.words in result.message
+    assert result.worst_constraint.violation > 1
+
+
+def test_no_minimum_is_called_diverging():
+    free = dict(lower=[-np.inf], upper=[np.inf])
+    nlp = one_variable(
+        **free, objective=lambda z: -z[0], gradient=lambda z: -np.ones(1),
+        hessian=lambda z, lam, factor: np.zeros(1),
+    )  # fmt: skip
+    result = solve_nlp(nlp)
+    assert result.status_name == "Diverging_Iterates"
+    assert "finite bounds" in result.message
+    assert result.worst_constraint is None
+
+
+def test_iterations_run_out(either_way):
+    result = solve_nlp(tracking(), max_iterations=2)
+    assert (result.solved, result.iterations) == (False, 2)
+    assert result.status_name == "Maximum_Iterations_Exceeded"
+    assert "warm_start" in result.message
+
+
+def test_time_runs_out():
+    result = solve_nlp(tracking(), time_limit_s=1e-6)
+    assert result.status_name == "Maximum_WallTime_Exceeded"
+
+
+def test_warm_start_takes_fewer_iterations_than_a_cold_one():
+    cold = solve_nlp(tracking())
+    nearby = tracking(damping=0.41)
+    warm = solve_nlp(nearby, warm_start=cold)
+    assert warm.solved
+    assert warm.z[-1] == pytest.approx(0.41, abs=1e-4)
+    assert warm.iterations < solve_nlp(nearby).iterations
+    assert solve_nlp(tracking(), warm_start=cold).iterations <= 1
+
+
+def test_warm_start_with_an_active_bound_stays_there():
+    nlp = one_variable(upper=[2.0])
+    cold = solve_nlp(nlp)
+    warm = solve_nlp(nlp, warm_start=cold)
+    assert warm.z[0] == pytest.approx(2.0, abs=1e-6)
+    assert warm.iterations < cold.iterations
+
+
+def test_a_warm_start_of_another_size_is_refused():
+    with pytest.raises(SolveError, match=r"z has shape \(1,\), expected \(4,\)"):
+        solve_nlp(hs071(), warm_start=solve_nlp(one_variable()))
+
+
+def test_a_start_out_of_bounds_names_the_variable():
+    nlp = tracking(20)
+    start = nlp.start.copy()
+    start[-1] = 7.0
+    with pytest.raises(SolveError, match="friction starts at 7, allowed are 0 to 5"):
+        solve_nlp(nlp, start=start)
+    start[-1] = np.nan
+    with pytest.raises(SolveError, match="friction starts at nan"):
+        solve_nlp(nlp, start=start)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf])
+def test_an_objective_that_is_not_a_number_is_an_error(either_way, value):
+    with pytest.raises(SolveError, match=f"The objective is {value} at iteration 0"):
+        solve_nlp(one_variable(objective=lambda z: value))
+
+
+def test_a_constraint_that_is_not_a_number_is_named(either_way):
+    right = tracking(20)
+
+    def constraints(z):
+        values = right.constraints(z).copy()
+        values[13] = np.nan
+        return values
+
+    nlp = tracking(20, constraints=constraints)
+    with pytest.raises(SolveError, match=r"balance of interval 6 \(constraint row 13\) is nan"):
+        solve_nlp(nlp)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("gradient", "The gradient for angle at node 0 is nan"),
+        ("jacobian", r"The derivative of kinematics of interval 0 \(constraint row 0\) by angle at node 1 is nan"),
+        ("hessian", "The second derivative by angle at node 0 and angle at node 0 is nan"),
+    ],
+)
+def test_a_derivative_that_is_not_a_number_is_named(either_way, name, words):
+    right = getattr(tracking(20), name)
+
+    def wrong(*arguments):
+        values = right(*arguments).copy()
+        values[0] = np.nan
+        return values
+
+    with pytest.raises(SolveError, match=words):
+        solve_nlp(tracking(20, **{name: wrong}))
+
+
+def test_a_trial_point_out_of_the_domain_only_shortens_the_step(either_way):
+    # log is NaN left of zero; a full Newton step from 3 overshoots to there.
+    with np.errstate(invalid="ignore"):
+        result = solve_nlp(one_variable(
+            lower=[-np.inf], upper=[np.inf], start=[3.0],
+            objective=lambda z: z[0] - np.log(z[0]), gradient=lambda z: 1 - 1 / z,
+            hessian=lambda z, lam, factor: factor / z**2,
+        ))  # fmt: skip
+    assert result.solved
+    assert result.z[0] == pytest.approx(1.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("name", ["objective", "gradient", "constraints", "jacobian", "hessian"])
+def test_an_exception_in_a_function_comes_out_as_it_is(either_way, name):
+    def broken(*_):
+        raise ZeroDivisionError("planted")
+
+    with pytest.raises(ZeroDivisionError, match="planted"):
+        solve_nlp(hs071(**{name: broken}))
+
+
+def test_on_iteration_sees_each_iteration_and_can_stop(either_way):
+    seen = []
+    result = solve_nlp(tracking(), on_iteration=seen.append)
+    assert [it.number for it in seen] == list(range(result.iterations + 1))
+    assert seen[-1].objective == pytest.approx(result.objective)
+    stopped = solve_nlp(tracking(), on_iteration=lambda it: it.number < 3)
+    assert (stopped.status_name, stopped.iterations) == ("User_Requested_Stop", 3)
+
+
+def test_an_exception_in_on_iteration_comes_out(either_way):
+    def broken(_):
+        raise ZeroDivisionError("planted")
+
+    with pytest.raises(ZeroDivisionError):
+        solve_nlp(hs071(), on_iteration=broken)
+
+
+def test_ctrl_c_stops_the_solve_and_the_handler_is_given_back(either_way):
+    before = signal.getsignal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        solve_nlp(tracking(), on_iteration=lambda it: os.kill(os.getpid(), signal.SIGINT))
+    assert signal.getsignal(signal.SIGINT) is before
+
+
+@pytest.mark.parametrize("options", [{"tole": 1e-3}, {"tol": "small"}, {"max_iter": 3.0}])
+def test_an_unknown_or_mistyped_option_is_refused_by_name(either_way, options):
+    with pytest.raises(SolveError, match=f"refused the option {next(iter(options))}"):
+        solve_nlp(hs071(), options=options)
+
+
+def test_hessian_choices_are_checked():
+    with pytest.raises(SolveError, match="hessian='exakt' is unknown"):
+        solve_nlp(hs071(), hessian="exakt")
+    with pytest.raises(SolveError, match="no exact Hessian"):
+        solve_nlp(hs071(hessian=None))
+    without = hs071(hessian=None, hessian_rows=np.zeros(0, int), hessian_cols=np.zeros(0, int))
+    assert solve_nlp(without, hessian="limited-memory").solved
+
+
+def test_the_same_point_is_handed_to_the_functions_as_the_same_array():
+    # A transcription may recognise a point by identity and save an evaluation.
+    seen, right = [], hs071()
+
+    def noting(name):
+        def function(z, *rest):
+            seen.append(z)
+            return getattr(right, name)(z, *rest)
+
+        return function
+
+    solve_nlp(hs071(**{name: noting(name) for name in ("objective", "gradient", "constraints", "jacobian")}))
+    assert len({id(z) for z in seen}) < len(seen)
+    assert all((np.array_equal(a, b) or a is not b) for a in seen for b in seen)
+
+
+def test_seconds_add_up():
+    seconds = solve_nlp(tracking()).seconds
+    parts = ("objective", "gradient", "constraints", "jacobian", "hessian")
+    assert sum(seconds[p] for p in parts) == pytest.approx(seconds["functions"])
+    assert seconds["functions"] + seconds["solver"] == pytest.approx(seconds["total"])
+
+
+def test_results_are_frozen_and_independent():
+    nlp = hs071()
+    first = solve_nlp(nlp)
+    kept = first.z.copy()
+    solve_nlp(nlp, start=np.array([2.0, 2, 2, 2]))
+    np.testing.assert_array_equal(first.z, kept)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        first.z = kept
+
+
+def test_every_status_has_a_name_and_a_next_step():
+    for name, sentence in STATUS.values():
+        assert name[0].isupper() and sentence.endswith(".") and len(sentence) > 40
+    assert explain(12345)[0] == "Unknown_Status_12345"
+
+
+def test_absent_cyipopt_is_one_sentence_with_the_command_that_helps():
+    code = (
+        "import sys; sys.modules['cyipopt'] = None\n"
+        "sys.path.insert(0, sys.argv[1])\n"
+        "from nlp_problems import hs071\n"
+        "from symid.ipopt_solver import solve_nlp\n"
+        "from symid.errors import SolveError\n"
+        "try: solve_nlp(hs071())\n"
+        "except SolveError as e: print(e)"
+    )
+    folder = os.path.dirname(__file__)
+    run = subprocess.run([sys.executable, "-c", code, folder], capture_output=True, text=True, check=True)
+    assert "python -m symid.setup_ipopt" in run.stdout
