@@ -2,12 +2,13 @@
 
 The implicit residual 0 = f(x', ...) is linear in x', so that x' = -M^-1 f(0, ...) with
 M = df/dx'. Sensitivities need the slopes of f at the solved x'; only structural nonzeros are
-printed. `symid/simulation/loop.c` integrates whatever these functions say.
+printed. `symid/simulation/loop.c` is compiled once and integrates what the exported table says.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import sympy as sm
 
@@ -16,12 +17,16 @@ from symid.errors import CodegenError
 from symid.model import TIME, Model, symbol
 
 
+TABLE = Path(__file__).with_name("ode.h").read_text()
+"""The C declaration of what a model exports and the integrating loop reads."""
+
+
 @dataclass(frozen=True)
 class OdeSource:
     """C text of one model and the order of everything that goes in and out of it.
 
-    `text` defines the functions that ``loop.c`` calls; the tuples hold names in the order of the
-    arrays x, late, u, w, p, c, y. `late_of` tells which signal each late one is.
+    `text` exports ``ode``, the table of sizes and functions that ``loop.c`` uses; the tuples hold
+    names in the order of the arrays x, late, u, w, p, c, y.
     """
 
     text: str
@@ -55,17 +60,16 @@ def ode_source(model: Model) -> OdeSource:
     if mass.free_symbols & set(rates):
         raise CodegenError(f"model '{model.name}' is not linear in its rates x', so it cannot be solved for them")
     lags = sm.Matrix([model.delays[s].lag for s in late])
-    text = "\n".join([
-        PREAMBLE,
-        _sizes(groups, observed, model, late, states, inputs),
+    parts = [
         _dense("mass", {"M": mass, "force": residual.xreplace({r: sm.Integer(0) for r in rates})}, names),
-        _sparse("slopes", residual, {"x": groups["x"], "l": late, "p": groups["p"], "w": groups["w"]}, names),
         _dense("observe", {"y": observed}, names),
-        _sparse("observe_slopes", observed, {"x": groups["x"], "l": late, "p": groups["p"], "xd": rates}, names),
         _dense("lags", {"lag": lags}, names),
+        _sparse("slopes", residual, {"x": groups["x"], "l": late, "p": groups["p"], "w": groups["w"]}, names),
+        _sparse("observe_slopes", observed, {"x": groups["x"], "l": late, "p": groups["p"], "xd": rates}, names),
         _sparse("lag_slopes", lags, {"p": groups["p"]}, names),
-        f"#define OUTPUTS_NEED_RATES {int(bool(observed.free_symbols & {*rates, *late}))}",
-    ])
+    ]
+    needs_rates = bool(observed.free_symbols & {*rates, *late})
+    text = "\n".join([PREAMBLE, TABLE, *parts, _table(groups, len(observed), model, late, needs_rates)])
     return OdeSource(text, states, inputs, noises, parameters, constants, tuple(model.outputs), tuple(map(str, late)))
 
 
@@ -73,14 +77,17 @@ def _symbols(names) -> list[sm.Symbol]:
     return [symbol(n) for n in names]
 
 
-def _sizes(groups, observed, model, late, states, inputs) -> str:
-    counts = {"NX": len(groups["x"]), "NL": len(late), "NU": len(groups["u"]), "NW": len(groups["w"]),
-              "NP": len(groups["p"]), "NC": len(groups["c"]), "NY": len(observed)}
+def _table(groups, outputs: int, model: Model, late, needs_rates: bool) -> str:
+    states, inputs = list(model.states), list(model.inputs)
     of = [str(model.delays[s].of) for s in late]
     kind = [0 if o in states else 1 for o in of]
     index = [states.index(o) if o in states else inputs.index(o) for o in of]
-    return "\n".join([*(f"#define {k} {v}" for k, v in counts.items()),
-                      _ints("late_kind", kind), _ints("late_index", index)])
+    sizes = [len(groups[k]) for k in "xluwpc"] + [outputs, int(needs_rates)]
+    lists = [f"{name}_{g}" for name, gs in (("slopes", "xlpw"), ("observe_slopes", ("x", "l", "p", "xd")), ("lag_slopes", "p"))
+             for g in gs]
+    entries = [*map(str, sizes), "late_kind", "late_index", "mass", "observe", "lags", "slopes", "observe_slopes",
+               "lag_slopes", *(f"{{{k}_count, {k}_row, {k}_col}}" for k in lists)]
+    return "\n".join([_ints("late_kind", kind), _ints("late_index", index), f"const Ode ode = {{{', '.join(entries)}}};"])
 
 
 def _ints(name: str, values) -> str:
@@ -105,7 +112,7 @@ def _sparse(name: str, rows: sm.Matrix, groups: dict[str, list], names) -> str:
                    if r.has(s) and (d := sm.diff(r, s)) != 0]
         pairs += [(f"d{group}[{k}]", d) for k, (_, _, d) in enumerate(entries)]
         tag = f"{name}_{group}"
-        lists += [f"#define {tag.upper()} {len(entries)}", _ints(f"{tag}_row", [i for i, _, _ in entries]),
+        lists += [f"enum {{{tag}_count = {len(entries)}}};", _ints(f"{tag}_row", [i for i, _, _ in entries]),
                   _ints(f"{tag}_col", [j for _, j, _ in entries])]
     out = ", ".join(f"double *d{g}" for g in groups)
     return "\n".join(lists) + f"\nstatic void {name}({ARGUMENTS}, {out})\n{{\n{c_statements(pairs, names)}\n}}"

@@ -1,5 +1,5 @@
-/* Explicit fixed-step integration of M(x) x' = -r0 with forward sensitivities, lags and gains.
- * The text before this one (symid/codegen/ode.py) gives the sizes and the model's functions.
+/* Explicit fixed-step integration of M(x) x' = -force with forward sensitivities, lags and gains.
+ * Compiled once after symid/codegen/ode.h; the model is a table of generated functions.
  * Sensitivities S = dx/dq obey M S' = -(r_x S + r_late S_late + r_p); q = chosen parameters,
  * then chosen initial states. Runge-Kutta 4 carries its own dense output (Hairer, Norsett &
  * Wanner 1993, II.6) for the delayed signals. */
@@ -7,7 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NXX (NX > 0 ? NX : 1)
+#define NX (v->m->nx)
+#define NL (v->m->nl)
+#define NU (v->m->nu)
+#define NY (v->m->ny)
+#define NXX NX
 #define NON(n) ((n) > 0 ? (n) : 1)
 
 typedef struct {
@@ -22,39 +26,40 @@ typedef struct {
 
 typedef struct {
     Run r;
-    long steps, hint[NON(NL)];
+    const Ode *m;
+    long steps, *hint;
     double *when, *span, *poly, *spoly; /* stored steps: x0, k1, k2 + k3, k4 of states, then of S */
-    double lag[NON(NL)], *dlag;         /* NL x nq */
-    double tk, ak[NXX], *sak;           /* rate of change of x' in the last step, and of S' */
-    double xk[NXX], k1[NXX], *sk, *sk1; /* start of the present step */
+    double *lag, *dlag;                 /* NL, NL x nq */
+    double tk, *ak, *sak;                /* rate of change of x' in the last step, and of S' */
+    double *xk, *k1, *sk, *sk1; /* start of the present step */
     int inside;                         /* k1 of the present step is known */
 } Work;
 
-static int solve(double *M, double *B, long nb)
+static int solve(int n, double *M, double *B, long nb)
 {
-    for (int k = 0; k < NX; k++) {
+    for (int k = 0; k < n; k++) {
         int piv = k;
-        for (int i = k + 1; i < NX; i++) if (fabs(M[i*NX+k]) > fabs(M[piv*NX+k])) piv = i;
-        if (!(fabs(M[piv*NX+k]) > 1e-300)) return 1;
+        for (int i = k + 1; i < n; i++) if (fabs(M[i*n+k]) > fabs(M[piv*n+k])) piv = i;
+        if (!(fabs(M[piv*n+k]) > 1e-300)) return 1;
         if (piv != k) {
-            for (int j = 0; j < NX; j++) { double s = M[k*NX+j]; M[k*NX+j] = M[piv*NX+j]; M[piv*NX+j] = s; }
+            for (int j = 0; j < n; j++) { double s = M[k*n+j]; M[k*n+j] = M[piv*n+j]; M[piv*n+j] = s; }
             for (long j = 0; j < nb; j++) { double s = B[k*nb+j]; B[k*nb+j] = B[piv*nb+j]; B[piv*nb+j] = s; }
         }
-        double inv = 1.0 / M[k*NX+k];
-        for (int i = k + 1; i < NX; i++) {
-            double f = M[i*NX+k] * inv;
+        double inv = 1.0 / M[k*n+k];
+        for (int i = k + 1; i < n; i++) {
+            double f = M[i*n+k] * inv;
             if (f == 0.0) continue;
-            for (int j = k + 1; j < NX; j++) M[i*NX+j] -= f * M[k*NX+j];
+            for (int j = k + 1; j < n; j++) M[i*n+j] -= f * M[k*n+j];
             for (long j = 0; j < nb; j++) B[i*nb+j] -= f * B[k*nb+j];
         }
     }
-    for (int k = NX - 1; k >= 0; k--) {
-        for (int i = k + 1; i < NX; i++) {
-            double f = M[k*NX+i];
+    for (int k = n - 1; k >= 0; k--) {
+        for (int i = k + 1; i < n; i++) {
+            double f = M[k*n+i];
             if (f == 0.0) continue;
             for (long j = 0; j < nb; j++) B[k*nb+j] -= f * B[i*nb+j];
         }
-        double inv = 1.0 / M[k*NX+k];
+        double inv = 1.0 / M[k*n+k];
         for (long j = 0; j < nb; j++) B[k*nb+j] *= inv;
     }
     return 0;
@@ -63,8 +68,9 @@ static int solve(double *M, double *B, long nb)
 static void add(double a, const double *x, double *y, long n) { for (long k = 0; k < n; k++) y[k] += a * x[k]; }
 
 /* All inputs at time s: linear between samples, constant beyond the ends. slope may be null. */
-static void inputs_at(const Run *r, double s, long k, double *u, double *slope)
+static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
 {
+    const Run *r = &v->r;
     if (NU == 0) return;
     if (k > r->N - 2) k = r->N - 2;
     if (k < 0) k = 0;
@@ -79,6 +85,19 @@ static void inputs_at(const Run *r, double s, long k, double *u, double *slope)
         u[i] = a[i] + f * (b[i] - a[i]);
         if (slope) slope[i] = out ? 0.0 : (b[i] - a[i]) / h;
     }
+}
+
+/* out += sign * (entries of a Jacobian) S, and the same for the chosen parameters themselves. */
+static void chain(double sign, const Entries *e, const double *d, const double *S, double *out, long nq)
+{
+    for (int i = 0; i < e->count; i++) add(sign * d[i], S + e->col[i]*nq, out + e->row[i]*nq, nq);
+}
+
+static void direct(double sign, const Entries *e, const double *d, const Run *r, double *out)
+{
+    for (long m = 0; m < r->nqp; m++)
+        for (int i = 0; i < e->count; i++)
+            if (e->col[i] == r->qp[m]) out[e->row[i]*r->nq+m] += sign * d[i];
 }
 
 /* Value, rate and sensitivities of state i at time s, from history, stored steps or this step. */
@@ -135,11 +154,11 @@ static void late_at(Work *v, double t, long k, const double *x, const double *S,
     long nq = v->r.nq;
     for (int j = 0; j < NL; j++) {
         double rate = 0, u[NON(NU)], slope[NON(NU)];
-        int i = late_index[j];
+        int i = v->m->late_index[j];
         double *row = lS + j*nq;
-        if (late_kind[j]) {
+        if (v->m->late_kind[j]) {
             memset(row, 0, nq * sizeof(double));
-            inputs_at(&v->r, t - v->lag[j], k, u, slope);
+            inputs_at(v, t - v->lag[j], k, u, slope);
             l[j] = u[i];
             rate = slope[i];
         } else if (v->lag[j] == 0) {
@@ -158,23 +177,23 @@ static int rates(Work *v, double t, long k, const double *x, const double *S, do
     const Run *r = &v->r;
     long nq = r->nq;
     double u[NON(NU)], l[NON(NL)], M[NXX*NXX];
-    const double *w = r->w + k*NW;
-    inputs_at(r, t, k, u, 0);
+    const Ode *m = v->m;
+    const double *w = r->w + k*m->nw;
+    inputs_at(v, t, k, u, 0);
     late_at(v, t, k, x, S, l, lS);
-    mass(xd, x, l, u, w, r->p, r->c, t, M, xd);
+    m->mass(xd, x, l, u, w, r->p, r->c, t, M, xd);
     double Mc[NXX*NXX];
-    if (nq) memcpy(Mc, M, sizeof(M));
+    if (nq) memcpy(Mc, M, NX*NX*sizeof(double));
     for (int i = 0; i < NX; i++) xd[i] = -xd[i];
-    if (solve(M, xd, 1)) return 1;
+    if (solve(NX, M, xd, 1)) return 1;
     if (!nq) return 0;
-    double dx[NON(SLOPES_X)], dl[NON(SLOPES_L)], dp[NON(SLOPES_P)], dw[NON(SLOPES_W)];
-    slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dw);
+    double dx[NON(m->rx.count)], dl[NON(m->rl.count)], dp[NON(m->rp.count)], dw[NON(m->rw.count)];
+    m->slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dw);
     memset(Sd, 0, NX * nq * sizeof(double));
-    for (int e = 0; e < SLOPES_X; e++) add(-dx[e], S + slopes_x_col[e]*nq, Sd + slopes_x_row[e]*nq, nq);
-    for (int e = 0; e < SLOPES_L; e++) add(-dl[e], lS + slopes_l_col[e]*nq, Sd + slopes_l_row[e]*nq, nq);
-    for (long m = 0; m < r->nqp; m++)
-        for (int e = 0; e < SLOPES_P; e++) if (slopes_p_col[e] == r->qp[m]) Sd[slopes_p_row[e]*nq+m] -= dp[e];
-    return solve(Mc, Sd, nq);
+    chain(-1, &m->rx, dx, S, Sd, nq);
+    chain(-1, &m->rl, dl, lS, Sd, nq);
+    direct(-1, &m->rp, dp, r, Sd);
+    return solve(NX, Mc, Sd, nq);
 }
 
 static void observe_at(Work *v, double t, long k, const double *xd, const double *Sd, const double *x,
@@ -183,40 +202,44 @@ static void observe_at(Work *v, double t, long k, const double *xd, const double
     const Run *r = &v->r;
     long nq = r->nq;
     double u[NON(NU)], l[NON(NL)];
-    const double *w = r->w + (k < r->N - 1 ? k : k > 0 ? k - 1 : 0)*NW;
-    inputs_at(r, t, k, u, 0);
+    const double *w = r->w + (k < r->N - 1 ? k : k > 0 ? k - 1 : 0)*v->m->nw;
+    inputs_at(v, t, k, u, 0);
     late_at(v, t, k, x, S, l, lS);
-    observe(xd, x, l, u, w, r->p, r->c, t, y);
+    const Ode *m = v->m;
+    m->observe(xd, x, l, u, w, r->p, r->c, t, y);
     if (!nq) return;
-    double dx[NON(OBSERVE_SLOPES_X)], dl[NON(OBSERVE_SLOPES_L)], dp[NON(OBSERVE_SLOPES_P)], dr[NON(OBSERVE_SLOPES_XD)];
-    observe_slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dr);
+    double dx[NON(m->hx.count)], dl[NON(m->hl.count)], dp[NON(m->hp.count)], dr[NON(m->hxd.count)];
+    m->observe_slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dr);
     memset(Sy, 0, NY * nq * sizeof(double));
-    for (int e = 0; e < OBSERVE_SLOPES_X; e++) add(dx[e], S + observe_slopes_x_col[e]*nq, Sy + observe_slopes_x_row[e]*nq, nq);
-    for (int e = 0; e < OBSERVE_SLOPES_L; e++) add(dl[e], lS + observe_slopes_l_col[e]*nq, Sy + observe_slopes_l_row[e]*nq, nq);
-    for (int e = 0; e < OBSERVE_SLOPES_XD; e++) add(dr[e], Sd + observe_slopes_xd_col[e]*nq, Sy + observe_slopes_xd_row[e]*nq, nq);
-    for (long m = 0; m < r->nqp; m++)
-        for (int e = 0; e < OBSERVE_SLOPES_P; e++)
-            if (observe_slopes_p_col[e] == r->qp[m]) Sy[observe_slopes_p_row[e]*nq+m] += dp[e];
+    chain(1, &m->hx, dx, S, Sy, nq);
+    chain(1, &m->hl, dl, lS, Sy, nq);
+    chain(1, &m->hxd, dr, Sd, Sy, nq);
+    direct(1, &m->hp, dp, r, Sy);
 }
 
-static int healthy(const double *x, double limit)
+static int healthy(int n, const double *x, double limit)
 {
-    for (int i = 0; i < NX; i++) if (!(fabs(x[i]) < limit)) return 0;
+    for (int i = 0; i < n; i++) if (!(fabs(x[i]) < limit)) return 0;
     return 1;
 }
 
 /* Returns the number of samples that were reached before the run left `limit`. */
-long simulate(const Run *given)
+long simulate(const Ode *model, const Run *given)
 {
     Work work, *v = &work;
     memset(v, 0, sizeof(work));
     v->r = *given;
+    v->m = model;
     const Run *r = &v->r;
-    long nq = r->nq, big = NXX * nq, m = r->substeps, keep = NL > 0;
+    long nq = r->nq, big = NX * nq, m = r->substeps, keep = NL > 0;
     long nsteps = keep ? (r->N - 1) * m + 1 : 0;
     double *space = calloc(14 * big + 2 * NON(NL) * nq + NON(NY) * nq + 64, sizeof(double));
     double *S = space, *Sx = S + big, *K1 = Sx + big, *K2 = K1 + big, *K3 = K2 + big, *K4 = K3 + big;
     double *lS, x[NXX], xs[NXX], k1[NXX], k2[NXX], k3[NXX], k4[NXX], y[NON(NY)], *Sy;
+    double xk[NXX], first[NXX], ak[NXX], lag[NON(NL)];
+    long hint[NON(NL)];
+    memset(ak, 0, NX * sizeof(double)); memset(first, 0, NX * sizeof(double)); memset(hint, 0, NON(NL) * sizeof(long));
+    v->xk = xk; v->k1 = first; v->ak = ak; v->lag = lag; v->hint = hint;
     v->sk = K4 + big; v->sk1 = v->sk + big; v->sak = v->sk1 + big;
     v->dlag = v->sak + big; lS = v->dlag + NON(NL)*nq; Sy = lS + NON(NL)*nq;
     if (keep) {
@@ -229,20 +252,18 @@ long simulate(const Run *given)
     if (!space || (keep && (!v->when || !v->poly))) { done = -1; goto end; }
     memcpy(x, r->x0, NX * sizeof(double));
     for (long k = 0; k < r->nqx; k++) S[r->qx[k]*nq + r->nqp + k] = 1;
-    lags(x, x, x, x, x, r->p, r->c, 0, v->lag);
+    v->m->lags(x, x, x, x, x, r->p, r->c, 0, v->lag);
     if (NL && nq) {
-        double dp[NON(LAG_SLOPES_P)];
-        lag_slopes(x, x, x, x, x, r->p, r->c, 0, dp);
-        for (long q = 0; q < r->nqp; q++)
-            for (int e = 0; e < LAG_SLOPES_P; e++)
-                if (lag_slopes_p_col[e] == r->qp[q]) v->dlag[lag_slopes_p_row[e]*nq+q] = dp[e];
+        double dp[NON(v->m->lp.count)];
+        v->m->lag_slopes(x, x, x, x, x, r->p, r->c, 0, dp);
+        direct(1, &v->m->lp, dp, r, v->dlag);
     }
-    memcpy(v->xk, x, sizeof(x)); memcpy(v->sk, S, big * sizeof(double));
+    memcpy(v->xk, x, NX * sizeof(double)); memcpy(v->sk, S, big * sizeof(double));
     v->tk = r->t[0];
     for (long k = 0; k < r->N; k++) {
         long interval = k < r->N - 1 ? k : k > 0 ? k - 1 : 0;
-        if (!healthy(x, r->limit)) break;
-        if (OUTPUTS_NEED_RATES) {
+        if (!healthy(NX, x, r->limit)) break;
+        if (v->m->outputs_need_rates) {
             v->inside = 0;
             if (rates(v, r->t[k], interval, x, S, k1, K1, lS)) break;
         }
@@ -267,12 +288,12 @@ long simulate(const Run *given)
             double t = r->t[k] + s * h;
             v->inside = 0;
             v->tk = t;
-            memcpy(v->xk, x, sizeof(x)); memcpy(v->sk, S, big * sizeof(double));
+            memcpy(v->xk, x, NX * sizeof(double)); memcpy(v->sk, S, big * sizeof(double));
             if (rates(v, t, k, x, S, k1, K1, lS)) goto end;
-            memcpy(v->k1, k1, sizeof(k1)); memcpy(v->sk1, K1, big * sizeof(double));
+            memcpy(v->k1, k1, NX * sizeof(double)); memcpy(v->sk1, K1, big * sizeof(double));
             v->inside = 1;
             if (r->method) {
-                memcpy(k4, k1, sizeof(k1)); memcpy(K4, K1, big * sizeof(double));
+                memcpy(k4, k1, NX * sizeof(double)); memcpy(K4, K1, big * sizeof(double));
                 for (int i = 0; i < NX; i++) { k2[i] = 2*k1[i]; x[i] += h*k1[i]; }
                 for (long i = 0; i < big; i++) { K2[i] = 2*K1[i]; S[i] += h*K1[i]; }
             } else {
@@ -310,20 +331,25 @@ end:
     return done;
 }
 
+static void spread(const Entries *e, const double *d, int columns, double *out)
+{
+    for (int i = 0; i < e->count; i++) out[e->row[i]*columns + e->col[i]] = d[i];
+}
+
 /* Derivatives of the residuals and outputs at one point, dense and row-major, for linearisation. */
-void linearise(const double *xd, const double *x, const double *l, const double *u, const double *w,
+void linearise(const Ode *m, const double *xd, const double *x, const double *l, const double *u, const double *w,
                const double *p, const double *c, double t, double *M, double *Rx, double *Rl, double *Rw,
                double *Hx, double *Hl, double *lag)
 {
-    double r0[NXX], dx[NON(SLOPES_X)], dl[NON(SLOPES_L)], dp[NON(SLOPES_P)], dw[NON(SLOPES_W)];
-    mass(xd, x, l, u, w, p, c, t, M, r0);
-    slopes(xd, x, l, u, w, p, c, t, dx, dl, dp, dw);
-    for (int e = 0; e < SLOPES_X; e++) Rx[slopes_x_row[e]*NX + slopes_x_col[e]] = dx[e];
-    for (int e = 0; e < SLOPES_L; e++) Rl[slopes_l_row[e]*NL + slopes_l_col[e]] = dl[e];
-    for (int e = 0; e < SLOPES_W; e++) Rw[slopes_w_row[e]*NW + slopes_w_col[e]] = dw[e];
-    double ox[NON(OBSERVE_SLOPES_X)], ol[NON(OBSERVE_SLOPES_L)], op[NON(OBSERVE_SLOPES_P)], od[NON(OBSERVE_SLOPES_XD)];
-    observe_slopes(xd, x, l, u, w, p, c, t, ox, ol, op, od);
-    for (int e = 0; e < OBSERVE_SLOPES_X; e++) Hx[observe_slopes_x_row[e]*NX + observe_slopes_x_col[e]] = ox[e];
-    for (int e = 0; e < OBSERVE_SLOPES_L; e++) Hl[observe_slopes_l_row[e]*NL + observe_slopes_l_col[e]] = ol[e];
-    lags(xd, x, l, u, w, p, c, t, lag);
+    double force[m->nx], dx[NON(m->rx.count)], dl[NON(m->rl.count)], dp[NON(m->rp.count)], dw[NON(m->rw.count)];
+    double ox[NON(m->hx.count)], ol[NON(m->hl.count)], op[NON(m->hp.count)], od[NON(m->hxd.count)];
+    m->mass(xd, x, l, u, w, p, c, t, M, force);
+    m->slopes(xd, x, l, u, w, p, c, t, dx, dl, dp, dw);
+    m->observe_slopes(xd, x, l, u, w, p, c, t, ox, ol, op, od);
+    m->lags(xd, x, l, u, w, p, c, t, lag);
+    spread(&m->rx, dx, m->nx, Rx);
+    spread(&m->rl, dl, m->nl, Rl);
+    spread(&m->rw, dw, m->nw, Rw);
+    spread(&m->hx, ox, m->nx, Hx);
+    spread(&m->hl, ol, m->nl, Hl);
 }

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from symid.codegen.build import load_library
-from symid.codegen.ode import OdeSource, ode_source
+from symid.codegen.ode import TABLE, OdeSource, ode_source
 from symid.errors import SymidError
 from symid.model import Model, nearest
 from symid.simulation.linear import Linearised
@@ -26,6 +26,14 @@ METHODS = {"rk4": 0, "euler": 1}
 
 class _Run(ct.Structure):
     _fields_ = _FIELDS
+
+
+@lru_cache
+def _loop() -> ct.CDLL:
+    library = load_library(TABLE + Path(__file__).with_name("loop.c").read_text(), ("-O3",))
+    library.simulate.restype = ct.c_long
+    library.linearise.restype = None
+    return library
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,11 +87,9 @@ class Simulator:
     def __init__(self, model: Model):
         self.model = model
         self.source: OdeSource = ode_source(model)
-        loop = Path(__file__).with_name("loop.c").read_text()
-        self._library = load_library(self.source.text + "\n" + loop)
-        self._library.simulate.restype = ct.c_long
-        self._library.simulate.argtypes = [ct.POINTER(_Run)]
-        self._library.linearise.restype = None
+        self._loop = _loop()
+        self._library = load_library(self.source.text)
+        self._ode = ct.c_void_p(ct.addressof(ct.c_char.in_dll(self._library, "ode")))
         s = self.source
         self.states, self.outputs, self.parameters = s.states, s.outputs, s.parameters
         self.constants = np.array([c.value for c in model.constants.values()], dtype=float)
@@ -134,7 +140,7 @@ class Simulator:
         run = _Run(N=n, substeps=substeps, method=METHODS[method], nq=q, nqp=len(sensitivity),
                    nqx=len(initial_sensitivity), nh=0 if history is None else len(history[0]), limit=limit,
                    **{k: None if a is None else a.ctypes.data for k, a in keep.items()})
-        reached = self._library.simulate(ct.byref(run))
+        reached = self._loop.simulate(self._ode, ct.byref(run))
         if reached < 0:
             raise MemoryError(f"simulation of '{self.model.name}' over {n} samples with {q} sensitivities")
         wrt = (*sensitivity, *(f"{s}(0)" for s in initial_sensitivity))
@@ -156,8 +162,8 @@ class Simulator:
              "u": f(len(s.inputs)) if inputs is None else _array(inputs), "w": f(w),
              "p": self._vector("parameter", self.parameters, parameters), "c": self.constants}
         out = [np.zeros(k) for k in ((n, n), (n, n), (n, late_n), (n, w), (m, n), (m, late_n), (late_n,))]
-        call = [_pointer(v) for v in a.values()] + [ct.c_double(0.0)] + [_pointer(v) for v in out]
-        self._library.linearise(*call)
+        call = [self._ode] + [_pointer(v) for v in a.values()] + [ct.c_double(0.0)] + [_pointer(v) for v in out]
+        self._loop.linearise(*call)
         mass, rx, rl, rw, hx, hl, lag = out
         late_of = tuple(str(self.model.delays[_late(self.model, y)].of) for y in s.late)
         return Linearised.from_residual(mass, rx, rl, rw, hx, hl, lag, s.states, late_of)
