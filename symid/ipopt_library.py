@@ -123,7 +123,7 @@ def _view(address: int, size: int, kind: type = c_double) -> np.ndarray:
     return np.frombuffer((kind * size).from_address(address), dtype=kind)
 
 
-def _set_option(library: ctypes.CDLL, problem: int, name: str, value: str | int | float) -> None:
+def _set_option(library: ctypes.CDLL, problem: int, name: str, value: str | float) -> None:
     setter, convert = {
         str: (library.AddIpoptStrOption, str.encode),
         int: (library.AddIpoptIntOption, int),

@@ -20,7 +20,7 @@ __all__ = ["Iteration", "SolverResult", "WorstConstraint", "solve_nlp"]
 
 # MUMPS without its matching, scaling and choice of ordering: collocation systems are well scaled
 # already, and the three cost a quarter of a solve.
-DEFAULTS: dict[str, str | int | float] = {
+DEFAULTS: dict[str, str | float] = {
     "tol": 1e-6,
     "mu_strategy": "adaptive",
     "linear_solver": "mumps",
@@ -32,7 +32,7 @@ DEFAULTS: dict[str, str | int | float] = {
 }
 
 # From a previous solution: start at it, not at a distance from the bounds (Ipopt manual, "Warm Start").
-WARM_START: dict[str, str | int | float] = {
+WARM_START: dict[str, str | float] = {
     "warm_start_init_point": "yes",
     "warm_start_bound_push": 1e-9,
     "warm_start_bound_frac": 1e-9,
@@ -50,7 +50,7 @@ _ONE_AT_A_TIME = threading.Lock()
 def solve_nlp(
     nlp: NonlinearProgram,
     *,
-    options: dict[str, str | int | float] | None = None,
+    options: dict[str, str | float] | None = None,
     start: np.ndarray | None = None,
     warm_start: SolverResult | None = None,
     on_iteration: Callable[[Iteration], bool | None] | None = None,

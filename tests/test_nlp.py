@@ -71,7 +71,7 @@ def test_right_derivatives_pass(nlp):
 
 
 @pytest.mark.parametrize("nodes", [20, 300])
-@pytest.mark.parametrize("entry", range(0, 7))
+@pytest.mark.parametrize("entry", range(7))
 def test_a_wrong_jacobian_entry_is_found_and_named(nodes, entry):
     right, wrong_interval = tracking(nodes), 11
     k = entry * (nodes - 1) + wrong_interval
