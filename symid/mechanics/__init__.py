@@ -8,8 +8,10 @@ from symid.mechanics.lagrange import lagrange_residuals
 from symid.mechanics.neural import NeuralNetwork
 from symid.mechanics.standing import DoubleLinkPendulum
 from symid.mechanics.terms import CANONICAL, LIBRARY, suspects
+from symid.mechanics.wrap import from_kane, from_lagrange, from_system
 
 __all__ = [
     "CANONICAL", "LIBRARY", "PD", "BenchDoublePendulum", "Chain", "ChainLink", "DelayedFullState",
-    "DoubleLinkPendulum", "Feedback", "FullStatePD", "NeuralNetwork", "lagrange_residuals", "suspects",
+    "DoubleLinkPendulum", "Feedback", "FullStatePD", "NeuralNetwork", "from_kane", "from_lagrange", "from_system",
+    "lagrange_residuals", "suspects",
 ]
