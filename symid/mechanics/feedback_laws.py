@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import sympy as sm
 
 from symid.mechanics.feedback import lag_torque
-from symid.mechanics.laws import acceleration, dry, fixed, parameter_name, port_at, switched_on
+from symid.mechanics.laws import acceleration, dry, fit_units, fixed, parameter_name, port_at, switched_on
 from symid.model import Equation, Law, LawParameter, Model, State
 
 _SWITCH = 0.02
@@ -51,33 +51,38 @@ def _second_order_lag(model: Model, place: str, p: SimpleNamespace) -> None:
 
 
 def _saturation(model: Model, place: str, p: SimpleNamespace) -> None:
+    fit_units(model, place, p)
     for torque in model.find("feedback_torque", place):
         model.redefine(torque.name, p.limit_Nm * sm.tanh(torque.expr / p.limit_Nm))
 
 
 def _dead_zone(model: Model, place: str, p: SimpleNamespace) -> None:
+    fit_units(model, place, p)
     for error in model.find("feedback_error", place):
         model.redefine(error.name, error.expr - p.width_rad * sm.tanh(error.expr / p.width_rad))
 
 
 def _integral(model: Model, place: str, p: SimpleNamespace) -> None:
+    fit_units(model, place, p)
     error, torque = model.find("feedback_error", place)[0], model.find("feedback_torque", place)[0]
     name = parameter_name("integral_feedback", place, "integral")
-    setattr(model, name, State(unit="rad*s", role="memory", at=place,
+    setattr(model, name, State(unit=f"{error.unit}*s", role="memory", at=place,
                                meaning="integral of the angle error; remembers its start, which is unknown"))
     setattr(model, f"{name}_equation", Equation(model[name].dot - error.expr))
     model.redefine(torque.name, torque.expr + p.gain_Nm_rad_s * model[name])
 
 
 def _acceleration(model: Model, place: str, p: SimpleNamespace) -> None:
+    fit_units(model, place, p)
     port = port_at(model, "joint", place)
     model.add_effort(port.name, -p.gain_kg_m2 * acceleration(model, port))
 
 
 def _torque_feedback(model: Model, place: str, p: SimpleNamespace) -> None:
+    fit_units(model, place, p)
     torque = model.find("feedback_torque", place)[0]
     name = parameter_name("torque_feedback", place, "filtered")
-    setattr(model, name, State(unit="N*m", role="memory", at=place,
+    setattr(model, name, State(unit=torque.unit, role="memory", at=place,
                                meaning="slowly filtered own torque; begin near the torque at the start"))
     z = model[name]
     setattr(model, f"{name}_equation", Equation(p.time_constant_s * z.dot - torque.symbol + z))
@@ -85,7 +90,8 @@ def _torque_feedback(model: Model, place: str, p: SimpleNamespace) -> None:
 
 
 def _gain_change(model: Model, place: str, p: SimpleNamespace) -> None:
-    width = fixed(model, parameter_name("gain_change", place, "switching_time"), _SWITCH, "s", "time that the change takes")
+    name = parameter_name("gain_change", place, "switching_time")
+    width = fixed(model, name, _SWITCH, "s", "time that the change takes")
     for torque in model.find("feedback_torque", place):
         model.redefine(torque.name, torque.expr * (1 + (p.factor - 1) * switched_on(model, p.time_s, width)))
 
@@ -98,10 +104,11 @@ def _load_friction(model: Model, place: str, p: SimpleNamespace) -> None:
 
 def _backlash(model: Model, place: str, p: SimpleNamespace) -> None:
     """Play: the loop reads y, which is carried along only where error - y leaves +-gap/2."""
+    fit_units(model, place, p)
     port = port_at(model, "joint", place)
     error = model.find("feedback_error", place)[0]
     name = parameter_name("backlash", place, "carried")
-    setattr(model, name, State(unit="rad", role="memory", at=place,
+    setattr(model, name, State(unit=error.unit, role="memory", at=place,
                                meaning="angle error after the play; begin at the error"))
     y, half, edge = model[name], p.gap_rad / 2, p.gap_rad * _BACKLASH_EDGE
     forward = (1 + sm.tanh((error.expr - y - half) / edge)) * (port.rate + sm.Abs(port.rate)) / 4

@@ -6,10 +6,11 @@ from math import inf
 
 import sympy as sm
 
-from symid.mechanics.laws import acceleration, dry, effort_law, parameter_name, port_at
+from symid.mechanics.laws import acceleration, dry, effort_law, fit_units, parameter_name, port_at
 from symid.model import Equation, Law, LawParameter, State
 
 _POSITIVE = (0.0, inf)
+_BOTH_SIGNS = (-inf, inf)
 _GATE = 40
 """A push begins and ends within this part of its duration, where sin^2 is below 1 %."""
 
@@ -31,17 +32,16 @@ def _push(m, port, p):
 
 def _hysteresis(model, place, p):
     """Bouc-Wen: y z' = w - (|w| z + w |z|)/2, torque -F z (its z stays within -1 ... 1)."""
+    fit_units(model, place, p)
     port = port_at(model, "joint", place)
     name = parameter_name("bouc_wen_hysteresis", place, "strain")
     setattr(model, name, State(unit="1", bounds=(-1.2, 1.2), role="memory", at=place,
-                               meaning="hysteretic part of the strain, in yield strains; forgets its start, begin at 0"))
+                               meaning="hysteretic strain, in yield strains; forgets its start, begin at 0"))
     z, w = model[name], port.rate
     slip = (sm.Abs(w) * z + w * sm.Abs(z.symbol)) / 2
     setattr(model, f"{name}_equation", Equation(p.yield_rad * z.dot - w + slip))
     model.add_effort(port.name, -p.force_Nm * z)
 
-
-_BOTH_SIGNS = (-inf, inf)
 
 JOINT_LAWS: tuple[Law, ...] = (
     effort_law("viscous_friction", "joint", (LawParameter("coefficient_Nms_rad", "N*m*s/rad", _POSITIVE),),

@@ -14,6 +14,8 @@ from symid.model import Component, Constant, Law, LawParameter, Model, Port
 FRICTION_SPEED = 0.05
 """Width [rad/s or m/s] of the smoothed jump of dry friction where a model states none."""
 
+_ANGLES_ANYWHERE = ("phase_rad",)
+
 
 def parameter_name(law: str, place: str, key: str) -> str:
     """Name of something that `law` declares at `place`, as `Term.parameter_name` makes it."""
@@ -29,9 +31,18 @@ def port_at(model: Model, role: str, place: str) -> Port:
     return found[0]
 
 
-def is_linear(port: Port) -> bool:
-    """Whether the port carries a force [N] along a displacement instead of a torque."""
-    return port.unit == "N"
+def is_linear(model: Model, place: str) -> bool:
+    """Whether a force [N] along a displacement acts at `place`, instead of a torque."""
+    return any(c.unit in ("N", "m") for role in ("joint", "link", "feedback_torque", "feedback_error")
+               for c in model.find(role, place))
+
+
+def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
+    """Let a law's parameters, stated for a rotation, fit a displacement: N m/rad reads N/m there."""
+    if is_linear(model, place):
+        for key, s in vars(p).items():
+            if key not in _ANGLES_ANYWHERE:
+                give_unit(model, s, lambda unit: unit.replace("N*m", "N").replace("rad", "m"))
 
 
 def fixed(model: Model, name: str, value: float, unit: str, meaning: str) -> sm.Symbol:
@@ -51,7 +62,7 @@ def dry(model: Model, port: Port, law: str) -> sm.Expr:
     if stated:
         return sm.tanh(port.rate / stated[0].symbol)
     width = fixed(model, parameter_name(law, port.at, "speed_width"), FRICTION_SPEED,
-                  "m/s" if is_linear(port) else "rad/s", "width of the smoothed jump of dry friction")
+                  "m/s" if is_linear(model, port.at) else "rad/s", "width of the smoothed jump of dry friction")
     return sm.tanh(port.rate / width)
 
 
@@ -62,15 +73,10 @@ def switched_on(model: Model, time, width) -> sm.Expr:
 
 def effort_law(name: str, role: str, parameters: tuple[LawParameter, ...],
                force: Callable[[Model, Port, SimpleNamespace], sm.Expr], sentence: str, source: str) -> Law:
-    """A law whose whole effect is a force at a port: ``force(model, port, p)`` along its rate.
-
-    Units of parameters are stated for a rotation; at a port of a displacement N m/rad reads N/m.
-    """
+    """A law whose whole effect is a force at a port: ``force(model, port, p)`` along its rate."""
     def build(model: Model, place: str, p: SimpleNamespace) -> None:
         port = port_at(model, role, place)
-        if is_linear(port):
-            for s in vars(p).values():
-                give_unit(model, s, lambda unit: unit.replace("N*m", "N").replace("rad", "m"))
+        fit_units(model, place, p)
         model.add_effort(port.name, force(model, port, p))
     return Law(name, role, parameters, build, sentence, source)
 

@@ -68,8 +68,8 @@ def _sensor_delay(model: Model, place: str, p: SimpleNamespace) -> None:
 def _tilt(model: Model, place: str, p: SimpleNamespace) -> None:
     components = model.find("gravity")
     if len(components) != 2:
-        raise ModelError(f"model '{model.name}' has {len(components)} expressions with role='gravity'; a tilt needs two: "
-                         "the forward component first, then the downward one")
+        raise ModelError(f"model '{model.name}' has {len(components)} expressions with role='gravity'; a tilt needs "
+                         "two: the forward component first, then the downward one")
     forward, down = components
     cos, sin = sm.cos(p.bias_rad), sm.sin(p.bias_rad)
     model.redefine(forward.name, p.g_scale * (forward.expr * cos + down.expr * sin))
@@ -89,7 +89,8 @@ WORLD_LAWS: tuple[Law, ...] = (
         (LawParameter("delay_s", "s", (-0.3, 0.3), 0.0, (-0.1, -0.04, 0.04, 0.1), 0.05),), _input_delay,
         "The true excitation comes {delay_s} after the recorded one", "Ljung 1999"),
     Law("extra_mass", ("mass", "center_of_mass", "inertia"),
-        (LawParameter("mass_kg", "kg", (0.0, inf)), LawParameter("height_m", "m", (0.0, 2.0), None, (0.1, 0.4, 0.7), 0.3)),
+        (LawParameter("mass_kg", "kg", (0.0, inf)),
+         LawParameter("height_m", "m", (0.0, 2.0), None, (0.1, 0.4, 0.7), 0.3)),
         _extra_mass, "The {place} carries a further {mass_kg} at {height_m} from its joint", "Steiner 1840"),
     Law("link_inertia_error", "inertia", (LawParameter("factor", "1", (0.2, 5.0), 1.0, (0.8, 1.25), 0.1),), _inertia,
         "The inertia of the {place} is {factor} times the stated one", "Euler 1765"),
@@ -97,11 +98,13 @@ WORLD_LAWS: tuple[Law, ...] = (
         "The {place} shows {gain} times the truth", "Ljung 1999"),
     Law("sensor_offset", "sensor", (_OFFSET,), _sensor_offset,
         "The {place} is off by {offset_rad}", "Ljung 1999"),
-    Law("sensor_delay", "sensor", (LawParameter("delay_s", "s", (0.0, 0.2), 0.0, (0.005, 0.02, 0.05), 0.01),), _sensor_delay,
-        "The {place} shows what was {delay_s} before", "Ljung 1999"),
+    Law("sensor_delay", "sensor", (LawParameter("delay_s", "s", (0.0, 0.2), 0.0, (0.005, 0.02, 0.05), 0.01),),
+        _sensor_delay, "The {place} shows what was {delay_s} before", "Ljung 1999"),
     Law("gravity_tilt", "gravity",
-        (LawParameter("g_scale", "1", (0.5, 1.5), 1.0, typical=0.01), LawParameter("bias_rad", "rad", (-0.5, 0.5), typical=0.01)),
-        _tilt, "Gravity is {g_scale} times the stated one and the vertical is turned by {bias_rad}", "Newton 1687", "global"),
+        (LawParameter("g_scale", "1", (0.5, 1.5), 1.0, typical=0.01),
+         LawParameter("bias_rad", "rad", (-0.5, 0.5), typical=0.01)),
+        _tilt, "Gravity is {g_scale} times the stated one and the vertical is turned by {bias_rad}",
+        "Newton 1687", "global"),
     Law("base_motion", "base_acceleration",
         (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3),
          LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.5, 1.0, 2.0, 4.0, 8.0)),

@@ -66,7 +66,8 @@ def from_kane(kane: KanesMethod, units: Mapping[str, str], *, constants: Mapping
         mass, forcing = kane.mass_matrix_full, kane.forcing_full
     except ValueError:
         raise ModelError("this KanesMethod has no equations yet: call kanes_equations(bodies, loads) first") from None
-    return _wrapped(name, list(kane.q), list(kane.u), {u: _name(u) for u in kane.u}, mass, forcing, units, constants, bounds)
+    return _wrapped(name, list(kane.q), list(kane.u), {u: _name(u) for u in kane.u}, mass, forcing,
+                    units, constants, bounds)
 
 
 def from_lagrange(lagrange: LagrangesMethod, units: Mapping[str, str], *, constants: Mapping[str, float] | None = None,
@@ -99,7 +100,8 @@ def from_system(system: System, units: Mapping[str, str], **options) -> Model:
 
 
 def _wrapped(name: str, q: list, speeds: list, speed_names: dict, mass: sm.Matrix, forcing: sm.Matrix,
-             units: Mapping[str, str], constants: Mapping[str, float] | None, bounds: Mapping[str, Bounds] | None) -> Model:
+             units: Mapping[str, str], constants: Mapping[str, float] | None,
+             bounds: Mapping[str, Bounds] | None) -> Model:
     constants, bounds = constants or {}, bounds or {}
     draft = _Draft(Model(name), units, bounds)
     for x, own in [*((x, _name(x)) for x in q), *speed_names.items()]:
@@ -136,7 +138,8 @@ def _equations(draft: _Draft, q: list, speeds: list, speed_names: dict, mass: sm
     first = {sm.diff(x, _time()): model[_name(x)].dot for x in q} | {u: draft.table[u] for u in speeds}
     residuals = (forcing - mass * sm.Matrix(rates)).xreplace(first).xreplace(draft.table)
     for derivative in sorted(residuals.atoms(sm.Derivative), key=str):
-        draft.violations.append(f"the equations contain {derivative}, the derivative of an input: give it as an input of its own")
+        draft.violations.append(f"the equations contain {derivative}, the derivative of an input: give it as an input "
+                                "of its own")
     labels = [f"{_name(x)}_kinematics" for x in q] + [f"{speed_names[u]}_balance" for u in speeds]
     for label, residual in zip(labels, residuals, strict=True):
         setattr(model, label, Equation(residual))
@@ -144,8 +147,9 @@ def _equations(draft: _Draft, q: list, speeds: list, speed_names: dict, mass: sm
         setattr(model, f"measured_{x}", Output(model[x], role="sensor", at=f"sensor:{x}"))
         for own in speed_names.values():
             if sm.expand(kinematics - model[own] + model[x].dot) == 0:
-                setattr(model, f"{x}_joint", Port(position=model[x].symbol, rate=model[own].symbol, role="joint", at=x,
-                                                  into={f"{own}_balance": 1}, unit="N" if model[x].unit == "m" else "N*m"))
+                setattr(model, f"{x}_joint", Port(
+                    position=model[x].symbol, rate=model[own].symbol, role="joint", at=x,
+                    into={f"{own}_balance": 1}, unit="N" if model[x].unit == "m" else "N*m"))
 
 
 def _time() -> sm.Symbol:
