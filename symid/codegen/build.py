@@ -19,8 +19,11 @@ from symid.errors import CodegenError
 
 # Rounding stays that of the written order (no -ffast-math, no fused multiply-add), so that all
 # backends and machines agree; NaN stays NaN, so that callers can see it.
-FLAGS = ("-O2", "-ftree-vectorize", "-fopenmp-simd", "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros",
+FLAGS = ("-O1", "-ftree-vectorize", "-fopenmp-simd", "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros",
          "-ffp-contract=off", "-fPIC", "-shared")
+
+
+_spare: list[tempfile.TemporaryDirectory] = []  # where the cache cannot be written: one folder of this process
 
 
 class CodegenWarning(UserWarning):
@@ -72,8 +75,10 @@ def compiled(source: str, extra: Sequence[str] = ()) -> Path:
     command = compiler()
     version, machine = _identity(tuple(command))
     key = hashlib.sha256("\0".join((source, version, machine, *command, *FLAGS, *extra)).encode()).hexdigest()[:32]
-    path = cache_directory() / f"{key}.so"
-    return path if _whole(path) else _built(source, command, extra, path)
+    for folder in (cache_directory(), *(Path(spare.name) for spare in _spare)):
+        if _whole(folder / f"{key}.so"):
+            return folder / f"{key}.so"
+    return _built(source, command, extra, cache_directory() / f"{key}.so")
 
 
 def _whole(path: Path) -> bool:
@@ -98,11 +103,7 @@ def _built(source: str, command: list[str], extra: Sequence[str], path: Path) ->
     try:
         return _written(text, path)
     except OSError as problem:
-        spare = _spare_directory()
-        warnings.warn(f"compiled kernels cannot be kept in {path.parent} ({problem.strerror}); they are in {spare} "
-                      "and will be compiled again next time. Set SYMID_CACHE_DIR to a folder that can be written",
-                      CodegenWarning, stacklevel=4)
-        return _written(text, spare / path.name)
+        return _written(text, _spare_folder(path.parent, problem) / path.name)
 
 
 def _written(text: bytes, path: Path) -> Path:
@@ -118,9 +119,13 @@ def _written(text: bytes, path: Path) -> Path:
     return path
 
 
-@functools.cache
-def _spare_directory() -> Path:
-    return Path(tempfile.mkdtemp(prefix="symid-cache-"))
+def _spare_folder(cache: Path, problem: OSError) -> Path:
+    """A folder that lives as long as this process, with one warning."""
+    if not _spare:
+        _spare.append(tempfile.TemporaryDirectory(prefix="symid-cache-"))
+        warnings.warn(f"compiled kernels cannot be kept in {cache} ({problem.strerror}), so every process compiles them "
+                      "anew; set SYMID_CACHE_DIR to a folder that can be written", CodegenWarning, stacklevel=2)
+    return Path(_spare[0].name)
 
 
 def _compile(source: str, command: list[str], extra: Sequence[str], target: Path) -> None:
@@ -128,7 +133,7 @@ def _compile(source: str, command: list[str], extra: Sequence[str], target: Path
     file = target.with_suffix(".c")
     file.write_text(source)
     native = ("-march=native",)
-    vector = ("-DSYMID_LIBMVEC", "-lmvec")
+    vector = ("-DSYMID_LIBMVEC", "-fno-builtin-sin", "-fno-builtin-cos", "-lmvec")  # sincos has no vector version
     attempts = [[*FLAGS, *native, *vector], [*FLAGS, *native], ["-O2", "-fPIC", "-shared"]]
     if not (sys.platform == "linux" and platform.machine() == "x86_64" and platform.libc_ver()[0] == "glibc"):
         attempts = attempts[1:]

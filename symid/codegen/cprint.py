@@ -16,7 +16,7 @@ PREAMBLE = """\
 #include <math.h>
 #include <stddef.h>
 #if defined(SYMID_LIBMVEC)
-#define SYMID_VECTOR __attribute__((simd("notinbranch")))
+#define SYMID_VECTOR __attribute__((simd("notinbranch"), const, nothrow))
 SYMID_VECTOR extern double sin(double);
 SYMID_VECTOR extern double cos(double);
 SYMID_VECTOR extern double exp(double);
@@ -38,7 +38,7 @@ SYMID_VECTOR extern double tanh(double);
 # An operand that a pattern repeats is always a variable (REPEATING). NaN must pass through:
 # every comparison with NaN is false, hence the order of the branches.
 PATTERNS = {
-    "add": "({} + {})", "sub": "({} - {})", "mul": "{} * {}", "neg": "(-{})", "inv": "(1.0 / {})",
+    "add": "({} + {})", "sub": "({} - {})", "mul": "({} * {})", "neg": "(-{})", "inv": "(1.0 / {})",
     "lt": "({} < {})", "le": "({} <= {})", "gt": "({} > {})", "ge": "({} >= {})", "eq": "({} == {})",
     "ne": "({} != {})", "and": "({} & {})", "or": "({} | {})", "not": "(!{})", "select": "({} ? {} : {})",
     "abs": "fabs({})", "sign": "({0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})",
@@ -88,13 +88,7 @@ class Statements:
             return self.number(args[0])
         if op == "symbol":
             return self.names.get(args[0], args[0])
-        parts = [self.expression(a) for a in args]
-        if op == "mul" and self._is_product(args[1]):
-            parts[1] = f"({parts[1]})"      # keeps the order of rounding that the graph has
-        return self.patterns[op].format(*parts)
-
-    def _is_product(self, k: int) -> bool:
-        return self.graph.ops[k] == "mul" and k not in self.variable
+        return self.patterns[op].format(*(self.expression(a) for a in args))
 
     def assigned(self, level: int) -> list[tuple[str, str, str]]:
         """(C type, variable, expression) of each named operation of this level, in order."""

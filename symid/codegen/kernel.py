@@ -124,7 +124,7 @@ class Kernel:
         """
         n = self._points(local, shared, data, constants)
         _expect("multipliers", multipliers, (n, self.m))
-        _expect("out", out, (out.size,))
+        _expect_room(out, (np.size(out),))
         self._check_index(index, (n, len(self.hessian_rows)), out.size)
         self._functions.run("hessian_into", local, shared, data, constants, multipliers, out, index)
 
@@ -133,7 +133,7 @@ class Kernel:
         if out is None:
             out = np.empty((n, width))
         else:
-            _expect("out", out, (n, width))
+            _expect_room(out, (n, width))
         self._functions.run(name, local, shared, data, constants, None, out, None)
         return out
 
@@ -160,6 +160,12 @@ def _expect(name: str, array: np.ndarray, shape: tuple, strided: bool = False, d
         raise CodegenError(f"{name} must be a NumPy array of {dtype} with shape {shape}, not {found}")
     if not array.flags.c_contiguous and not (strided and array.strides[1] == 8 and array.strides[0] % 8 == 0):
         raise CodegenError(f"{name} must be contiguous{' in its last axis' * strided}; its strides are {array.strides}")
+
+
+def _expect_room(out: np.ndarray, shape: tuple) -> None:
+    _expect("out", out, shape)
+    if not out.flags.writeable:
+        raise CodegenError("out cannot be written; it is a read-only array")
 
 
 class CFunctions:

@@ -7,7 +7,7 @@ import json
 from dataclasses import dataclass
 
 from symid.codegen.cprint import PREAMBLE, Statements
-from symid.codegen.derive import Derived
+from symid.codegen.derive import Derived, derive, lowered
 from symid.codegen.graph import POINT, UNIFORM, Graph
 from symid.codegen.program import Program
 
@@ -66,6 +66,12 @@ def fingerprint(program: Program, graph: Graph, rows: list[int]) -> str:
     symbols = [[str(s) for s in getattr(program, k)] for k in ("local", "shared", "data", "constants")]
     text = repr((FORMAT, symbols, graph.ops, graph.args, rows))
     return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+def generate(program: Program) -> Source:
+    """Derive and print `program`, from nothing but its equations."""
+    graph, rows, variables = lowered(program)
+    return print_source(program, fingerprint(program, graph, rows), derive(graph, rows, variables))
 
 
 def structure(program: Program, derived: Derived) -> dict:
