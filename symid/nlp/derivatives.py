@@ -29,10 +29,15 @@ class DerivativeReport:
     tolerance: float
 
     @property
+    def worst_error(self) -> float:
+        """The largest error of the derivatives that are there."""
+        errors = (self.gradient_error, self.jacobian_error, self.hessian_error)
+        return max(error for error in errors if error is not None)
+
+    @property
     def ok(self) -> bool:
         """Whether every error is below the tolerance."""
-        errors = (self.gradient_error, self.jacobian_error, self.hessian_error)
-        return all(error is None or error < self.tolerance for error in errors)
+        return self.worst_error < self.tolerance
 
     def __str__(self) -> str:
         lines = [f"Derivatives {'agree' if self.ok else 'DISAGREE'} with {self.method}:"]
