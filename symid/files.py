@@ -10,14 +10,14 @@ from pathlib import Path
 import numpy as np
 
 
-def write_atomically(path: str | Path, text: str) -> Path:
-    """Write `text` to a temporary neighbour of `path`, then rename: the old file or the new, never a part."""
+def write_atomically(path: str | Path, content: str | bytes) -> Path:
+    """Write `content` to a temporary neighbour of `path`, then rename: the old file or the new, never a part."""
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
     handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
     try:
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
+        with os.fdopen(handle, "wb") as file:
+            file.write(content.encode() if isinstance(content, str) else content)
         os.chmod(part, 0o666 & ~_umask())
         os.replace(part, path)
     except BaseException:
@@ -34,18 +34,19 @@ def _umask() -> int:
 
 def write_json(path: str | Path, content) -> Path:
     """Write plain types, NumPy numbers and arrays as JSON, atomically; NaN and infinity become null."""
-    return write_atomically(path, json.dumps(_plain(content), indent=1, allow_nan=False) + "\n")
+    return write_atomically(path, json.dumps(plain(content), indent=1, allow_nan=False) + "\n")
 
 
-def _plain(x):
+def plain(x):
+    """`x` as JSON types: NumPy numbers and arrays become Python's, NaN and infinity None."""
     if isinstance(x, dict):
-        return {str(k): _plain(v) for k, v in x.items()}
+        return {str(k): plain(v) for k, v in x.items()}
     if isinstance(x, (list, tuple)):
-        return [_plain(v) for v in x]
+        return [plain(v) for v in x]
     if isinstance(x, np.ndarray):
-        return _plain(x.tolist())
+        return plain(x.tolist())
     if isinstance(x, np.generic):
-        return _plain(x.item())
+        return plain(x.item())
     if isinstance(x, float) and not np.isfinite(x):
         return None
     return x

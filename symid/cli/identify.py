@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import argparse
 import sys
-from contextlib import nullcontext
 
-from symid.cli.options import add_episode_arguments, add_model_arguments, build_model, process_pool
+from symid.cli.options import (
+    add_episode_arguments, add_executor_arguments, add_model_arguments, build_model, chosen_executor,
+)
 
 SUMMARY = "identify the parameters of a model from a recording"
 
@@ -22,7 +23,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="1: one start made from the recording (default); more: K random starts")
     parser.add_argument("--scheme", default="midpoint",
                         help="midpoint, backward_euler, trapezoid or hermite_simpson (default: midpoint)")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes for the starts (default: 1)")
+    add_executor_arguments(parser)
     parser.add_argument("--max-iterations", type=int, default=3000, metavar="N", help="of each solve (default: 3000)")
     parser.add_argument("--json", metavar="OUT.json", help="write everything as JSON")
     parser.add_argument("--report", metavar="OUT.html", help="write a report with figures")
@@ -39,8 +40,8 @@ def run(arguments: argparse.Namespace) -> int:
     noise = {"torque": arguments.noise} if arguments.episodes > 1 else {}
     problem = Identification(model, read_recording(arguments.recording), arguments.window, scheme=scheme,
                              episodes=Episodes(arguments.episodes, seed=arguments.seed, **noise))
-    with process_pool(min(arguments.jobs, arguments.starts)) or nullcontext() as executor:
-        solution = problem.solve(arguments.starts, seed=arguments.seed, executor=executor,
+    with chosen_executor(min(arguments.jobs, arguments.starts), arguments.cluster) as executor:
+        solution = problem.solve(arguments.starts, seed=arguments.seed, executor=executor, store=arguments.store,
                                  on_iteration=_progress if arguments.starts == 1 else None,
                                  on_start=_tell_start if arguments.starts > 1 else None,
                                  max_iterations=arguments.max_iterations)

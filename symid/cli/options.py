@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import os
-from concurrent.futures import Executor, ProcessPoolExecutor
-from multiprocessing import get_context
+from concurrent.futures import Executor
+from contextlib import AbstractContextManager, nullcontext
 
 from symid.errors import ModelError
 
@@ -35,10 +34,17 @@ def build_model(body: str, controller: str):
     return mechanics.DoubleLinkPendulum.from_json(body).with_feedback(laws[controller]())
 
 
-def process_pool(jobs: int) -> Executor | None:
-    """`jobs` local processes of one thread each, or None for this process alone."""
-    if jobs <= 1:
-        return None
-    for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
-    return ProcessPoolExecutor(jobs, mp_context=get_context("spawn"))
+def add_executor_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes for the solves (default: 1)")
+    parser.add_argument("--cluster", metavar="ADDRESS",
+                        help="solve on the workers of the dask scheduler there, tcp://HOST:PORT (needs symid[dask])")
+    parser.add_argument("--store", metavar="DIRECTORY",
+                        help="keep each finished solve there; the same command again resumes after a kill")
+
+
+def chosen_executor(jobs: int, cluster: str | None) -> AbstractContextManager[Executor | None]:
+    """A cluster, or `jobs` local processes, or None for this process alone; to be used in a with statement."""
+    from symid.identification import Cluster, LocalPool
+    if cluster is not None:
+        return Cluster(cluster)
+    return LocalPool(jobs) if jobs > 1 else nullcontext()

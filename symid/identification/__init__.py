@@ -1,6 +1,8 @@
 """Identification: from a model and recordings to named parameters with their errors."""
 
+from symid.identification.pool import Cluster, LocalPool
 from symid.identification.problem import Identification
 from symid.identification.solution import Solution, StartRow
+from symid.identification.study import Finished, Solve, Study, StudyResult
 
-__all__ = ["Identification", "Solution", "StartRow"]
+__all__ = ["Cluster", "Finished", "Identification", "LocalPool", "Solution", "Solve", "StartRow", "Study", "StudyResult"]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from scipy import sparse
-from scipy.signal import fftconvolve
 from scipy.sparse.linalg import splu
 
 from symid.ipopt_solver import SolverResult
@@ -75,6 +74,7 @@ def _influence(t: Transcription, episode: int, response: np.ndarray, slopes: np.
 
 def _coloured(influence: np.ndarray, error: np.ndarray) -> np.ndarray:
     """(q, q) influence' R influence, with R the tapered autocovariance of `error` at all lags."""
+    from scipy.signal import fftconvolve  # here and not at the top: takes half the time that a worker needs to start
     samples, channels = error.shape
     lags = samples // 4
     taper = 1 - np.arange(-lags, lags + 1) / (lags + 1) * np.sign(np.arange(-lags, lags + 1))

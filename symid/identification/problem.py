@@ -5,14 +5,17 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 
 from symid.errors import TranscriptionError
-from symid.identification.solution import Solution, StartRow, build_solution
+from symid.identification.identity import problem_identity
+from symid.identification.solution import Solution, StartRow
 from symid.identification.starts import default_start, given_start, random_start
+from symid.identification.study import Solve, Study, start_kinds
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model
 from symid.recording import Recording
@@ -56,7 +59,9 @@ class Identification:
         many = self.recordings if isinstance(self.recordings, Sequence) else (self.recordings,)
         object.__setattr__(self, "recordings", tuple(many))
 
-    def _windows(self) -> list[tuple[float, float] | None]:
+    @property
+    def windows(self) -> list[tuple[float, float] | None]:
+        """One window for each recording; None for all of it."""
         if self.window is None or isinstance(self.window[0], (int, float)):
             return [self.window] * len(self.recordings)
         if len(self.window) != len(self.recordings):
@@ -70,17 +75,30 @@ class Identification:
         if not self.model.outputs:
             raise TranscriptionError(f"model '{self.model.name}' has no Output: declare what the recording shows")
         began = time.perf_counter()
-        measured = [measure(self.model, r, w) for r, w in zip(self.recordings, self._windows(), strict=True)]
+        measured = [measure(self.model, r, w) for r, w in zip(self.recordings, self.windows, strict=True)]
         made = transcribe(self.model, measured, self.scheme, self.episodes, self.weights, self.per_recording, self.backend)
         made.seconds["build"] = time.perf_counter() - began
         return made
 
-    def start(self, kind: str | dict[str, float] | Solution = "default", seed: int = 0, number: int = 0) -> np.ndarray:
+    @cached_property
+    def identity(self) -> dict[str, str]:
+        """Fingerprints of what determines the numbers, see `identification.identity`."""
+        return problem_identity(self)
+
+    def __getstate__(self) -> dict:
+        """Pickled without the transcription, which is larger than the recording and quickly made again."""
+        return {f.name: getattr(self, f.name) for f in fields(self)}
+
+    def start(self, kind: str | dict[str, float] | np.ndarray | Solution = "default", seed: int = 0,
+              number: int = 0) -> np.ndarray:
         """A free vector to start from.
 
         kind : "default" (made from the recording), "random" (recorded motion, parameters uniform
-            within their bounds), parameter values by name, or a Solution of a similar problem.
+            within their bounds), parameter values by name, a Solution of a similar problem, or a
+            free vector as it is.
         """
+        if isinstance(kind, np.ndarray):
+            return kind
         if kind == "default":
             return default_start(self.transcription)
         if kind == "random":
@@ -94,7 +112,8 @@ class Identification:
         return solve_nlp(nlp, on_iteration=on_iteration, warm_start=warm_start, **solver)
 
     def solve(self, starts: int = 1, *, start: str | dict[str, float] | Solution = "default", seed: int = 0,
-              executor: Executor | None = None, on_iteration: Callable[[Iteration], bool | None] | None = None,
+              executor: Executor | None = None, store: str | Path | None = None,
+              on_iteration: Callable[[Iteration], bool | None] | None = None,
               on_start: Callable[[StartRow], None] | None = None, **solver) -> Solution:
         """Solve from one start or from many, and return the best solution found.
 
@@ -103,45 +122,27 @@ class Identification:
         starts : 1 for the start that `start` describes; more for that many random starts.
         start : see `start()`; used where `starts` is 1.
         seed : of the random starts; start number k does not depend on how many there are.
-        executor : any concurrent.futures executor for the random starts; this process by default.
-        on_iteration, on_start : called after every iteration and every finished start.
+        executor : any concurrent.futures executor, or a `distributed.Client`, as for `Study.run`;
+            this process by default.
+        store : directory that keeps every finished start; solving again resumes.
+        on_iteration : called after every iteration of a start in this process.
+        on_start : called after every finished start.
         solver : options for `symid.ipopt_solver.solve_nlp`, for instance ``max_iterations``.
 
         Returns
         -------
         Solution
             Also where Ipopt gave up: look at `solution.solved` and `solution.message`.
+
+        Raises
+        ------
+        SymidError
+            If no start gave a result, or `store` belongs to another study or cannot be written.
         """
-        if starts < 1 or int(starts) != starts:
-            raise TranscriptionError(f"starts={starts}: give a whole number of at least 1")
-        kinds = [(start, 0)] if starts == 1 else [("random", k) for k in range(starts)]
-        run = (_run_here if executor is None else _run_on(executor))
-        results, rows = [], []
-        for row, result in run(self, kinds, seed, on_iteration, solver):
-            rows.append(row)
-            results.append(result)
-            if on_start is not None:
-                on_start(row)
-        best = min(range(len(results)), key=lambda k: (not results[k].solved, results[k].objective))
-        return build_solution(self, results[best], tuple(rows), best)
-
-
-def _one_start(problem: Identification, kind, number: int, seed: int, on_iteration, solver):
-    began = time.perf_counter()
-    z = problem.start(kind, seed, number)
-    at_start = time.perf_counter() - began
-    result = problem.solve_from(z, on_iteration=on_iteration, **solver)
-    return StartRow.of(problem.transcription, result, kind, number, at_start), result
-
-
-def _run_here(problem, kinds, seed, on_iteration, solver):
-    for kind, number in kinds:
-        yield _one_start(problem, kind, number, seed, on_iteration, solver)
-
-
-def _run_on(executor: Executor):
-    def run(problem, kinds, seed, on_iteration, solver):
-        futures = [executor.submit(_one_start, problem, kind, number, seed, None, solver) for kind, number in kinds]
-        for future in futures:
-            yield future.result()
-    return run
+        self.transcription  # noqa: B018 - a problem that cannot be transcribed is refused before any start
+        study = Study({f"start {k + 1}": Solve(self, kind, k, seed, solver)
+                       for k, kind in enumerate(start_kinds(starts, start))}, store)
+        on_finished = None if on_start is None else lambda finished: on_start(finished.row)
+        if executor is None:
+            return study.run_here(on_finished, on_iteration).best()
+        return study.run(executor, on_finished=on_finished).best()

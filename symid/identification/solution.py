@@ -28,7 +28,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class StartRow:
-    """One start and how it ended: RMS over all outputs in their SI unit (rad for angles)."""
+    """One start and how it ended: RMS over all outputs in their SI unit (rad for angles).
+
+    `status` is Ipopt's, or "failed" (symid refused, `message` says why), or "lost" (its worker died).
+    """
 
     number: int
     kind: str
@@ -39,6 +42,7 @@ class StartRow:
     iterations: int
     seconds: float
     parameters: dict[str, float]
+    message: str = ""
 
     @classmethod
     def of(cls, t: Transcription, result: SolverResult, kind, number: int, at_start: float) -> StartRow:
@@ -46,7 +50,13 @@ class StartRow:
         values = dict(zip(t.layout.parameter_names, map(float, t.layout.parameters(result.z)), strict=True))
         return cls(number=number, kind=kind if isinstance(kind, str) else "given", solved=result.solved,
                    status=result.status_name, objective=result.objective, rms=float(np.sqrt(np.mean(error**2))),
-                   iterations=result.iterations, seconds=result.seconds["total"] + at_start, parameters=values)
+                   iterations=result.iterations, seconds=result.seconds["total"] + at_start, parameters=values,
+                   message=result.message)
+
+    @classmethod
+    def without_result(cls, status: str, kind, number: int, message: str) -> StartRow:
+        return cls(number=number, kind=kind if isinstance(kind, str) else "given", solved=False, status=status,
+                   objective=np.nan, rms=np.nan, iterations=0, seconds=0.0, parameters={}, message=message)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,0 +1,75 @@
+"""What determines the numbers that a solve will give, as short fingerprints by part."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
+from importlib.metadata import version
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symid.model import Model
+from symid.recording import Recording
+
+if TYPE_CHECKING:
+    from symid.identification.problem import Identification
+
+
+def digest(*things) -> str:
+    """16 hexadecimal digits that change with any value in `things`, and are the same in every process."""
+    total = hashlib.sha256()
+    for thing in things:
+        _feed(total, thing)
+    return total.hexdigest()[:16]
+
+
+def _feed(total, thing) -> None:
+    """Add one value and what it contains, each behind its kind and size, so that no two read alike."""
+    if isinstance(thing, np.generic):
+        thing = thing.item()
+    if isinstance(thing, np.ndarray):
+        total.update(f"array {thing.dtype} {thing.shape} ".encode())
+        total.update(np.ascontiguousarray(thing).tobytes())
+    elif isinstance(thing, Mapping):
+        _feed(total, sorted(thing.items()))
+    elif isinstance(thing, (tuple, list)):
+        total.update(f"sequence {len(thing)} ".encode())
+        for part in thing:
+            _feed(total, part)
+    elif is_dataclass(thing):
+        _feed(total, (type(thing).__name__, {f.name: getattr(thing, f.name) for f in fields(thing)}))
+    else:
+        text = repr(thing).encode()
+        total.update(f"{type(thing).__name__} {len(text)} ".encode() + text)
+
+
+def problem_identity(problem: Identification) -> dict[str, str]:
+    """Part of the problem in words -> fingerprint of it.
+
+    Two problems with the same parts have the same solutions from the same start; names of
+    recordings and models, and what was done to a recording before, do not matter.
+    """
+    return {
+        "equations": problem.model.fingerprint,
+        "constants, bounds or channels": digest(_declared(problem.model)),
+        "recordings": digest([_samples(r) for r in problem.recordings]),
+        "window": digest(problem.windows),
+        "scheme": digest(problem.scheme),
+        "episodes": digest(problem.episodes),
+        "weights": digest(problem.weights),
+        "per_recording": digest(tuple(problem.per_recording)),
+        "backend": problem.backend,
+        "version of symid": version("symid"),
+    }
+
+
+def _declared(model: Model) -> list[tuple]:
+    """Numbers, units and channels of all parts; the expressions are in the model's own fingerprint."""
+    said = ("value", "bounds", "guess", "unit", "channel")
+    return [(name, {k: getattr(part, k) for k in said if hasattr(part, k)}) for name, part in model.components.items()]
+
+
+def _samples(recording: Recording) -> tuple:
+    return (recording.time, dict(recording.channels), dict(recording.units), recording.segment)

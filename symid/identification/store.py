@@ -1,0 +1,157 @@
+"""A study's directory: every finished solve in two small files, written when it finishes.
+
+``study.json`` says which solves belong to the study and what determines each. ``<key>.npz`` holds
+the arrays of one solve, ``<key>.json`` the rest, with the checksums of both. The JSON is written
+last: where it is there and its checksums are right, the solve is whole.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import zipfile
+from collections.abc import Mapping
+from dataclasses import asdict, fields
+from pathlib import Path
+
+import numpy as np
+
+from symid.errors import SolveError
+from symid.files import plain, write_atomically, write_json
+from symid.identification.solution import StartRow
+from symid.identification.worker import Outcome
+from symid.ipopt_solver import SolverResult, WorstConstraint
+
+FORMAT = "symid study 1"
+ARRAYS = tuple(f.name for f in fields(SolverResult) if "ndarray" in str(f.type))
+
+
+class StudyDirectory:
+    """Outcomes by key, on disk: `get`, `[]` and `[]=` as of a dictionary.
+
+    Parameters
+    ----------
+    path : made if it is not there.
+    identities : name of each solve -> part -> fingerprint, with the solve's own under "key".
+
+    Raises
+    ------
+    SolveError
+        The directory belongs to another study, was written in another format, or cannot be written.
+    """
+
+    def __init__(self, path: str | Path, identities: Mapping[str, Mapping[str, str]]):
+        self.path = Path(path)
+        known = self._read_register()
+        _refuse_other_study(self.path, known, identities)
+        if not known.keys() >= identities.keys():
+            self._write(lambda: write_json(self.path / "study.json",
+                                           {"format": FORMAT, "solves": known | dict(identities)}))
+
+    def _read_register(self) -> dict:
+        file = self.path / "study.json"
+        try:
+            register = json.loads(file.read_text(encoding="utf-8"))
+            found = register["format"]
+        except FileNotFoundError:
+            if self.path.is_dir() and any(f.suffix != ".part" for f in self.path.iterdir()):
+                raise SolveError(f"{self.path} holds other files and no study.json: give an empty or new directory "
+                                 "for the study") from None
+            return {}
+        except NotADirectoryError:
+            raise SolveError(f"{self.path} is a file: give a directory for the study") from None
+        except (ValueError, KeyError, TypeError) as damage:
+            raise SolveError(f"{file} is damaged ({damage}): give another directory for the study") from None
+        if found != FORMAT:
+            raise SolveError(f"{file} has the format '{found}', and this version of symid reads '{FORMAT}': give "
+                             "another directory, or use the version that wrote it")
+        return register["solves"]
+
+    def _write(self, act) -> None:
+        try:
+            act()
+        except OSError as problem:
+            raise SolveError(f"the study cannot write to {self.path} ({problem.strerror}); what was finished before is "
+                             "kept: make room or give the right to write, and run the study again") from problem
+
+    def __setitem__(self, key: str, outcome: Outcome) -> None:
+        content, arrays = _taken_apart(outcome)
+        content["sha256"] = {"content": _sha256(_text(content)), "arrays": _sha256(arrays)}
+
+        def both():
+            write_atomically(self.path / f"{key}.npz", arrays)
+            write_json(self.path / f"{key}.json", content)
+        self._write(both)
+
+    def get(self, key: str) -> Outcome | None:
+        """The outcome as it was put in; None where there is none or a file of it is damaged."""
+        try:
+            content = json.loads((self.path / f"{key}.json").read_text(encoding="utf-8"))
+            arrays = (self.path / f"{key}.npz").read_bytes()
+            sums = content.pop("sha256")
+            whole = sums == {"content": _sha256(_text(content)), "arrays": _sha256(arrays)}
+            return _put_together(content, arrays) if whole else None
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, zipfile.BadZipFile):
+            return None
+
+    def __getitem__(self, key: str) -> Outcome:
+        outcome = self.get(key)
+        if outcome is None:
+            raise SolveError(f"{self.path / key}.json or .npz was removed or damaged: run the study again, which "
+                             "repeats this solve alone")
+        return outcome
+
+
+def _refuse_other_study(path: Path, known: Mapping, wanted: Mapping) -> None:
+    if known and not known.keys() & wanted.keys():
+        raise SolveError(f"{path} belongs to another study: it has the solves {_some(known)}, and not {_some(wanted)}. "
+                         "Give another directory")
+    for name in known.keys() & wanted.keys():
+        if known[name]["key"] != wanted[name]["key"]:
+            parts = [p for p in wanted[name] if p != "key" and known[name].get(p) != wanted[name][p]]
+            raise SolveError(f"{path} belongs to another study: its solve '{name}' differs in {' and '.join(parts)}. "
+                             "Give another directory, or the problem as it was")
+
+
+def _some(names) -> str:
+    names = list(names)
+    return ", ".join(f"'{n}'" for n in names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+
+
+def _taken_apart(outcome: Outcome) -> tuple[dict, bytes]:
+    """JSON content and the bytes of an npz file."""
+    content, arrays, result = {"format": FORMAT, "row": asdict(outcome.row), "result": None}, {}, outcome.result
+    if result is not None:
+        arrays = {name: getattr(result, name) for name in ARRAYS}
+        content["result"] = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ARRAYS}
+        if result.worst_constraint is not None:
+            content["result"]["worst_constraint"] = asdict(result.worst_constraint)
+    file = io.BytesIO()
+    np.savez(file, **arrays)
+    return plain(content), file.getvalue()
+
+
+def _put_together(content: dict, arrays: bytes) -> Outcome:
+    row = StartRow(**_with_nan(content["row"], StartRow))
+    values = content["result"]
+    if values is None:
+        return Outcome(row)
+    worst = values["worst_constraint"]
+    values["worst_constraint"] = None if worst is None else WorstConstraint(**_with_nan(worst, WorstConstraint))
+    with np.load(io.BytesIO(arrays), allow_pickle=False) as file:
+        return Outcome(row, SolverResult(**_with_nan(values, SolverResult), **{name: file[name] for name in ARRAYS}))
+
+
+def _with_nan(values: dict, kind: type) -> dict:
+    """JSON has no NaN: a number that is null was one."""
+    numbers = {f.name for f in fields(kind) if f.type in ("float", float)}
+    return {k: np.nan if v is None and k in numbers else v for k, v in values.items()}
+
+
+def _text(content: dict) -> bytes:
+    return json.dumps(content, sort_keys=True).encode()
+
+
+def _sha256(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()

@@ -1,0 +1,316 @@
+"""Studies: many independent solves on any executor, kept as they finish, resumed after a kill."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
+from contextlib import nullcontext
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pandas as pd
+
+from symid.errors import SolveError, SymidError
+from symid.identification.identity import digest
+from symid.identification.pool import Cluster, LocalPool, WorkerDied
+from symid.identification.solution import Solution, StartRow, build_solution
+from symid.identification.store import StudyDirectory
+from symid.identification.worker import Outcome, pack, solve_here, solve_packed
+from symid.ipopt_solver import Iteration
+
+if TYPE_CHECKING:
+    from symid.identification.problem import Identification
+
+ATTEMPTS = 2  # a worker may be killed by chance once
+
+
+@dataclass(frozen=True, eq=False)
+class Solve:
+    """One problem from one start.
+
+    Parameters
+    ----------
+    problem : what is solved.
+    start : as for `Identification.start`.
+    number, seed : of a random start.
+    options : for `symid.ipopt_solver.solve_nlp`.
+    labels : what this solve is called in the study's table, column -> value.
+    """
+
+    problem: Identification
+    start: str | dict[str, float] | np.ndarray | Solution = "default"
+    number: int = 0
+    seed: int = 0
+    options: Mapping = field(default_factory=dict)
+    labels: Mapping = field(default_factory=dict)
+
+    def __post_init__(self):
+        if isinstance(self.start, Solution):  # what a worker needs of it is the free vector alone
+            object.__setattr__(self, "start", self.problem.start(self.start))
+
+    @cached_property
+    def identity(self) -> dict[str, str]:
+        """Part -> fingerprint; "key" is that of all of them, and the name of the solve's files."""
+        parts = self.problem.identity | {
+            "start": digest(self.start), "number of the start": str(self.number), "seed": str(self.seed),
+            "solver options": digest(self.options)}
+        return {"key": digest(parts)} | parts
+
+    @property
+    def key(self) -> str:
+        return self.identity["key"]
+
+
+@dataclass(frozen=True)
+class Finished:
+    """Progress: the solve that has just ended, and how many of all have."""
+
+    name: str
+    row: StartRow
+    done: int
+    total: int
+
+
+def tell(finished: Finished) -> None:
+    """Print one line of progress on stderr."""
+    row, width = finished.row, len(str(finished.total))
+    how = row.message if row.status in ("failed", "lost") else (
+        f"objective {row.objective:.6g}  {row.iterations} iterations  {row.seconds:.1f} s")
+    count = f"{finished.done:{width}d}/{finished.total}"
+    print(f"{count}  {finished.name}  {row.status}  {how}", file=sys.stderr, flush=True)
+
+
+class Study:
+    """Independent solves, by name.
+
+    Parameters
+    ----------
+    solves : name -> Solve.
+    store : directory that keeps every finished solve, so that running the study again after a
+        kill goes on where it was. A study with more solves may use the same directory; one
+        whose solves of the same names differ is refused. None keeps the results in memory.
+
+    Raises
+    ------
+    SolveError
+        There are no solves, or the directory belongs to another study or cannot be written.
+    """
+
+    def __init__(self, solves: Mapping[str, Solve], store: str | Path | None = None):
+        self.solves = dict(solves)
+        if not self.solves:
+            raise SolveError("a study needs at least one solve")
+        self._store = {} if store is None else StudyDirectory(store, {n: s.identity for n, s in self.solves.items()})
+
+    @classmethod
+    def product(cls, problems: Mapping[str | tuple, Identification], starts: int = 10, seed: int = 0, *,
+                labels: Sequence[str] = ("problem",), store: str | Path | None = None, **options) -> Study:
+        """Every problem from every start, as `Identification.solve` makes them.
+
+        Parameters
+        ----------
+        problems : label -> problem; a label of several words is a tuple, ``("PD", 3)``.
+        starts : 1 for the start made from the recording, more for that many random starts.
+        labels : what the words of the labels are called: ``("controller", "episodes")``.
+        options : for `symid.ipopt_solver.solve_nlp`.
+        """
+        solves = {}
+        for label, problem in problems.items():
+            words = label if isinstance(label, tuple) else (label,)
+            if len(words) != len(labels):
+                raise SolveError(f"study: the problem {label!r} has {len(words)} labels, and {len(labels)} were named: "
+                                 f"{', '.join(labels)}")
+            named = dict(zip(labels, words, strict=True))
+            solves |= {"/".join(map(str, (*words, number))): Solve(problem, start, number, seed, options, named)
+                       for number, start in enumerate(start_kinds(starts))}
+        return cls(solves, store)
+
+    def run(self, executor: Executor | None = None, *, jobs: int | None = None,
+            on_finished: Callable[[Finished], None] | None = tell) -> StudyResult:
+        """Do what is not done yet.
+
+        Parameters
+        ----------
+        executor : any concurrent.futures executor, or a `distributed.Client`; `LocalPool(jobs)` by
+            default. The numbers do not depend on it.
+        jobs : local processes where there is no executor; one for each processor by default.
+        on_finished : called after every solve; prints a line on stderr by default.
+
+        Returns
+        -------
+        StudyResult
+            With a row for every solve, also those that failed or were lost with their worker.
+
+        Raises
+        ------
+        SolveError
+            A result cannot be written, or worker processes cannot start. What was finished is kept.
+        """
+        if executor is not None and not isinstance(executor, Executor) and hasattr(executor, "get_executor"):
+            executor = Cluster(executor)
+        with LocalPool(jobs) if executor is None else nullcontext(executor) as chosen:
+            return self._collect(self.outcomes(chosen), on_finished)
+
+    def run_here(self, on_finished: Callable[[Finished], None] | None = tell,
+                 on_iteration: Callable[[Iteration], bool | None] | None = None) -> StudyResult:
+        """`run` in this process, one solve after the other; `on_iteration` sees every iteration."""
+        return self._collect(self.outcomes(None, on_iteration), on_finished)
+
+    def outcomes(self, executor: Executor | None, on_iteration=None) -> Iterator[tuple[str, StartRow]]:
+        """Names and rows of all solves as they finish, those of earlier runs first."""
+        names: dict[str, list[str]] = {}
+        for name, solve in self.solves.items():
+            names.setdefault(solve.key, []).append(name)
+        todo = {}
+        for key, same in names.items():
+            earlier = self._store.get(key)
+            if earlier is not None and earlier.finished:
+                yield from ((name, earlier.row) for name in same)
+            else:
+                todo[key] = self.solves[same[0]]
+        ended = _in_turn(todo, on_iteration) if executor is None else _on_executor(todo, executor)
+        for key, outcome in ended:
+            self._store[key] = outcome
+            yield from ((name, outcome.row) for name in names[key])
+
+    def _collect(self, outcomes: Iterator[tuple[str, StartRow]], on_finished) -> StudyResult:
+        rows = {}
+        for name, row in outcomes:
+            rows[name] = row
+            if on_finished is not None:
+                on_finished(Finished(name, row, len(rows), len(self.solves)))
+        return StudyResult(self.solves, {name: rows[name] for name in self.solves}, self._store)
+
+    def __repr__(self) -> str:
+        return f"<Study of {len(self.solves)} solves>"
+
+
+def start_kinds(starts: int, start="default") -> list:
+    """`start` alone, or (several starts) as many random ones."""
+    if starts < 1 or int(starts) != starts:
+        raise SolveError(f"starts={starts}: give a whole number of at least 1")
+    return [start] if starts == 1 else ["random"] * int(starts)
+
+
+@dataclass(frozen=True, eq=False)
+class StudyResult:
+    """How every solve of a study ended.
+
+    Attributes
+    ----------
+    solves, rows : by name, in the study's order.
+    """
+
+    solves: Mapping[str, Solve]
+    rows: Mapping[str, StartRow]
+    _store: MutableMapping[str, Outcome]
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """One row per solve: labels, number, kind, solved, status, objective, rms [SI], rms_deg (angles
+        only), iterations, seconds, message, and every parameter [SI] in a column of its name."""
+        records = []
+        for name, row in self.rows.items():
+            solve = self.solves[name]
+            angles = all(y.unit == "rad" for y in solve.problem.model.outputs.values())
+            said = {k: getattr(row, k) for k in ("number", "kind", "solved", "status", "objective", "rms")}
+            records.append(dict(solve.labels) | said | {"rms_deg": np.rad2deg(row.rms) if angles else np.nan}
+                           | {k: getattr(row, k) for k in ("iterations", "seconds", "message")} | row.parameters)
+        return pd.DataFrame(records, index=pd.Index(self.rows, name="solve"))
+
+    @property
+    def complete(self) -> bool:
+        """Whether every solve ran to an end; if not, running the study again repeats the lost ones."""
+        return all(row.status != "lost" for row in self.rows.values())
+
+    def best(self, **labels) -> Solution:
+        """The best solution of the one problem that these labels leave.
+
+        Raises
+        ------
+        SolveError
+            They leave no solve or several problems, or no solve has a result.
+        """
+        names = [n for n, s in self.solves.items() if labels.items() <= dict(s.labels).items()]
+        problems = {digest(self.solves[n].problem.identity) for n in names}
+        if len(problems) != 1:
+            known = sorted({f"{k}={v!r}" for s in self.solves.values() for k, v in s.labels.items()})
+            asked = ", ".join(f"{k}={v!r}" for k, v in labels.items())
+            raise SolveError(f"best({asked}): {len(problems)} problems of the study have these labels, and only solves of "
+                             f"one problem compare; its labels: {', '.join(known)}")
+        rows = [self.rows[n] for n in names]
+        place = min(range(len(rows)), key=lambda i: (not rows[i].solved, np.nan_to_num(rows[i].objective, nan=np.inf)))
+        outcome = self._store[self.solves[names[place]].key]
+        if outcome.result is None:
+            raise SolveError(f"none of {len(rows)} starts gave a result; the first says: {rows[0].message}"
+                             if len(rows) > 1 else rows[0].message)
+        return build_solution(self.solves[names[0]].problem, outcome.result, tuple(rows), place)
+
+    def __repr__(self) -> str:
+        ended = pd.Series([row.status for row in self.rows.values()]).value_counts()
+        return f"<StudyResult of {len(self.rows)} solves: " + ", ".join(f"{n} {s}" for s, n in ended.items()) + ">"
+
+    def _repr_html_(self) -> str:
+        return self.table.to_html(float_format=lambda x: f"{x:.5g}", border=0)
+
+
+def _in_turn(todo: Mapping[str, Solve], on_iteration) -> Iterator[tuple[str, Outcome]]:
+    for key, solve in todo.items():
+        yield key, solve_here(solve, on_iteration)
+
+
+def _on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple[str, Outcome]]:
+    """Outcomes as they come; a solve whose worker died is sent once more."""
+    packed: dict[int, object] = {}
+    running: dict[Future, str] = {}
+    attempts = dict.fromkeys(todo, 0)
+
+    def send(key: str) -> Future | None:
+        solve = todo[key]
+        if id(solve.problem) not in packed:
+            packed[id(solve.problem)] = getattr(executor, "share", lambda same: same)(pack(solve.problem))
+        attempts[key] += 1
+        running[executor.submit(solve_packed, packed[id(solve.problem)], replace(solve, problem=None))] = key
+
+    try:
+        waiting = list(reversed(todo))
+        while waiting or running:
+            while waiting:
+                key = waiting.pop()
+                try:
+                    send(key)
+                except BrokenExecutor as broken:
+                    yield key, _lost(todo[key], broken)
+            ended, _ = wait(running, return_when=FIRST_COMPLETED)
+            for future in ended:
+                key, error = running.pop(future), _error(future)
+                if error is None:
+                    yield key, future.result()
+                elif isinstance(error, SymidError):  # from the executor: a solve catches its own
+                    raise error
+                elif isinstance(error, BrokenExecutor) and attempts[key] < ATTEMPTS:
+                    waiting.append(key)
+                else:
+                    yield key, _lost(todo[key], error)
+    finally:
+        for future in running:
+            future.cancel()
+
+
+def _error(future: Future) -> BaseException | None:
+    return CancelledError("its executor gave it up") if future.cancelled() else future.exception()
+
+
+def _lost(solve: Solve, error: BaseException) -> Outcome:
+    if isinstance(error, WorkerDied):
+        said = f"its worker {error}, {ATTEMPTS} times; does the machine have memory enough?"
+    elif isinstance(error, BrokenExecutor):
+        said = f"its executor broke ({error}); a LocalPool survives its workers."
+    else:
+        said = f"{type(error).__name__}: {error}."
+    said += " Run the study again to repeat it"
+    return Outcome(StartRow.without_result("lost", solve.start, solve.number, said))
