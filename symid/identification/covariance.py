@@ -53,16 +53,21 @@ def _parameter_rows_of_inverse(t: Transcription, result: SolverResult, at_bound:
     p, n = t.program, t.layout.size
     values = p.hessian(result.z, result.multipliers, 1.0)
     lower = sparse.coo_matrix((values, (p.hessian_rows, p.hessian_cols)), shape=(n, n))
-    hessian = lower + lower.T - sparse.diags(lower.diagonal())
-    jacobian = sparse.coo_matrix((p.jacobian(result.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, n))
-    move = sparse.diags((~at_bound).astype(float))
-    hessian = move @ hessian @ move + sparse.diags(at_bound.astype(float))
-    jacobian = jacobian @ move
-    kkt = sparse.block_array([[hessian, jacobian.T], [jacobian, None]], format="csc")
-    wanted = t.layout.offsets[-1] + np.flatnonzero(~at_bound[t.layout.offsets[-1]:])
-    unit = np.zeros((n + p.rows, len(wanted)))
-    unit[wanted, np.arange(len(wanted))] = 1.0
-    return splu(kkt, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}, diag_pivot_thresh=0.01).solve(unit)[:n]
+    hessian = (lower + lower.T - sparse.diags(lower.diagonal())).tocsr()
+    jacobian = sparse.coo_matrix((p.jacobian(result.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, n)).tocsc()
+    first, keep = t.layout.offsets[-1], np.flatnonzero(~at_bound)
+    states, parameters = keep[keep < first], keep[keep >= first]
+    inner = sparse.block_array([[hessian[states][:, states], jacobian[:, states].T], [jacobian[:, states], None]],
+                               format="csc")
+    border = sparse.vstack([hessian[states][:, parameters], jacobian[:, parameters]]).toarray()
+    # The parameters touch every interval. Without them what is left is a band along time, which
+    # factorises quickly; they come back through their Schur complement.
+    solved = splu(inner, permc_spec="COLAMD").solve(border)
+    own = np.linalg.inv(hessian[parameters][:, parameters].toarray() - border.T @ solved)
+    response = np.zeros((n, len(parameters)))
+    response[parameters] = own
+    response[states] = -(solved @ own)[:len(states)]
+    return response
 
 
 def _influence(t: Transcription, episode: int, response: np.ndarray, slopes: np.ndarray) -> np.ndarray:
