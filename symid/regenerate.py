@@ -63,7 +63,7 @@ def regenerate(check: bool = False, folder: Path = FOLDER) -> list[str]:
 
 def main(argv: list[str] | None = None) -> int:
     """``symid regenerate [--check]``: 0 when all is current, 1 when `--check` finds otherwise."""
-    parser = argparse.ArgumentParser(prog="symid regenerate", description="Rewrite the C sources of the shipped models.")
+    parser = argparse.ArgumentParser(prog="symid regenerate", description="Rewrite the sources of the shipped models.")
     parser.add_argument("--check", action="store_true", help="write nothing; exit 1 if a source is not current")
     check = parser.parse_args(argv).check
     try:
@@ -73,8 +73,8 @@ def main(argv: list[str] | None = None) -> int:
               "run it in a checkout that you own", file=sys.stderr)
         return 2
     for name in stale:
-        print(f"{name}: the source in {FOLDER} is not what the equations give; run `symid regenerate`" if check
-              else f"{name}: rewritten")
+        print(f"{name}: " + (f"the source in {FOLDER} is not what the equations give; run `symid regenerate`" if check
+                             else "rewritten"))
     if not stale:
         print("all generated sources are current")
     return 1 if check and stale else 0

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from symid.errors import CodegenError
 
+# -O1 with the vectoriser runs within a tenth of -O2 and -O3 and compiles in half the time.
 # Rounding stays that of the written order (no -ffast-math, no fused multiply-add), so that all
 # backends and machines agree; NaN stays NaN, so that callers can see it.
 FLAGS = ("-O1", "-ftree-vectorize", "-fopenmp-simd", "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros",
@@ -123,24 +124,25 @@ def _spare_folder(cache: Path, problem: OSError) -> Path:
     """A folder that lives as long as this process, with one warning."""
     if not _spare:
         _spare.append(tempfile.TemporaryDirectory(prefix="symid-cache-"))
-        warnings.warn(f"compiled kernels cannot be kept in {cache} ({problem.strerror}), so every process compiles them "
-                      "anew; set SYMID_CACHE_DIR to a folder that can be written", CodegenWarning, stacklevel=2)
+        warnings.warn(f"compiled kernels cannot be kept in {cache} ({problem.strerror}), so every process compiles "
+                      "them anew; set SYMID_CACHE_DIR to a folder that can be written", CodegenWarning, stacklevel=2)
     return Path(_spare[0].name)
 
 
 def _compile(source: str, command: list[str], extra: Sequence[str], target: Path) -> None:
-    """Try the best flags first, then the plain ones that every C compiler knows."""
+    """Compile with the best flags that this compiler takes; the last are plain ones that all know."""
     file = target.with_suffix(".c")
     file.write_text(source)
     native = ("-march=native",)
-    vector = ("-DSYMID_LIBMVEC", "-fno-builtin-sin", "-fno-builtin-cos", "-lmvec")  # sincos has no vector version
-    attempts = [[*FLAGS, *native, *vector], [*FLAGS, *native], ["-O2", "-fPIC", "-shared"]]
+    # The compiler would merge sin and cos of the same angle into sincos, which has no vector version.
+    vector = ("-DSYMID_LIBMVEC", "-fno-builtin-sin", "-fno-builtin-cos")
+    libraries = ["-lmvec", "-lm"]
+    attempts = [[*FLAGS, *native, *vector], [*FLAGS, *native], ["-O2", "-ffp-contract=off", "-fPIC", "-shared"]]
     if not (sys.platform == "linux" and platform.machine() == "x86_64" and platform.libc_ver()[0] == "glibc"):
         attempts = attempts[1:]
     for flags in attempts:
-        arguments = [*command, *(f for f in flags if not f.startswith("-l")), *extra, "-o", str(target), str(file),
-                     *(f for f in flags if f.startswith("-l")), "-lm"]
-        done = _run(arguments)
+        linked = libraries if "-DSYMID_LIBMVEC" in flags else libraries[1:]
+        done = _run([*command, *flags, *extra, "-o", str(target), str(file), *linked])
         if done.returncode == 0:
             return
     raise CodegenError(f"the C compiler {command[0]} failed:\n{done.stderr.strip()[:2000]}")

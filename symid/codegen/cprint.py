@@ -118,4 +118,5 @@ def c_statements(pairs: list[tuple[str, sm.Expr]], names: dict[sm.Symbol, str]) 
     outputs = lower(g, [e for _, e in pairs], leaves)
     text = Statements(g, outputs)
     results = [f"const double r{i} = {text.expression(k)};" for i, k in enumerate(outputs)]
-    return "\n".join([*text.declarations(UNIFORM), *results, *(f"{lvalue} = r{i};" for i, (lvalue, _) in enumerate(pairs))])
+    assignments = [f"{lvalue} = r{i};" for i, (lvalue, _) in enumerate(pairs)]
+    return "\n".join([*text.declarations(UNIFORM), *results, *assignments])

@@ -81,7 +81,7 @@ class Kernel:
         the others are n_local + place among the shared symbols.
     hessian_rows, hessian_cols : (nnz_h,) those of the lower triangle over (local, shared).
     backend : ``"c"`` or ``"numpy"``.
-    seconds : what ``derive``, ``compile`` (0 if it was in the cache) and ``load`` took.
+    seconds : what ``derive``, ``compile`` (little if it was in the cache) and ``load`` took.
     """
 
     def __init__(self, program: Program, wanted: str, structure: dict, functions: CFunctions | NumpyFunctions,
@@ -150,7 +150,8 @@ class Kernel:
             return
         _expect("index", index, shape, dtype=np.dtype(np.int32))
         if index.size and (index.min() < 0 or index.max() >= size):
-            raise CodegenError(f"index points to {index.min()} ... {index.max()}, outside of out, which has {size} values")
+            raise CodegenError(f"index points to {index.min()} ... {index.max()}, outside of out, "
+                               f"which has {size} values")
         self._checked_index = (index, size)
 
 
@@ -205,7 +206,6 @@ class NumpyFunctions:
 
     def run(self, name: str, local, shared, data, constants, multipliers, out, index) -> None:
         n, width = len(local), self._width[name]
-        values = np.empty((n, width)) if name == "hessian_into" else out
         with np.errstate(all="ignore"):  # NaN and infinity are results here, as they are in C
             block = self._functions[name](shared, constants)
             for first in range(0, n, BLOCK):
@@ -213,6 +213,7 @@ class NumpyFunctions:
                 columns = [None if a is None else np.ascontiguousarray(a[part].T) for a in (local, data, multipliers)]
                 value = np.empty((width, part.stop - first))
                 block(*columns, value)
-                values[part] = value.T
-        if name == "hessian_into":
-            out += np.bincount(index.ravel(), values.ravel(), minlength=out.size)
+                if index is None:
+                    out[part] = value.T
+                else:
+                    np.add.at(out, index[part].ravel(), value.T.ravel())

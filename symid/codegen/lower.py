@@ -101,7 +101,7 @@ def _operation(g: Graph, e: sm.Basic, args: list[int]) -> int:
         return g.call("not", *args)
     if e in (sm.true, sm.false):
         return g.one if e else g.zero
-    if kind in FUNCTIONS and len(args) <= 2:
+    if kind in FUNCTIONS:
         return g.call(FUNCTIONS[kind], *args)
     raise CodegenError(
         f"cannot compute {kind}: '{str(e)[:80]}' has no generated code; write it with + - * / **, "
