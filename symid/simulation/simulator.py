@@ -165,6 +165,9 @@ class Simulator:
         call = [self._ode] + [_pointer(v) for v in a.values()] + [ct.c_double(0.0)] + [_pointer(v) for v in out]
         self._loop.linearise(*call)
         mass, rx, rl, rw, hx, hl, lag = out
+        if not np.all(np.isfinite(mass)) or np.linalg.matrix_rank(mass) < n:
+            raise SymidError(f"simulation of '{self.model.name}': the rates cannot be solved for at the state {x}; the mass "
+                             "matrix is singular there")
         late_of = tuple(str(self.model.delays[_late(self.model, y)].of) for y in s.late)
         return Linearised.from_residual(mass, rx, rl, rw, hx, hl, lag, s.states, late_of)
 
