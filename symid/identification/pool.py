@@ -7,11 +7,13 @@ import signal
 import threading
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
-from multiprocessing import connection, get_context, parent_process
+from multiprocessing import connection, current_process, get_context, parent_process
 
 from symid.errors import SolveError
 
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+_NAME = "symid worker"
+_GUARD = "in a script, a study must run under `if __name__ == '__main__':`, because every worker reads the script"
 _SPAWN = get_context("spawn")
 _ENVIRONMENT = threading.Lock()
 
@@ -33,6 +35,8 @@ class LocalPool(Executor):
     """
 
     def __init__(self, jobs: int | None = None):
+        if current_process().name == _NAME:  # a worker reads a script that begins a study
+            raise SolveError(f"a worker process cannot start workers; {_GUARD}")
         self.jobs = jobs or os.cpu_count() or 1
         self._keepers = ThreadPoolExecutor(self.jobs, thread_name_prefix="symid-keeper")
         self._own = threading.local()
@@ -79,7 +83,7 @@ class _Worker:
 
     def __init__(self):
         self.pipe, theirs = _SPAWN.Pipe()
-        self.process = _SPAWN.Process(target=_serve, args=(theirs,), daemon=True, name="symid worker")
+        self.process = _SPAWN.Process(target=_serve, args=(theirs,), daemon=True, name=_NAME)
         with _ENVIRONMENT:  # the libraries read it while the child loads them
             before = {name: os.environ.get(name) for name in ONE_THREAD}
             os.environ.update(ONE_THREAD)
@@ -95,8 +99,7 @@ class _Worker:
             self.process.join()
             if self.process.exitcode < 0:
                 raise WorkerDied(self._end()) from None
-            raise SolveError("worker processes cannot start (what they said stands above). In a script, a study must "
-                             "run under `if __name__ == '__main__':`, because every worker reads the script") from None
+            raise SolveError(f"worker processes cannot start (what they said stands above); {_GUARD}") from None
 
     def call(self, function, arguments):
         try:
