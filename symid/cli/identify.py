@@ -7,6 +7,7 @@ import sys
 
 from symid.cli.options import (
     add_episode_arguments, add_executor_arguments, add_model_arguments, build_model, chosen_executor,
+    show_iteration,
 )
 
 SUMMARY = "identify the parameters of a model from a recording"
@@ -42,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
                              episodes=Episodes(arguments.episodes, seed=arguments.seed, **noise))
     with chosen_executor(min(arguments.jobs, arguments.starts), arguments.cluster) as executor:
         solution = problem.solve(arguments.starts, seed=arguments.seed, executor=executor, store=arguments.store,
-                                 on_iteration=_progress if arguments.starts == 1 else None,
+                                 on_iteration=show_iteration if arguments.starts == 1 else None,
                                  on_start=_tell_start if arguments.starts > 1 else None,
                                  max_iterations=arguments.max_iterations)
     document = solution.to_dict()
@@ -57,13 +58,6 @@ def run(arguments: argparse.Namespace) -> int:
         from symid.report import write_report
         write_report(solution, arguments.report, held_out=document["fit"].get("held_out"))
     return 0 if solution.solved else 1
-
-
-def _progress(iteration) -> None:
-    end = "\r" if sys.stderr.isatty() else ""
-    if end or iteration.number % 10 == 0:
-        print(f"iteration {iteration.number:4d}  objective {iteration.objective:.6g}  infeasibility "
-              f"{iteration.infeasibility:.1e} ", end=end or "\n", file=sys.stderr, flush=True)
 
 
 def _tell_start(row) -> None:

@@ -8,11 +8,13 @@ import warnings
 from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
+from pkgutil import iter_modules
 
+import symid.cli as cli
 from symid.errors import SymidError
 
-# Command -> module with SUMMARY, add_arguments(parser) and run(arguments) -> exit code.
-COMMANDS = ("identify", "simulate", "diagnose", "conceal", "reproduce", "regenerate", "bench", "demo")
+# Every module of this package but these is a command: SUMMARY, add_arguments(parser), run(arguments) -> exit code.
+NOT_COMMANDS = ("__main__", "main", "options")
 SOLVED, NOT_SOLVED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
@@ -33,13 +35,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return INTERRUPTED
 
 
+def command_names() -> list[str]:
+    """The commands, in alphabetical order: one module each."""
+    return sorted(m.name for m in iter_modules(cli.__path__) if m.name not in NOT_COMMANDS)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="symid", description="Identify mechanical systems and their feedback controllers from recordings, "
         "and find the physics that a model left out.")
     parser.add_argument("--version", action="version", version=f"symid {version('symid')}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for name in COMMANDS:
+    for name in command_names():
         module = import_module(f"symid.cli.{name}")
         command = commands.add_parser(name, help=module.SUMMARY, description=module.SUMMARY)
         module.add_arguments(command)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
 
@@ -48,3 +49,11 @@ def chosen_executor(jobs: int, cluster: str | None) -> AbstractContextManager[Ex
     if cluster is not None:
         return Cluster(cluster)
     return LocalPool(jobs) if jobs > 1 else nullcontext()
+
+
+def show_iteration(iteration) -> None:
+    """Progress on stderr: in place on a terminal, every tenth iteration otherwise."""
+    end = "\r" if sys.stderr.isatty() else ""
+    if end or iteration.number % 10 == 0:
+        print(f"iteration {iteration.number:4d}  objective {iteration.objective:.6g}  infeasibility "
+              f"{iteration.infeasibility:.1e} ", end=end or "\n", file=sys.stderr, flush=True)

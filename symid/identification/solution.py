@@ -7,6 +7,7 @@ import sys
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from functools import cached_property
+from importlib import import_module
 from importlib.metadata import version
 from typing import TYPE_CHECKING
 
@@ -204,6 +205,11 @@ class Solution:
         compiled = sum(v for k, v in build.items() if k != "build")
         return {"build": build["build"], "compile": compiled, "functions": spent["functions"],
                 "linear_algebra": spent["solver"], "total": build["build"] + spent["total"]}
+
+    def plot(self):
+        """Figure of the fit over time; more of them in `symid.plots`."""
+        # Drawing stands on the roof, and computing must not need it: fetched by name when asked for.
+        return import_module("symid.plots").plot_fit(self)
 
     def __repr__(self) -> str:
         from symid.identification.show import text

@@ -1,0 +1,157 @@
+"""Figures of a solution. The only file that knows matplotlib.
+
+Each function returns a figure that shows itself in a notebook and has matplotlib's own methods
+(``savefig``). No global state of pyplot is touched.
+"""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from symid.identification import Solution
+from symid.units import known_unit
+
+INK, RECORDED, MODEL, WARN, QUIET = "#222222", "#9a9a9a", "#1f5fa8", "#c0392b", "#d9d9d9"
+DEGREE = np.pi / 180
+
+
+class Picture(Figure):
+    """A figure without pyplot, which a notebook shows as PNG."""
+
+    def png(self, dpi: float = 130) -> bytes:
+        buffer = io.BytesIO()
+        self.savefig(buffer, format="png", dpi=dpi)
+        return buffer.getvalue()
+
+    def _repr_png_(self) -> bytes:
+        return self.png(dpi=90)
+
+
+def plot_fit(solution: Solution, episode: int = 0) -> Picture:
+    """Recorded and modelled outputs of one episode over time, and below each its residual."""
+    frame = solution.trajectories[episode]
+    outputs = solution.model.outputs
+    figure = Picture(figsize=(9, 2.6 * len(outputs) + 0.5), layout="constrained")
+    axes = figure.subplots(2 * len(outputs), 1, sharex=True, squeeze=False, height_ratios=[2.6, 1] * len(outputs))[:, 0]
+    time = frame.index.to_numpy()
+    for (name, output), above, below in zip(outputs.items(), axes[::2], axes[1::2], strict=True):
+        unit, factor = _shown_unit(output.unit)
+        recorded, model = frame[f"{name} recorded"].to_numpy() * factor, frame[name].to_numpy() * factor
+        above.plot(time, recorded, color=RECORDED, lw=1.4, label="recorded")
+        above.plot(time, model, color=MODEL, lw=0.9, label="model")
+        below.axhline(0, color=INK, lw=0.5)
+        below.plot(time, recorded - model, color=WARN, lw=0.6)
+        rms = np.sqrt(np.mean((recorded - model) ** 2))
+        above.set_title(f"{output.channel.replace('_', ' ')}: RMS error {rms:.3g} {unit}", loc="left", fontsize=10)
+        above.set_ylabel(unit)
+        below.set_ylabel(f"residual\n{unit}", fontsize=8)
+        _open(above, below)
+    # Between the title's line and the edge: never on top of the curves.
+    axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize=9, borderaxespad=0.1)
+    axes[-1].set_xlabel("time [s]")
+    axes[-1].set_xlim(time[0], time[-1])
+    figure.align_ylabels(axes)
+    return figure
+
+
+def plot_parameters(solution: Solution, truth: dict[str, float] | None = None) -> Picture:
+    """Parameters with their 95 % intervals, one panel for each unit.
+
+    An interval that would make the others unreadable is cut off and ends in an arrow head; a
+    parameter at a bound is marked, it has no interval.
+
+    Parameters
+    ----------
+    truth : known values [SI] to be shown beside, for a synthetic recording.
+    """
+    groups = list(solution.parameters.groupby("unit", sort=False))
+    rows = [len(table) for _, table in groups]
+    figure = Picture(figsize=(8.5, 0.3 * sum(rows) + 0.75 * len(rows) + 0.3), layout="constrained")
+    panels = figure.subplots(len(rows), 1, squeeze=False, height_ratios=[n + 0.6 for n in rows])[:, 0]
+    for (unit, table), axes in zip(groups, panels, strict=True):
+        _parameter_panel(axes, table, unit, truth or {})
+    return figure
+
+
+def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
+    places = np.arange(len(table))[::-1]
+    value, half = table["value"].to_numpy(), 1.96 * table["std_error"].to_numpy()
+    low, high = _limits(value, half, [truth[k] for k in table.index if k in truth])
+    axes.axvline(0, color=QUIET, lw=1, zorder=0)
+    for name, y, v, h, bound in zip(table.index, places, value, half, table["at_bound"], strict=True):
+        if bound:
+            axes.plot(v, y, "s", mfc="white", mec=WARN, ms=6)
+            text = f"{v:.4g}  at its bound"
+        else:
+            if np.isfinite(h):
+                axes.plot(np.clip([v - h, v + h], low, high), [y, y], color=MODEL, lw=2, solid_capstyle="butt")
+                for end, mark in ((v - h, 8), (v + h, 9)):    # matplotlib's caret markers, left and right
+                    if not low <= end <= high:
+                        axes.plot(np.clip(end, low, high), y, marker=mark, color=MODEL, ms=6, clip_on=False)
+            axes.plot(v, y, "o", color=MODEL, ms=5)
+            text = f"{v:.4g} ± {h / 1.96:.2g}" if np.isfinite(h) else f"{v:.4g}  (no standard error)"
+        if name in truth:
+            axes.plot(truth[name], y, "x", color=INK, ms=7, mew=1.6, zorder=5)
+        axes.annotate(text.replace("-", "\N{MINUS SIGN}"), (1.01, y), xycoords=("axes fraction", "data"), va="center", fontsize=8.5,
+                      color=WARN if bound else INK)
+    axes.set_yticks(places, table.index, fontsize=8.5)
+    axes.set(xlim=(low, high), ylim=(-0.7, len(table) - 0.3))
+    legend = "   ( × true value )" if truth else ""
+    axes.set_title(f"[{unit or '1'}]{legend}", loc="left", fontsize=9)
+    _open(axes)
+
+
+def _limits(value: np.ndarray, half: np.ndarray, others: list[float]) -> tuple[float, float]:
+    """An axis that holds all values, and of their intervals as much as leaves the values apart."""
+    shown = np.array([*value, *others, 0.0] if len(value) == 1 else [*value, *others])
+    span = max(np.ptp(shown), 1e-3 * np.abs(shown).max(), 1e-12)
+    ends = np.nan_to_num(half)
+    low = max(min((value - ends).min(), shown.min()), shown.min() - 1.5 * span)
+    high = min(max((value + ends).max(), shown.max()), shown.max() + 1.5 * span)
+    return low - 0.06 * (high - low), high + 0.06 * (high - low)
+
+
+def plot_starts(solution: Solution) -> Picture:
+    """How every start ended: its error in rank order, and how far its parameters are from the best's."""
+    rows, names = sorted(solution.starts, key=lambda r: r.rms), list(solution.values)
+    unit, factor = _shown_unit("rad" if "rms_deg" in solution.fit else "")
+    figure = Picture(figsize=(9, max(3.2, 0.24 * len(names) + 1.2)), layout="constrained")
+    left, right = figure.subplots(1, 2, width_ratios=[1, 1.3])
+    rank, error = np.arange(1, len(rows) + 1), np.array([r.rms for r in rows]) * factor
+    solved = np.array([r.solved for r in rows])
+    for chosen, look, label in ((solved, {"color": MODEL}, "solved"), (~solved, {"mfc": "white", "mec": WARN}, "not solved")):
+        if chosen.any():
+            left.plot(rank[chosen], error[chosen], "o", ms=6, label=label, ls="", **look)
+    left.legend(frameon=False, fontsize=8.5)
+    left.set(xlabel="start, best first", ylabel=f"RMS error [{unit or 'SI'}]", xlim=(0.3, len(rows) + 0.7))
+    left.xaxis.get_major_locator().set_params(integer=True)
+    best = solution.starts[solution.best].parameters
+    largest = {k: max(abs(r.parameters[k]) for r in rows) or 1.0 for k in names}
+    for row in reversed(rows):
+        away = [(row.parameters[k] - best[k]) / largest[k] for k in names]
+        right.plot(away, np.arange(len(names)), "o", ms=5, alpha=0.6, mec="none" if row.solved else WARN,
+                   color=MODEL if row.solved else "white")
+    right.set_yticks(np.arange(len(names)), names, fontsize=8)
+    right.invert_yaxis()
+    right.set_xlabel("difference from the best start,\nas a share of the largest magnitude", fontsize=9)
+    _open(left, right)
+    return figure
+
+
+def _shown_unit(unit: str) -> tuple[str, float]:
+    """The unit that a person reads, and the factor to it: degrees for angles."""
+    if unit and known_unit(unit).si.startswith("rad"):
+        return unit.replace("rad", "deg"), 1 / DEGREE
+    return unit, 1.0
+
+
+def _open(*all_axes) -> None:
+    """Quieter axes: no frame above and to the right, small ticks, a light grid."""
+    for axes in all_axes:
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.tick_params(labelsize=8.5)
+        axes.grid(True, axis="x", color="#eeeeee", lw=0.8)
+        axes.set_axisbelow(True)
