@@ -1,0 +1,161 @@
+"""Is an identified controller stable? By eigenvalues, and by simulation, over the recorded range."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from symid.analysis.eigenvalues import complete, growth
+from symid.analysis.forward import Drive, forward_rms
+from symid.analysis.points import grid
+from symid.errors import ModelError
+from symid.identification import Solution
+from symid.model import Model
+from symid.recording import Recording, rate_name
+from symid.units import FloatArray
+
+RMS_OVER_STD = 3.0
+"""A forward simulation counts as stable up to this many standard deviations of the recorded outputs."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stability:
+    """Two stability tests of one controller over a grid of states (Wang & van den Bogert 2020).
+
+    Attributes
+    ----------
+    states : names of the n gridded states.
+    points : (K, n) operating points and initial states; per_state : grid points per state.
+    growth : (K,) largest real part [1/s] of the roots, linearised at each point.
+    rms : (K,) of the forward simulations [SI], infinite where above the limit; None if not made.
+    limit : rms [SI] up to which a forward simulation counts as stable.
+    """
+
+    states: tuple[str, ...]
+    points: FloatArray
+    per_state: int
+    growth: FloatArray
+    rms: FloatArray | None = None
+    limit: float = np.nan
+
+    @property
+    def eigenvalue_percent(self) -> float:
+        """Share [%] of operating points where no real part is positive."""
+        return 100 * float(np.mean(self.growth <= 0))
+
+    @property
+    def forward_percent(self) -> float:
+        """Share [%] of initial states from which the simulation stays within the limit."""
+        if self.rms is None:
+            raise ModelError("no forward simulations were made: ask for them with held_out=(start, end)")
+        return 100 * float(np.mean(self.rms <= self.limit))
+
+    def share(self, first: str, second: str, test: str = "eigenvalue") -> FloatArray:
+        """(per_state, per_state) share of stable points over two states, all others taken together.
+
+        Parameters
+        ----------
+        test : ``"eigenvalue"`` or ``"forward"``.
+        """
+        for name in (first, second):
+            if name not in self.states:
+                raise ModelError(f"the stability map has no state '{name}'; it has {', '.join(self.states)}")
+        if test == "forward" and self.rms is None:
+            raise ModelError("no forward simulations were made: ask for them with held_out=(start, end)")
+        stable = self.growth <= 0 if test == "eigenvalue" else self.rms <= self.limit
+        table = stable.reshape((self.per_state,) * len(self.states))
+        a, b = self.states.index(first), self.states.index(second)
+        others = tuple(k for k in range(len(self.states)) if k not in (a, b))
+        shares = table.mean(axis=others)
+        return shares if a < b else shares.T
+
+    def axis(self, state: str) -> FloatArray:
+        """(per_state,) the values of one state."""
+        return np.unique(self.points[:, self.states.index(state)])
+
+    def __repr__(self) -> str:
+        forward = "" if self.rms is None else f", {self.forward_percent:.2f} % by forward simulation"
+        return (f"<Stability: {self.eigenvalue_percent:.2f} % stable by eigenvalues{forward}, "
+                f"of {len(self.points)} points>")
+
+    def _repr_html_(self) -> str:
+        rows = [("by eigenvalues", self.eigenvalue_percent)]
+        rows += [("by forward simulation", self.forward_percent)] if self.rms is not None else []
+        cells = "".join(f"<tr><td>stable {how}</td><td>{share:.2f} %</td></tr>" for how, share in rows)
+        return f"<table>{cells}<tr><td>points</td><td>{len(self.points)}</td></tr></table>"
+
+
+def stability(solution: Solution, *, held_out: tuple[float, float] | None = None, which: int = 0,
+              **options) -> Stability:
+    """Both tests of an identified controller over the states recorded in its window.
+
+    Parameters
+    ----------
+    solution : of an identification.
+    held_out : (start, end) [s] of the forward simulations; none are made without it.
+    which : which of the solution's recordings.
+    options : ``window``, ``per_state``, ``step``, ``threads`` as for `stability_of`.
+    """
+    recording = solution.problem.recordings[which]
+    options.setdefault("window", solution.problem.windows[which] or recording.interval)
+    return stability_of(solution.model, solution.values, recording, held_out=held_out, **options)
+
+
+def stability_of(model: Model, values: Mapping[str, float], recording: Recording, *, window: tuple[float, float],
+                 held_out: tuple[float, float] | None = None, per_state: int = 11, step: float = 0.005,
+                 threads: int = 2) -> Stability:
+    """Both tests over a grid that spans the states recorded in `window`.
+
+    Parameters
+    ----------
+    model, values : the closed loop and its parameters by name, in SI.
+    recording : with a channel for every gridded state, input and output.
+    window : (start, end) [s]; the end itself is not part of it.
+    held_out : (start, end) [s] of the forward simulations; none are made without it.
+    per_state : grid points for each state.
+    step : of the explicit Euler integration [s].
+
+    Returns
+    -------
+    Stability, whose limit is 3 times the mean standard deviation of the outputs in `window`.
+
+    Raises
+    ------
+    ModelError, RecordingError
+        If a parameter has no value or a channel is missing.
+    """
+    chosen = tuple(name for name, s in model.states.items() if s.role != "memory")
+    rows = recording_rows(recording, window)
+    recorded = np.stack([recording[_channel(model, name)][rows] for name in chosen], axis=1)
+    outputs = {name: recording[o.channel] for name, o in model.outputs.items()}
+    points = grid(recorded.min(axis=0), recorded.max(axis=0), per_state)
+    states = complete(model, points, values)
+    rates = growth(model, states, values)
+    limit = RMS_OVER_STD * float(np.mean([v[rows].std() for v in outputs.values()]))
+    if held_out is None:
+        return Stability(chosen, points, per_state, rates, None, limit)
+    within = np.flatnonzero((recording.time >= held_out[0] - 1e-9) & (recording.time <= held_out[1] + 1e-9))
+    drive = Drive(recording.time[within], {k: recording[u.channel][within] for k, u in model.inputs.items()},
+                  {k: v[within] for k, v in outputs.items()})
+    rms = forward_rms(model, states, values, drive, limit, step, threads)
+    return Stability(chosen, points, per_state, rates, rms, limit)
+
+
+def recording_rows(recording: Recording, window: tuple[float, float]) -> np.ndarray:
+    """Rows from the start of `window` up to, but without, its end."""
+    rows = np.flatnonzero((recording.time >= window[0] - 1e-9) & (recording.time < window[1] - 1e-9))
+    if len(rows) < 2:
+        raise ModelError(f"the window {window} s holds {len(rows)} samples of the recording, which lasts from "
+                         f"{recording.time[0]:g} to {recording.time[-1]:g} s")
+    return rows
+
+
+def _channel(model: Model, state: str) -> str:
+    """Channel of the recording with this state: as the output that shows it, or by its own name."""
+    shown = {str(o.expr): o.channel for o in model.outputs.values()}
+    if state in shown:
+        return shown[state]
+    coordinate = model.rates().get(state)
+    return rate_name(shown[coordinate]) if coordinate in shown else state
