@@ -164,7 +164,7 @@ def run_and_kill_a_worker(seed: int, undisturbed) -> None:
 
     def on_finished(finished):
         if finished.done == moment:
-            time.sleep(chance.uniform(0, 0.05))
+            time.sleep(chance.uniform(0, 0.02))
             kill_a_worker(chance)
 
     with LocalPool(2) as own:
@@ -193,7 +193,7 @@ def kill_study(store: Path, chance: random.Random) -> None:
     process = start_study(store)
     while len(kept(store)) < 2 and process.poll() is None:
         time.sleep(0.002)
-    time.sleep(chance.uniform(0, 0.1))
+    time.sleep(chance.uniform(0, 0.03))
     process.kill()
     process.wait()
 
@@ -497,5 +497,26 @@ def test_bad_calls_are_refused():
         Study.product({"a": problem()}, 0)
     with pytest.raises(SolveError, match="has 1 labels, and 2 were named: controller, episodes"):
         Study.product({"a": problem()}, labels=("controller", "episodes"))
+    with pytest.raises(SolveError, match="jobs=-1: give at least 1 process"):
+        study().run(jobs=-1)
     with pytest.raises(TranscriptionError, match="window 50 to 60 s"):
         problem(window=(50, 60)).solve()
+
+
+def test_the_command_line_resumes(shared, tmp_path, capsys, solved):
+    from argparse import ArgumentParser
+
+    from symid.cli import identify
+    from symid.cli.options import chosen_executor
+
+    parser = ArgumentParser()
+    identify.add_arguments(parser)
+    folder = shared / "recordings" / "standing_subject05"
+    line = [str(folder / "recording_50hz.csv"), "--body", str(folder / "body.json"), "--controller", "pd", "--window",
+            "160", "165", "--starts", "2", "--max-iterations", "20", "--store", str(tmp_path)]
+    codes = [identify.run(parser.parse_args(line)) for _ in range(2)]
+    assert codes[0] == codes[1] and len(solved) == 2 == len(kept(tmp_path))
+    assert [text.split()[:2] for text in capsys.readouterr().err.splitlines() if text.startswith("start")] == [
+        ["start", "1"], ["start", "2"]] * 2
+    with chosen_executor(2, None) as pool:
+        assert isinstance(pool, LocalPool) and pool.jobs == 2

@@ -120,7 +120,7 @@ def kill_the_client_and_resume(cluster, client, store: Path, seed: int, undistur
                                stderr=subprocess.DEVNULL)
     while len(kept(store)) < 2 and process.poll() is None:
         time.sleep(0.002)
-    time.sleep(random.Random(seed).uniform(0, 0.1))
+    time.sleep(random.Random(seed).uniform(0, 0.03))
     process.kill()
     process.wait()
     before = kept(store)

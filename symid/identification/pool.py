@@ -32,11 +32,18 @@ class LocalPool(Executor):
     Parameters
     ----------
     jobs : number of processes, one for each processor by default.
+
+    Raises
+    ------
+    SolveError
+        `jobs` is below 1. Futures raise it where worker processes cannot start.
     """
 
     def __init__(self, jobs: int | None = None):
         if current_process().name == _NAME:  # a worker reads a script that begins a study
             raise SolveError(f"a worker process cannot start workers; {_GUARD}")
+        if jobs is not None and jobs < 1:
+            raise SolveError(f"jobs={jobs}: give at least 1 process")
         self.jobs = jobs or os.cpu_count() or 1
         self._keepers = ThreadPoolExecutor(self.jobs, thread_name_prefix="symid-keeper")
         self._own = threading.local()

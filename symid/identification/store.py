@@ -107,9 +107,9 @@ def _refuse_other_study(path: Path, known: Mapping, wanted: Mapping) -> None:
     if known and not known.keys() & wanted.keys():
         raise SolveError(f"{path} belongs to another study: it has the solves {_some(known)}, and not {_some(wanted)}. "
                          "Give another directory")
-    for name in known.keys() & wanted.keys():
-        if known[name]["key"] != wanted[name]["key"]:
-            parts = [p for p in wanted[name] if p != "key" and known[name].get(p) != wanted[name][p]]
+    for name, parts in wanted.items():
+        if name in known and known[name]["key"] != parts["key"]:
+            parts = [p for p in parts if p != "key" and known[name].get(p) != parts[p]]
             raise SolveError(f"{path} belongs to another study: its solve '{name}' differs in {' and '.join(parts)}. "
                              "Give another directory, or the problem as it was")
 
