@@ -27,7 +27,7 @@ class Picture(Figure):
         return buffer.getvalue()
 
     def _repr_png_(self) -> bytes:
-        return self.png(dpi=90)
+        return self.png(dpi=78)
 
 
 def plot_fit(solution: Solution, episode: int = 0) -> Picture:

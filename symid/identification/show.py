@@ -26,7 +26,18 @@ def text(solution: Solution) -> str:
 
 
 def html(solution: Solution) -> str:
-    """The same for a notebook."""
-    table = solution.parameters.to_html(float_format=lambda x: f"{x:.5g}", border=0)
+    """The same for a notebook; a parameter at a bound is red."""
+    rows = []
+    for name, p in solution.parameters.iterrows():
+        cells = [(f"<code>{escape(name)}</code>", "left"), (f"{p.value:.5g}", "right"),
+                 ("none" if p.std_error != p.std_error else f"{p.std_error:.2g}", "right"), (escape(p.unit), "left"),
+                 (f"{p.lower:g} to {p.upper:g}{', at bound' if p.at_bound else ''}", "left"), (escape(p.meaning), "left")]
+        colour = ";color:#c0392b" if p.at_bound else ""
+        rows.append("".join(f'<td style="text-align:{side}{colour}">{text}</td>' for text, side in cells))
+    head = "".join(f'<th style="text-align:{side}">{h}</th>' for h, side in (
+        ("parameter", "left"), ("value", "right"), ("std. error", "right"), ("unit", "left"), ("bounds", "left"),
+        ("meaning", "left")))
+    colour = "#666" if solution.solved else "#c0392b"
     return (f"<h4>{escape(solution.model.name)}</h4><p>{escape(headline(solution))}</p>"
-            f"<p>{escape(solution.message)}</p>{table}")
+            f'<p style="color:{colour}">{escape(solution.message)}</p>'
+            f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>")

@@ -10,6 +10,10 @@ from symid.model.declare import symbol
 from symid.model.model import TIME, Model
 
 
+LINE = 150
+"""LaTeX characters of one line of an equation, about a notebook's width."""
+
+
 def _names(model: Model) -> dict[sm.Symbol, str]:
     names = {TIME: "t"}
     for part in model.components.values():
@@ -26,9 +30,21 @@ def latex(model: Model) -> str:
     names = _names(model)
     def tex(e):
         return sm.latex(e, symbol_names=names)
-    lines = [rf"0 &= {tex(e.expr)}" for e in model.equations.values()]
-    lines += [rf"{names[e.symbol]} &= {tex(e.expr)}" for e in model.expressions.values()]
+    lines = [_broken("0", e.expr, tex) for e in model.equations.values()]
+    lines += [_broken(names[e.symbol], e.expr, tex) for e in model.expressions.values()]
     return "$$\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}$$"
+
+
+def _broken(left: str, expr: sm.Expr, tex) -> str:
+    """One equation, its sum on several lines where it is longer than a page is wide."""
+    lines = [""]
+    for i, term in enumerate(expr.as_ordered_terms()):
+        text = tex(term)
+        text = text if text.startswith("-") or i == 0 else f"+ {text}"
+        if lines[-1] and len(lines[-1]) + len(text) > LINE:
+            lines.append("")
+        lines[-1] += f" {text}"
+    return rf"{left} &={lines[0]}" + "".join(rf" \\ &\qquad{line}" for line in lines[1:])
 
 
 def html(model: Model) -> str:
@@ -39,9 +55,10 @@ def html(model: Model) -> str:
         for c in parts.values():
             value = f"{c.value:g}" if kind == "constant" else (
                 "[{:g}, {:g}]".format(*c.bounds) if hasattr(c, "bounds") else "")
-            rows.append(f"<tr><td>{kind}</td><td><code>{escape(c.name)}</code></td><td>{value}</td>"
-                        f"<td>{escape(c.unit)}</td><td>{escape(c.meaning)}</td></tr>")
-    table = ("<table><tr><th>part</th><th>name</th><th>value or bounds</th><th>unit</th><th>meaning</th></tr>"
-             + "".join(rows) + "</table>")
+            cells = (kind, f"<code>{escape(c.name)}</code>", value, escape(c.unit), escape(c.meaning))
+            rows.append("".join(f'<td style="text-align:left">{cell}</td>' for cell in cells))
+    head = "".join(f'<th style="text-align:left">{h}</th>' for h in ("part", "name", "value or bounds", "unit", "meaning"))
+    table = f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>"
     terms = f"<p>terms added: {escape(', '.join(map(str, model.terms)))}</p>" if model.terms else ""
-    return f"<h4>{escape(model.name)}</h4><p>{escape(model.description)}</p>{terms}{latex(model)}{table}"
+    return (f"<h4>{escape(model.name)}</h4><p>{escape(model.description)}</p>{terms}"
+            f'<div style="overflow-x:auto">{latex(model)}</div>{table}')

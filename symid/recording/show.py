@@ -19,15 +19,23 @@ def as_text(recording: "Recording") -> str:
 def as_html(recording: "Recording") -> str:
     """The same as a table, with the history to unfold."""
     body = "".join(
-        "<tr>" + "".join(f"<td>{html.escape(text)}</td>" for text in row) + "</tr>"
+        "<tr>" + "".join(_cell("td", text, i) for i, text in enumerate(row)) + "</tr>"
         for row in _rows(recording)
+    )
+    head = "".join(
+        _cell("th", text, i) for i, text in enumerate(("channel", "unit", "lowest", "highest"))
     )
     steps = "".join(f"<li>{html.escape(step)}</li>" for step in recording.history)
     return (
         f"<b>Recording {html.escape(recording.name)}</b>: {html.escape(_extent(recording))}"
-        f"<table><tr><th>channel</th><th>unit</th><th>lowest</th><th>highest</th></tr>"
-        f"{body}</table><details><summary>history</summary><ol>{steps}</ol></details>"
+        f"<table><tr>{head}</tr>{body}</table><details><summary>history</summary><ol>{steps}</ol></details>"
     )
+
+
+def _cell(tag: str, text: str, column: int) -> str:
+    """Names and units to the left, numbers to the right."""
+    side = "left" if column < 2 else "right"
+    return f'<{tag} style="text-align:{side}">{html.escape(text)}</{tag}>'
 
 
 def _extent(recording: "Recording") -> str:
