@@ -18,8 +18,7 @@ from conftest import pendulum, pendulum_recording
 from study_problems import STARTS, kept, numbers, poisoned, problem, study
 
 from symid.errors import SolveError, TranscriptionError
-from symid.identification import Identification, LocalPool, Solve, Study
-from symid.identification import study as study_module
+from symid.identification import Identification, LocalPool, Solve, Study, dispatch
 from symid.identification.store import StudyDirectory
 
 HERE = Path(__file__).parent
@@ -46,8 +45,8 @@ def solved(monkeypatch) -> list[str]:
         done.append(solve.key)
         return original(solve, on_iteration)
 
-    original = study_module.solve_here
-    monkeypatch.setattr(study_module, "solve_here", note)
+    original = dispatch.solve_here
+    monkeypatch.setattr(dispatch, "solve_here", note)
     return done
 
 

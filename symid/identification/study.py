@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
+from concurrent.futures import Executor
 from contextlib import nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,18 +14,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from symid.errors import SolveError, SymidError
+from symid.errors import SolveError
+from symid.identification.dispatch import in_turn, on_executor
 from symid.identification.identity import digest
-from symid.identification.pool import Cluster, LocalPool, WorkerDied
+from symid.identification.pool import Cluster, LocalPool
 from symid.identification.solution import Solution, StartRow, build_solution
 from symid.identification.store import StudyDirectory
-from symid.identification.worker import Outcome, pack, solve_here, solve_packed
+from symid.identification.worker import Outcome
 from symid.ipopt_solver import Iteration
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
-
-ATTEMPTS = 2  # a worker may be killed by chance once
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,7 +171,7 @@ class Study:
                 yield from ((name, earlier.row) for name in same)
             else:
                 todo[key] = self.solves[same[0]]
-        ended = _in_turn(todo, on_iteration) if executor is None else _on_executor(todo, executor)
+        ended = in_turn(todo, on_iteration) if executor is None else on_executor(todo, executor)
         for key, outcome in ended:
             self._store[key] = outcome
             yield from ((name, outcome.row) for name in names[key])
@@ -256,61 +255,3 @@ class StudyResult:
 
     def _repr_html_(self) -> str:
         return self.table.to_html(float_format=lambda x: f"{x:.5g}", border=0)
-
-
-def _in_turn(todo: Mapping[str, Solve], on_iteration) -> Iterator[tuple[str, Outcome]]:
-    for key, solve in todo.items():
-        yield key, solve_here(solve, on_iteration)
-
-
-def _on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple[str, Outcome]]:
-    """Outcomes as they come; a solve whose worker died is sent once more."""
-    packed: dict[int, object] = {}
-    running: dict[Future, str] = {}
-    attempts = dict.fromkeys(todo, 0)
-
-    def send(key: str) -> Future | None:
-        solve = todo[key]
-        if id(solve.problem) not in packed:
-            packed[id(solve.problem)] = getattr(executor, "share", lambda same: same)(pack(solve.problem))
-        attempts[key] += 1
-        running[executor.submit(solve_packed, packed[id(solve.problem)], replace(solve, problem=None))] = key
-
-    try:
-        waiting = list(reversed(todo))
-        while waiting or running:
-            while waiting:
-                key = waiting.pop()
-                try:
-                    send(key)
-                except BrokenExecutor as broken:
-                    yield key, _lost(todo[key], broken)
-            ended, _ = wait(running, return_when=FIRST_COMPLETED)
-            for future in ended:
-                key, error = running.pop(future), _error(future)
-                if error is None:
-                    yield key, future.result()
-                elif isinstance(error, SymidError):  # from the executor: a solve catches its own
-                    raise error
-                elif isinstance(error, BrokenExecutor) and attempts[key] < ATTEMPTS:
-                    waiting.append(key)
-                else:
-                    yield key, _lost(todo[key], error)
-    finally:
-        for future in running:
-            future.cancel()
-
-
-def _error(future: Future) -> BaseException | None:
-    return CancelledError("its executor gave it up") if future.cancelled() else future.exception()
-
-
-def _lost(solve: Solve, error: BaseException) -> Outcome:
-    if isinstance(error, WorkerDied):
-        said = f"its worker {error}, {ATTEMPTS} times; does the machine have memory enough?"
-    elif isinstance(error, BrokenExecutor):
-        said = f"its executor broke ({error}); a LocalPool survives its workers."
-    else:
-        said = f"{type(error).__name__}: {error}."
-    said += " Run the study again to repeat it"
-    return Outcome(StartRow.without_result("lost", solve.start, solve.number, said))

@@ -1,0 +1,77 @@
+"""Solves handed to an executor, and their outcomes collected, whatever happens to its workers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from symid.errors import SymidError
+from symid.identification.pool import WorkerDied
+from symid.identification.solution import StartRow
+from symid.identification.worker import Outcome, pack, solve_here, solve_packed
+
+if TYPE_CHECKING:
+    from symid.identification.study import Solve
+
+ATTEMPTS = 2  # a worker may be killed by chance once
+
+
+def in_turn(todo: Mapping[str, Solve], on_iteration) -> Iterator[tuple[str, Outcome]]:
+    """Keys and outcomes of solves done here, one after the other."""
+    for key, solve in todo.items():
+        yield key, solve_here(solve, on_iteration)
+
+
+def on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple[str, Outcome]]:
+    """Outcomes as they come; a solve whose worker died is sent once more."""
+    packed: dict[int, object] = {}
+    running: dict[Future, str] = {}
+    attempts = dict.fromkeys(todo, 0)
+
+    def send(key: str) -> None:
+        solve = todo[key]
+        if id(solve.problem) not in packed:
+            packed[id(solve.problem)] = getattr(executor, "share", lambda same: same)(pack(solve.problem))
+        attempts[key] += 1
+        running[executor.submit(solve_packed, packed[id(solve.problem)], replace(solve, problem=None))] = key
+
+    try:
+        waiting = list(reversed(todo))
+        while waiting or running:
+            while waiting:
+                key = waiting.pop()
+                try:
+                    send(key)
+                except BrokenExecutor as broken:
+                    yield key, _lost(todo[key], broken)
+            ended, _ = wait(running, return_when=FIRST_COMPLETED)
+            for future in ended:
+                key, error = running.pop(future), _error(future)
+                if error is None:
+                    yield key, future.result()
+                elif isinstance(error, SymidError):  # from the executor: a solve catches its own
+                    raise error
+                elif isinstance(error, BrokenExecutor) and attempts[key] < ATTEMPTS:
+                    waiting.append(key)
+                else:
+                    yield key, _lost(todo[key], error)
+    finally:
+        for future in running:
+            future.cancel()
+
+
+def _error(future: Future) -> BaseException | None:
+    return CancelledError("its executor gave it up") if future.cancelled() else future.exception()
+
+
+def _lost(solve: Solve, error: BaseException) -> Outcome:
+    if isinstance(error, WorkerDied):
+        said = f"its worker {error}, {ATTEMPTS} times; does the machine have memory enough?"
+    elif isinstance(error, BrokenExecutor):
+        said = f"its executor broke ({error}); a LocalPool survives its workers."
+    else:
+        said = f"{type(error).__name__}: {error}."
+    said += " Run the study again to repeat it"
+    return Outcome(StartRow.without_result("lost", solve.start, solve.number, said))
