@@ -111,7 +111,8 @@ def _limits(value: np.ndarray, half: np.ndarray, others: list[float]) -> tuple[f
     ends = np.nan_to_num(half)
     low = max(min((value - ends).min(), shown.min()), shown.min() - 1.5 * span)
     high = min(max((value + ends).max(), shown.max()), shown.max() + 1.5 * span)
-    return low - 0.06 * (high - low), high + 0.06 * (high - low)
+    margin = 0.06 * max(high - low, span)
+    return low - margin, high + margin
 
 
 def plot_starts(solution: Solution) -> Picture:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from symid.errors import RecordingError
+from symid.errors import RecordingError, SymidError
 from symid.files import write_atomically, write_json
 from symid.mechanics import DoubleLinkPendulum, FullStatePD
 from symid.model import Model
@@ -66,6 +66,10 @@ def standing_recording(model: Model, parameters: Mapping[str, float], *, duratio
     Recording
         Angles, their rates (differences of the noisy angles), and the platform's acceleration;
         with the default platform also its position and velocity.
+
+    Raises
+    ------
+    SymidError : the body falls.
     """
     motion, protocol = {}, platform
     if platform is None:
@@ -78,11 +82,22 @@ def standing_recording(model: Model, parameters: Mapping[str, float], *, duratio
     plain = synthetic_recording(model, parameters, duration=duration, rate=rate, seed=seed, protocol=protocol,
                                 process_noise=dict.fromkeys(model.noises, torque_noise),
                                 sensor_noise=dict.fromkeys(channels, sensor_noise))
+    _refuse_fall(model, plain)
     table = {c: (_rounded(plain[c], "rad"), "rad") for c in channels}
     table |= {rate_name(c): (np.gradient(table[c][0], plain.time), "rad/s") for c in channels}
     table |= motion | {u.channel: (plain[u.channel], plain.units[u.channel]) for u in model.inputs.values()}
     return Recording(plain.name, plain.time, {k: _rounded(*v) for k, v in table.items()},
                      {k: u for k, (_, u) in table.items()}, noise=plain.noise, history=plain.history)
+
+
+def _refuse_fall(model: Model, recording: Recording) -> None:
+    for state in model.states.values():
+        low, high = state.bounds
+        outside = np.flatnonzero((recording[state.name] < low) | (recording[state.name] > high)) \
+            if state.name in recording.channels else []
+        if len(outside):
+            raise SymidError(f"the body falls: {state.name} leaves {low:g} to {high:g} {state.unit} at "
+                             f"{recording.time[outside[0]]:g} s; give gains that hold it, or less torque noise")
 
 
 def _rounded(values: np.ndarray, unit: str) -> np.ndarray:

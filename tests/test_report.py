@@ -1,0 +1,144 @@
+"""Figures and reports: what they show, also where parameters sit at bounds or a solve failed."""
+
+import re
+import sys
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+from conftest import pendulum, pendulum_recording
+
+import symid as si
+from symid import plots
+from symid.report import page, report_html, write_report
+
+
+@pytest.fixture(scope="module")
+def solution():
+    return si.Identification(pendulum(), pendulum_recording(noise=0.01)).solve()
+
+
+@pytest.fixture(scope="module")
+def at_bound():
+    model = pendulum().with_bounds(damping=(0, 0.1))
+    return si.Identification(model, pendulum_recording(noise=0.01)).solve()
+
+
+@pytest.fixture(scope="module")
+def not_solved():
+    return si.Identification(pendulum(), pendulum_recording(noise=0.01)).solve(3, seed=1, max_iterations=1)
+
+
+class Tags(HTMLParser):
+    """Every opened tag is closed, and nothing is fetched."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.sources = [], []
+
+    def handle_starttag(self, tag, attributes):
+        if tag not in ("meta", "img", "br"):
+            self.open.append(tag)
+        self.sources += [v for k, v in attributes if k in ("src", "href")]
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+def lines_of(axes, colour):
+    return [line for line in axes.lines if line.get_color() == colour and len(line.get_xdata()) > 2]
+
+
+def test_fit_shows_the_recording_the_model_and_their_difference(solution):
+    above, below = solution.plot().axes
+    (recorded,), (model,) = lines_of(above, plots.RECORDED), lines_of(above, plots.MODEL)
+    (residual,) = lines_of(below, plots.WARN)
+    frame = solution.trajectories[0]
+    np.testing.assert_allclose(recorded.get_ydata(), np.rad2deg(frame["measured recorded"]))
+    np.testing.assert_allclose(residual.get_ydata(), recorded.get_ydata() - model.get_ydata())
+    assert f"{solution.fit['rms_deg']['all']:.3g} deg" in above.get_title(loc="left")
+
+
+def test_parameters_show_value_and_95_percent_interval(solution):
+    (axes,) = plots.plot_parameters(solution, {"damping": 0.4}).axes
+    row = solution.parameters.loc["damping"]
+    (interval,) = [line for line in axes.lines if line.get_linewidth() == 2 and len(line.get_xdata()) == 2]
+    np.testing.assert_allclose(interval.get_xdata(), [row.value - 1.96 * row.std_error, row.value + 1.96 * row.std_error])
+    assert [line.get_xdata()[0] for line in axes.lines if line.get_marker() == "x"] == [0.4]
+    assert f"{row.value:.4g} ± {row.std_error:.2g}" in [t.get_text() for t in axes.texts]
+
+
+def test_a_parameter_at_a_bound_is_marked_everywhere(at_bound):
+    assert at_bound.parameters.at_bound.all()
+    (axes,) = plots.plot_parameters(at_bound).axes
+    assert "at its bound" in axes.texts[0].get_text()
+    assert "<tr class=mark>" in report_html(at_bound)
+    assert "at bound" in at_bound._repr_html_()
+
+
+def test_an_interval_far_larger_than_the_values_does_not_hide_them():
+    low, high = plots._limits(np.array([1.0, 2.0]), np.array([1e6, 0.1]), [])
+    assert -2 < low < 1 and 2 < high < 5
+
+
+@pytest.mark.parametrize("value", [np.array([0.0]), np.array([-1e-9]), np.array([3e7]), np.array([5.0, 5.0])])
+def test_every_value_lies_on_its_axis(value):
+    low, high = plots._limits(value, np.full(value.shape, np.nan), [])
+    assert low < value.min() and value.max() < high
+
+
+def test_starts_show_every_start_and_which_failed(not_solved):
+    assert not not_solved.solved
+    left, right = plots.plot_starts(not_solved).axes
+    assert sum(len(line.get_xdata()) for line in left.lines) == 3
+    assert [t.get_text() for t in left.get_legend().get_texts()] == ["not solved"]
+    assert len(right.lines) == 3
+
+
+def test_figures_show_themselves_without_pyplot(solution):
+    assert "matplotlib.pyplot" not in sys.modules or "pyplot" not in vars(plots)
+    for draw in (plots.plot_fit, plots.plot_parameters, plots.plot_starts):
+        assert draw(solution)._repr_png_().startswith(b"\x89PNG")
+
+
+def test_report_is_one_whole_file(solution, tmp_path):
+    path = write_report(solution, tmp_path / "new" / "report.html", held_out=solution.fit_on((3.0, 6.0)))
+    assert [p.name for p in path.parent.iterdir()] == ["report.html"]
+    tags = Tags()
+    tags.feed(path.read_text(encoding="utf-8"))
+    assert tags.open == []
+    assert len(tags.sources) == 2 and all(s.startswith("data:image/png;base64,") for s in tags.sources)
+    text = path.read_text()
+    for part in ("Parameters", "Fit", "Starts", "Solver", "Provenance", "held out, free run", "midpoint", "damping"):
+        assert part in text
+
+
+def test_report_of_a_failed_solve_says_so_and_has_all_starts(not_solved):
+    text = report_html(not_solved)
+    assert "NOT SOLVED" in text and "no standard errors" in text and "Where each start ended" in text
+    assert len(re.findall(r"Maximum_Iterations_Exceeded", text)) >= 3
+
+
+def test_report_shows_a_few_episodes_not_fifty():
+    problem = si.Identification(pendulum(), pendulum_recording(), episodes=si.Episodes(5, push=0.1))
+    assert report_html(problem.solve()).count("recorded, model and residual") == 2 * 3    # caption and alt text
+
+
+def test_a_report_that_cannot_be_drawn_leaves_the_old_one(solution, tmp_path, monkeypatch):
+    path = tmp_path / "report.html"
+    path.write_text("old")
+    monkeypatch.setattr(plots.Picture, "png", lambda self, dpi=0: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        write_report(solution, path)
+    assert path.read_text() == "old" and len(list(tmp_path.iterdir())) == 1
+
+
+def test_text_is_escaped():
+    assert "<script>" not in page.page("<script>", page.paragraph("<script>"), page.table(["<script>"], [["<script>"]]),
+                                       page.facts({"<script>": "<script>"}))
+
+
+@pytest.mark.parametrize(("value", "shown"), [(float("nan"), "none"), (float("inf"), "∞"), (-1234.567, "−1234.6"),
+                                              (True, "yes"), (12, "12")])
+def test_numbers(value, shown):
+    assert page.number(value) == shown
