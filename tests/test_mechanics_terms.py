@@ -10,7 +10,9 @@ from hypothesis import strategies as st
 
 import symid.model as si
 from symid.errors import ModelError
-from symid.mechanics import CANONICAL, LIBRARY, PD, BenchDoublePendulum, DoubleLinkPendulum, FullStatePD, suspects
+from symid.mechanics import (
+    CANONICAL, LIBRARY, PD, BenchDoublePendulum, DoubleLinkPendulum, FullStatePD, lagrange_residuals, suspects,
+)
 from symid.model.check import violations
 
 STANDING = DoubleLinkPendulum(0.84, 0.47, 0.33, 22.7, 48.4, 1.72, 3.29).with_feedback(FullStatePD())
@@ -223,6 +225,44 @@ def test_extra_mass_composes_the_link_anew():
         table |= {sm.Symbol("extra_mass_link2_mass_kg", real=True): two, sm.Symbol("extra_mass_link2_height_m", real=True): at_two}
         return [float(r.xreplace(table)) for r in m.residual()]
     assert np.allclose(evaluated(together), evaluated(apart))
+
+
+def test_an_elastic_mount_equals_lagranges_equations_with_the_mount_as_a_coordinate():
+    model = RIG.with_term(LIBRARY["elastic_mount"].at("base"))
+    mass, pace = 0.9, 2 * np.pi * 3.0
+    q, v, a = (sm.symbols(f"{k}0:3", real=True) for k in "qva")
+    c = RIG.constants
+    m1, m2, a1, a2, L1, I1, I2, g = (c[k].value for k in ("m1", "m2", "a1", "a2", "L1", "I1", "I2", "gravity"))
+    at = [(q[0] + a1 * sm.sin(q[1]), -a1 * sm.cos(q[1])),
+          (q[0] + L1 * sm.sin(q[1]) + a2 * sm.sin(q[2]), -L1 * sm.cos(q[1]) - a2 * sm.cos(q[2]))]
+    speeds = [[sum(sm.diff(e, x) * w for x, w in zip(q, v, strict=True)) for e in point] for point in at]
+    kinetic = sum(m * (x**2 + y**2) for m, (x, y) in zip((m1, m2), speeds, strict=True)) / 2 \
+        + (I1 * v[1] ** 2 + I2 * v[2] ** 2 + mass * v[0] ** 2) / 2
+    potential = g * (m1 * at[0][1] + m2 * at[1][1]) + mass * pace**2 * q[0] ** 2 / 2
+    residual = sm.Matrix(lagrange_residuals(kinetic, potential, q, v, a))
+    start = dict(zip((*q, *v), (0.02, 0.4, -0.7, 0.3, 1.5, -2.0), strict=True))
+    matrix, force = residual.jacobian(a).xreplace(start), residual.xreplace(dict.fromkeys(a, 0)).xreplace(start)
+    expected = -np.linalg.solve(np.array(matrix, float), np.array(force, float)[:, 0])
+
+    states = ("elastic_mount_base_shift", "link1_angle", "link2_angle", "elastic_mount_base_speed", "link1_velocity", "link2_velocity")
+    table = {k.symbol: k.value for k in model.constants.values()} | {k.symbol: 0 for k in model.noises.values()}
+    table |= {model[name].symbol: x for name, x in zip(states, start.values(), strict=True)}
+    for key, value in (("moving_mass_kg", mass), ("frequency_Hz", 3.0), ("damping_ratio", 0.0)):
+        table[model[f"elastic_mount_base_{key}"].symbol] = value
+    dots = [model[name].dot for name in states]
+    f = sm.Matrix(model.residual()).xreplace(table)
+    rates = -np.linalg.solve(np.array(f.jacobian(dots), float), np.array(f.xreplace(dict.fromkeys(dots, 0)), float)[:, 0])
+    assert np.allclose(rates[3:], expected)
+    assert np.allclose(rates[:3], [start[w] for w in v])
+
+
+def test_hysteresis_saturates_at_its_force_and_starts_as_a_spring():
+    model = RIG.with_term(LIBRARY["bouc_wen_hysteresis"].at("joint1"))
+    z, w = model.bouc_wen_hysteresis_joint1_strain, RIG.link1_velocity.symbol
+    row = model.bouc_wen_hysteresis_joint1_strain_equation.expr.xreplace({z.dot: sm.S.Zero})
+    assert row.xreplace({z.symbol: sm.S.Zero}) == -w
+    assert row.xreplace({z.symbol: sm.S.One, w: sm.Integer(2)}) == 0
+    assert row.xreplace({z.symbol: -sm.S.One, w: sm.Integer(-2)}) == 0
 
 
 def test_input_gain_and_delay_reach_the_drive_in_either_order():

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import sympy as sm
 from sympy.physics.mechanics import (
-    Inertia, KanesMethod, Lagrangian, LagrangesMethod, Point, ReferenceFrame, RigidBody, System, dynamicsymbols,
+    Force, Inertia, KanesMethod, Lagrangian, LagrangesMethod, Particle, Point, PrismaticJoint, ReferenceFrame,
+    RigidBody, System, dynamicsymbols,
 )
 
 from symid.errors import ModelError
@@ -84,7 +85,6 @@ def driven(force):
     N, P = ReferenceFrame("N"), Point("P")
     P.set_vel(N, u * N.x)
     method = KanesMethod(N, [q], [u], kd_eqs=[q.diff() - u])
-    from sympy.physics.mechanics import Particle
     method.kanes_equations([Particle("b", P, m)], [(P, (force - k * q) * N.x)])
     return method
 
@@ -96,6 +96,19 @@ def test_functions_of_time_become_inputs_and_unknown_symbols_parameters():
     assert model.k.bounds == (0, 50)
     assert model.x_joint.unit == "N"
     assert list(violations(model)) == []
+
+
+def test_a_system_of_joints_is_wrapped_with_its_place_for_a_force():
+    wall, block, k = RigidBody("wall"), Particle("b", mass=sm.Symbol("m")), sm.Symbol("k")
+    q, u = dynamicsymbols("q u")
+    slide = PrismaticJoint("j", wall, block, q, u, joint_axis=wall.x)
+    system = System.from_newtonian(wall)
+    system.add_joints(slide)
+    system.add_loads(Force(block.masscenter, -k * q * wall.x))
+    system.form_eoms()
+    model = from_system(system, {"q": "m", "u": "m/s", "k": "N/m", "m": "kg"}, constants={"m": 2.0})
+    assert sm.expand(model.u_balance.expr + model.k * model.q + model.m * model.u.dot) == 0
+    assert dict(model.q_joint.into) == {"u_balance": 1}
 
 
 def test_all_that_is_wrong_comes_in_one_error():

@@ -31,14 +31,14 @@ def _push(m, port, p):
 
 
 def _hysteresis(model, place, p):
-    """Bouc-Wen: y z' = w - (|w| z + w |z|)/2, torque -F z (its z stays within -1 ... 1)."""
+    """Bouc-Wen with exponent 2: y z' = w - (|w z| z + w z^2)/2, torque -F z (z stays within -1 ... 1)."""
     fit_units(model, place, p)
     port = port_at(model, "joint", place)
     name = parameter_name("bouc_wen_hysteresis", place, "strain")
     setattr(model, name, State(unit="1", bounds=(-1.2, 1.2), role="memory", at=place,
                                meaning="hysteretic strain, in yield strains; forgets its start, begin at 0"))
     z, w = model[name], port.rate
-    slip = (sm.Abs(w) * z + w * sm.Abs(z.symbol)) / 2
+    slip = (sm.Abs(w) * sm.Abs(z.symbol) * z + w * z**2) / 2
     setattr(model, f"{name}_equation", Equation(p.yield_rad * z.dot - w + slip))
     model.add_effort(port.name, -p.force_Nm * z)
 

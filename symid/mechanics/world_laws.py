@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import sympy as sm
 
 from symid.errors import ModelError
-from symid.mechanics.laws import give_unit, late_symbols
-from symid.model import Law, LawParameter, Model
+from symid.mechanics.laws import give_unit, late_symbols, parameter_name
+from symid.model import Equation, Law, LawParameter, Model, Port, State
 
 _OFFSET = LawParameter("offset_rad", "rad", (-inf, inf), typical=0.01)
 
@@ -81,6 +81,48 @@ def _base_motion(model: Model, place: str, p: SimpleNamespace) -> None:
     for base in model.find("base_acceleration", place):
         model.redefine(base.name, base.expr - p.amplitude_m * speed**2 * sm.sin(speed * model.time + p.phase_rad))
 
+
+def _elastic_mount(model: Model, place: str, p: SimpleNamespace) -> None:
+    """A base on a spring: the mechanism's reaction moves it, its motion shakes the mechanism.
+
+    An acceleration of the base enters balance e as -h_e a, and by the symmetry of the mass matrix
+    sum_e h_e q'_e is then the mechanism's horizontal momentum relative to the base.
+    """
+    base, = model.find("base_acceleration", place)
+    name = parameter_name("elastic_mount", place, "")
+    for what, unit, meaning in (("shift", "m", "displacement"), ("speed", "m/s", "velocity")):
+        setattr(model, name + what, State(unit=unit, role="memory", at=place,
+                                          meaning=f"{meaning} of the mount, forward; forgets its start, begin at 0"))
+    shift, speed = model[name + "shift"], model[name + "speed"]
+    momentum = sum(-sm.diff(model[e].expr, base.symbol) * rate for e, rate in _conjugate_rates(model).items())
+    relative = sum(sm.diff(momentum, s.symbol) * s.dot for s in model.states.values())
+    carried = p.moving_mass_kg + sum(c.symbol for c in model.find("mass"))
+    pace = 2 * sm.pi * p.frequency_Hz
+    hold = p.moving_mass_kg * (pace**2 * shift + 2 * p.damping_ratio * pace * speed)
+    model.redefine(base.name, base.expr + speed.dot)
+    setattr(model, f"{name}shift_equation", Equation(speed - shift.dot))
+    setattr(model, f"{name}speed_equation", Equation(-carried * base.symbol - relative - hold))
+
+
+def _conjugate_rates(model: Model) -> dict[str, sm.Expr]:
+    """Balance -> the rate to which it belongs, from the powers of the forces at the joints."""
+    joints = [c for c in model.find("joint") if isinstance(c, Port)]
+    balances = list(dict.fromkeys(e for port in joints for e in port.into))
+    into = sm.Matrix([[port.into.get(e, 0) for e in balances] for port in joints])
+    if into.rows != into.cols or into.rank() < into.rows:
+        raise ModelError(f"model '{model.name}' has {len(joints)} joints but balances of {len(balances)} coordinates: "
+                         "declare a Port with role='joint' for each coordinate")
+    rates = into.LUsolve(sm.Matrix([port.rate for port in joints]))
+    return dict(zip(balances, rates, strict=True))
+
+
+FURTHER_WORLD_LAWS: tuple[Law, ...] = (
+    Law("elastic_mount", ("base_acceleration",),
+        (LawParameter("moving_mass_kg", "kg", (1e-3, inf), None, (1.0, 5.0), 1.0),
+         LawParameter("frequency_Hz", "Hz", (0.2, 50.0), None, (2.0, 5.0, 12.0), 5.0),
+         LawParameter("damping_ratio", "1", (0.0, 2.0), None, (0.05,), 0.05)),
+        _elastic_mount, "The {place} gives way: {moving_mass_kg} on a spring, at {frequency_Hz}", "Den Hartog 1934"),
+)
 
 WORLD_LAWS: tuple[Law, ...] = (
     Law("input_gain", "excitation", (LawParameter("gain", "1", (0.2, 5.0), 1.0, (0.8, 1.25), 0.1),), _input_gain,

@@ -146,7 +146,7 @@ def _equations(draft: _Draft, q: list, speeds: list, speed_names: dict, mass: sm
     for x, kinematics in zip(map(_name, q), list(residuals)[:len(q)], strict=True):
         setattr(model, f"measured_{x}", Output(model[x], role="sensor", at=f"sensor:{x}"))
         for own in speed_names.values():
-            if sm.expand(kinematics - model[own] + model[x].dot) == 0:
+            if sm.expand(kinematics**2 - (model[own] - model[x].dot) ** 2) == 0:
                 setattr(model, f"{x}_joint", Port(
                     position=model[x].symbol, rate=model[own].symbol, role="joint", at=x,
                     into={f"{own}_balance": 1}, unit="N" if model[x].unit == "m" else "N*m"))
