@@ -3,13 +3,14 @@
 import json
 import warnings
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.special import lambertw
 
 import symid.model as si
-from symid.analysis import Stability, stability_of
+from symid.analysis import Stability, stability, stability_of
 from symid.analysis.eigenvalues import complete, growth
 from symid.analysis.forward import Drive, forward_rms
 from symid.analysis.points import grid
@@ -141,7 +142,7 @@ def test_euler_steps_use_the_models_own_rates():
     assert np.allclose(new[:, 4], np.sum(states[:, :2] ** 2, axis=1))
 
 
-def recording(model, seconds=4.0):
+def recording(seconds=4.0):
     time = 0.02 * np.arange(int(seconds / 0.02) + 1)
     wave = {"ankle_angle": 0.05 * np.sin(2 * time), "hip_angle": 0.1 * np.sin(3 * time),
             "ankle_velocity": 0.1 * np.cos(2 * time), "hip_velocity": 0.3 * np.cos(3 * time),
@@ -153,7 +154,7 @@ def recording(model, seconds=4.0):
 def test_the_grid_spans_what_was_recorded_and_both_tests_agree_on_a_strong_controller():
     model = BODY.with_feedback(PD())
     strong = {k: 4 * v for k, v in GAINS.items()}
-    found = stability_of(model, strong, recording(model), window=(0, 4), held_out=(0, 4), per_state=3)
+    found = stability_of(model, strong, recording(), window=(0, 4), held_out=(0, 4), per_state=3)
     assert found.eigenvalue_percent == found.forward_percent == 100.0
     assert found.axis("ankle_angle") == pytest.approx([-0.05, 0, 0.05], abs=1e-3)
     assert found.points.shape == (81, 4)
@@ -163,9 +164,20 @@ def test_the_grid_spans_what_was_recorded_and_both_tests_agree_on_a_strong_contr
 
 def test_without_gains_nothing_is_stable():
     model = BODY.with_feedback(PD())
-    found = stability_of(model, dict.fromkeys(GAINS, 0.0), recording(model), window=(0, 4), per_state=3)
+    found = stability_of(model, dict.fromkeys(GAINS, 0.0), recording(), window=(0, 4), per_state=3)
     assert found.eigenvalue_percent == 0.0
     assert found.rms is None
+
+
+@pytest.mark.parametrize("window", [(0.0, 2.0), None])
+def test_a_solution_is_judged_on_its_own_recording_and_window(window):
+    model, waves = BODY.with_feedback(PD()), recording()
+    problem = SimpleNamespace(recordings=(waves,), windows=[window])
+    solution = SimpleNamespace(problem=problem, model=model, values=GAINS)
+    found = stability(solution, per_state=2)
+    direct = stability_of(model, GAINS, waves, window=window or waves.interval, per_state=2)
+    assert np.array_equal(found.growth, direct.growth)
+    assert np.array_equal(found.points, direct.points)
 
 
 def test_maps_count_the_other_states_together():
@@ -192,7 +204,7 @@ def test_what_is_missing_is_named():
     with pytest.raises(ModelError, match="needs the recorded output 'seen'"):
         forward_rms(decay(), np.zeros((1, 1)), {"k": 1.0}, Drive(np.arange(3.0), {"u": np.zeros(3)}, {}), 1.0)
     with pytest.raises(ModelError, match="holds 0 samples"):
-        stability_of(model, GAINS, recording(model), window=(10, 20))
+        stability_of(model, GAINS, recording(), window=(10, 20))
 
 
 def test_a_model_that_is_not_linear_in_its_rates_is_refused():
