@@ -52,6 +52,7 @@ def pendulum_recording(damping: float = 0.4, duration: float = 6.0, step: float 
     def f(t, x):
         return [x[1], -4 * np.sin(x[0]) - damping * x[1] + drive(t)]
 
-    x = solve_ivp(f, (0, time[-1]), [0.3, 0.0], t_eval=time, rtol=1e-11, atol=1e-12).y
+    x = solve_ivp(f, (0, time[-1]), [0.3, 0.0], t_eval=time, rtol=1e-12, atol=1e-13, method="DOP853").y
     angle = x[0] + noise * np.random.default_rng(seed).standard_normal(len(time))
-    return Recording("pendulum", time, {"angle": angle, "drive": drive(time)}, {"angle": "rad", "drive": "rad/s^2"})
+    return Recording("pendulum", time, {"angle": angle, "rate": x[1], "drive": drive(time)},
+                     {"angle": "rad", "rate": "rad/s", "drive": "rad/s^2"})

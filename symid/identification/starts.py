@@ -8,27 +8,13 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from symid.errors import SolveError
+from symid.identification.bounds import guesses, parameter_bounds
+from symid.identification.shooting import shoot
 from symid.model import nearest
 from symid.transcription import Transcription
 
 if TYPE_CHECKING:
     from symid.identification.solution import Solution
-
-
-def parameter_bounds(t: Transcription) -> tuple[np.ndarray, np.ndarray]:
-    """Lower and upper bounds (free parameters,) in SI units."""
-    first, scale = t.layout.offsets[-1], t.layout.parameter_scale
-    return t.program.lower[first:] * scale, t.program.upper[first:] * scale
-
-
-def guesses(t: Transcription) -> np.ndarray:
-    """(free parameters,) the declared guess, else the middle of finite bounds, else the bound next to zero."""
-    lower, upper = parameter_bounds(t)
-    middle = np.where(np.isfinite(lower) & np.isfinite(upper), 0.5 * (lower + upper), np.clip(0.0, lower, upper))
-    for p, columns in zip(t.model.parameters.values(), t.layout.parameter_index.T, strict=True):
-        if p.guess is not None:
-            middle[columns] = p.guess
-    return middle
 
 
 def random_start(t: Transcription, seed: int, number: int) -> np.ndarray:
@@ -44,44 +30,56 @@ def random_start(t: Transcription, seed: int, number: int) -> np.ndarray:
     return t.start(draw.uniform(lower, upper))
 
 
+REGRESSION_INTERVALS = 1000     # enough for a start; more only cost time
+
+
 def default_start(t: Transcription) -> np.ndarray:
-    """The recorded motion with the parameters that fit its equations best (equation error).
+    """A start made from the recording: regression on its equations, then output error by simulation.
+
+    Where the loop that the regression finds cannot be simulated, the recorded motion with the
+    regressed parameters is the start.
+    """
+    parameters = equation_error(t)
+    shot = shoot(t, parameters)
+    return t.start(parameters) if shot is None else t.start(*shot)
+
+
+def equation_error(t: Transcription) -> np.ndarray:
+    """(free parameters,) SI: those with which the recorded motion satisfies the equations best.
 
     With states and their differences taken from the recording, the residuals of the intervals
     are least squares in the parameters alone: inverse dynamics and regression in one step.
     """
-    lower, upper = (b[t.layout.offsets[-1]:] for b in (t.program.lower, t.program.upper))
-    z = t.start(guesses(t))
     first, kernel = t.layout.offsets[-1], t.program.interval
+    lower, upper = (b[first:] for b in (t.program.lower, t.program.upper))
+    z = t.start(guesses(t))
     shared = kernel.jacobian_cols >= kernel.n_local
     rows, cols = kernel.jacobian_rows[shared], kernel.jacobian_cols[shared] - kernel.n_local
     used = np.unique(rows)
 
-    def put(p):
-        z[first:] = p
-        return z
+    def arguments(e):
+        local, parameters, data, constants = t.program.interval_arguments(z, e)
+        every = max(1, len(local) // REGRESSION_INTERVALS)
+        return local[::every], parameters, np.ascontiguousarray(data[::every]), constants
 
     def residual(p):
-        put(p)
-        parts = [kernel.residual(*t.program.interval_arguments(z, e))[:, used] for e in range(len(t.layout.intervals))]
-        return np.concatenate([r.ravel() for r in parts])
+        z[first:] = p
+        return np.concatenate([kernel.residual(*arguments(e))[:, used].ravel() for e in range(len(t.layout.intervals))])
 
     def jacobian(p):
-        put(p)
+        z[first:] = p
         blocks = []
         for e in range(len(t.layout.intervals)):
-            values = kernel.jacobian(*t.program.interval_arguments(z, e))[:, shared]
+            values = kernel.jacobian(*arguments(e))[:, shared]
             dense = np.zeros((len(values), len(used), len(p)))
             dense[:, np.searchsorted(used, rows), t.layout.parameter_index[e][cols]] = values
             blocks.append(dense.reshape(-1, len(p)))
         return np.concatenate(blocks)
 
-    inside = np.clip(z[first:].copy(), np.nextafter(lower, np.inf), np.nextafter(upper, -np.inf))
-    if len(used) and not np.isnan(residual(inside)).any():
-        inside = least_squares(residual, inside, jacobian, bounds=(lower, upper), x_scale="jac", max_nfev=30).x
-    put(inside)
-    t.program.settle_late(z)
-    return np.clip(z, t.program.lower, t.program.upper)
+    p = np.clip(z[first:], np.nextafter(lower, np.inf), np.nextafter(upper, -np.inf))
+    if len(p) and len(used) and np.isfinite(residual(p)).all():
+        p = least_squares(residual, p, jacobian, bounds=(lower, upper), x_scale="jac", max_nfev=30).x
+    return p * t.layout.parameter_scale
 
 
 def given_start(t: Transcription, given: dict[str, float] | Solution) -> np.ndarray:

@@ -111,7 +111,7 @@ def first_states(model: Model, recording: Recording) -> np.ndarray:
              for c in (s, shown.get(s)) if c in recording.channels}
     for rate, of in model.rates().items():
         if rate not in known and of in known:
-            known[rate] = np.gradient(known[of], recording.time)
+            known[rate] = np.gradient(known[of], recording.time, edge_order=2)
     zero = np.zeros(len(recording.time))
     return np.column_stack([known.get(s, zero) for s in model.states])
 

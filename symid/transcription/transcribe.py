@@ -142,7 +142,7 @@ def _constants(model, scheme, interval: Kernel, layout: Layout, measured, data, 
     first = interval.jacobian(layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
                               build(data[0].step, np.ones(equations)))
     of_states = (interval.jacobian_cols < interval.n_local) & (interval.jacobian_rows < equations * len(scheme.stencil.weights))
-    scale = equation_scale(interval.jacobian_rows[of_states], first[:, of_states], equations)
+    scale = equation_scale(interval.jacobian_rows[of_states], first[:, of_states], equations, data[0].step)
     return tuple(build(d.step, scale) for d in data)
 
 
