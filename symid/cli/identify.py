@@ -34,14 +34,17 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.files import write_json
     from symid.identification import Identification
     from symid.recording import read_recording
-    from symid.transcription import Episodes, scheme_by_name
+    from symid.transcription import Episodes, measure, scheme_by_name
 
     scheme = scheme_by_name(arguments.scheme)
     model = build_model(arguments.body, arguments.controller)
+    recording = read_recording(arguments.recording)
+    if arguments.held_out:
+        measure(model, recording, arguments.held_out)    # refused now, not after the solve
     noise = {"torque": arguments.noise} if arguments.episodes > 1 else {}
-    problem = Identification(model, read_recording(arguments.recording), arguments.window, scheme=scheme,
+    problem = Identification(model, recording, arguments.window, scheme=scheme,
                              episodes=Episodes(arguments.episodes, seed=arguments.seed, **noise))
-    with chosen_executor(min(arguments.jobs, arguments.starts), arguments.cluster) as executor:
+    with chosen_executor(min(arguments.jobs, max(arguments.starts, 1)), arguments.cluster) as executor:
         solution = problem.solve(arguments.starts, seed=arguments.seed, executor=executor, store=arguments.store,
                                  on_iteration=show_iteration if arguments.starts == 1 else None,
                                  on_start=_tell_start if arguments.starts > 1 else None,

@@ -7,7 +7,7 @@ import sys
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
 
-from symid.errors import ModelError
+from symid.errors import ModelError, SolveError
 
 CONTROLLERS = ("pd", "fpd", "fpd-delay", "nn")
 
@@ -46,6 +46,8 @@ def add_executor_arguments(parser: argparse.ArgumentParser) -> None:
 def chosen_executor(jobs: int, cluster: str | None) -> AbstractContextManager[Executor | None]:
     """A cluster, or `jobs` local processes, or None for this process alone; to be used in a with statement."""
     from symid.identification import Cluster, LocalPool
+    if jobs < 1:
+        raise SolveError(f"--jobs {jobs} is not possible; give at least 1 process")
     if cluster is not None:
         return Cluster(cluster)
     return LocalPool(jobs) if jobs > 1 else nullcontext()

@@ -27,11 +27,11 @@ def parameter_covariance(t: Transcription, result: SolverResult, errors: list[np
     """
     first, free = t.layout.offsets[-1], len(t.layout.parameter_names)
     at_bound = bound_active(t, result)
-    response = _parameter_rows_of_inverse(t, result, at_bound)
     keep = np.flatnonzero(~at_bound[first:])
     covariance = np.full((free, free), np.nan)
-    if at_bound[first:].all():
+    if not len(keep):
         return covariance
+    response = _parameter_rows_of_inverse(t, result, at_bound)
     total = np.zeros((len(keep), len(keep)))
     for r, error in enumerate(errors):
         influence = sum(_influence(t, e, response, output_slopes[e]) for e, of in enumerate(t.recording_of) if of == r)

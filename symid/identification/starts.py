@@ -88,6 +88,8 @@ def given_start(t: Transcription, given: dict[str, float] | Solution) -> np.ndar
     A parameter that is not given starts at its guess; a Solution may be of a smaller model, of
     fewer episodes or of a shorter window: what it lacks is taken from the recording.
     """
+    if isinstance(given, str):
+        raise SolveError(f"start: '{given}' is not known; give 'default', 'random', parameter values by name, or a Solution")
     values = given if isinstance(given, dict) else given.values
     parameters, lower, upper = guesses(t), *parameter_bounds(t)
     base = {name: columns for name, columns in zip(t.model.parameters, t.layout.parameter_index.T, strict=True)}
@@ -99,7 +101,7 @@ def given_start(t: Transcription, given: dict[str, float] | Solution) -> np.ndar
         elif isinstance(given, dict):
             raise SolveError(f"start: model '{t.model.name}' has no parameter '{name}'; {nearest(name, base)}")
     if isinstance(given, dict):
-        for i in np.flatnonzero((parameters < lower) | (parameters > upper)):
+        for i in np.flatnonzero(~((parameters >= lower) & (parameters <= upper))):    # NaN is not inside
             raise SolveError(f"start: {t.layout.parameter_names[i]}={parameters[i]:g} is outside its bounds "
                              f"{lower[i]:g} to {upper[i]:g}; change the value or the bounds")
         return t.start(parameters)

@@ -86,8 +86,9 @@ def _refuse_other_units(model: Model, recording: Recording) -> None:
 
 def _window_samples(recording: Recording, window: tuple[float, float] | None) -> tuple[int, int]:
     time = recording.time
-    if window is None:
+    if window is None and len(time) > 2:
         return 0, len(time) - 1
+    window = window or (time[0], time[-1])
     t0, t1 = map(float, window)
     slack = 0.5 * (time[1] - time[0])
     if not (time[0] - slack <= t0 < t1 <= time[-1] + slack):

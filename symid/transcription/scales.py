@@ -33,5 +33,6 @@ def equation_scale(rows: np.ndarray, values: np.ndarray, equations: int, step: f
     step : [s]; a state enters a difference quotient with coefficient / step.
     """
     size = np.zeros(equations)
-    np.maximum.at(size, rows % equations, np.abs(values).max(axis=0) * step)
+    # An expression may have no value at the recorded motion: the solver says so, in words.
+    np.maximum.at(size, rows % equations, np.where(np.isfinite(values), np.abs(values), 0.0).max(axis=0) * step)
     return np.where(np.isfinite(size) & (size > 0), size, 1.0)

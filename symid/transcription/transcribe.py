@@ -147,9 +147,11 @@ def _constants(model, scheme, interval: Kernel, layout: Layout, measured, data, 
 
 
 def _error_constants(model: Model, layout: Layout, weights: dict[str, float]) -> np.ndarray:
-    for name in weights:
+    for name, weight in weights.items():
         if name not in model.outputs:
             raise TranscriptionError(f"weights: model '{model.name}' has no output '{name}'; {nearest(name, model.outputs)}")
+        if not (np.isfinite(weight) and weight >= 0):
+            raise TranscriptionError(f"weights: the weight {weight:g} of '{name}' must be a finite number of at least 0")
     values = [c.value for c in model.constants.values()]
     return np.concatenate([values, *_scales(layout), [weights.get(y, 1.0) for y in model.outputs]])
 
