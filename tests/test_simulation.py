@@ -221,3 +221,20 @@ def test_synthetic_recording_is_seeded_and_noisy():
         synthetic_recording(oscillator(), VALUES, duration=5, rate=50, seed=1, process_noise={"jult": 1.0})
     with pytest.raises(SymidError, match="diverges"):
         synthetic_recording(oscillator(), {"stiffness": -50.0, "damping": 0.0}, duration=60, rate=50, seed=1)
+
+
+def test_corrections_of_the_past_reach_delayed_signals_and_sensitivities():
+    t = np.linspace(0, 4, 201)
+    sim = Simulator(oscillator(0.07))
+    rng = np.random.default_rng(2)
+    gain = np.array([[[0.3, 0.01], [1.0, 0.1]], [[0.2, 0.0], [0.5, 0.1]], [[0.1, 0.0], [0.3, 0.0]], [[0.0, 0.0], [0.1, 0.0]],
+                     [[0.0, 0.0], [0.1, 0.0]]])
+    common = {"time": t, "inputs": {"push": np.sin(2 * t)}, "gain": gain, "recorded": rng.normal(size=(201, 2)) * 0.1,
+              "initial_state": [0.1, 0.0]}
+    values = VALUES | {"lag": 0.073}
+    got = sim.simulate(values, sensitivity=["stiffness", "lag"], **common)
+    for key, h in (("stiffness", 1e-3), ("lag", 1e-6)):
+        slope = central(lambda v: sim.simulate(v, **common).y, values, key, h)
+        np.testing.assert_allclose(got.sensitivity("seen", key), slope[:, 0], atol=2e-5 * np.abs(slope[:, 0]).max())
+    only_now = sim.simulate(values, **(common | {"gain": gain[0]}))
+    assert not np.allclose(only_now.y, got.y)

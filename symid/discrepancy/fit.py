@@ -9,13 +9,13 @@ the fit is plain output error. The covariance of the surprises is concentrated o
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from symid.discrepancy.data import Data
 from symid.discrepancy.gain import kalman_gain, linearised_along
-from symid.errors import DiagnosisError
+from symid.errors import DiagnosisError, SymidError
 from symid.model import Model
 from symid.simulation import Simulator, simulator
 
@@ -106,10 +106,8 @@ class Fitter:
         """Kalman gain at these values, linearised along the trajectory that the present gain gives."""
         if not self.driven:
             return None
-        states = np.vstack([e.recorded for e in self.data.episodes])
         runs = self.run(p, x0, previous, False, keep_states=True) if previous is not None else None
         path = np.vstack([t.x for t in runs]) if runs else np.array(x0)
-        del states
         return kalman_gain(linearised_along(self.sim, p, path), self.step, process, self.data.sensor_noise)
 
     # ---- the iteration ---------------------------------------------------------------
@@ -124,27 +122,36 @@ class Fitter:
         if not np.isfinite(best):
             raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
         for k in range(1, iterations + 1):
-            system = self._normal(p, x0, gain, process, learn_noise)
+            system = self.normal(p, x0, gain, process, learn_noise)
             if system is None:
                 break
             improved = False
             for _ in range(8):
                 step = _solve(system, damping, self.bounds[self.index], p[self.index])
                 p1, x1, process1 = self._moved(p, x0, process, step)
-                gain1 = self.gain(p1, x1, process1, gain)
-                value = self.evaluate(p1, x1, gain1)
+                gain1, value = self._tried(p1, x1, process1, gain)
                 if value > best - 1e-9:
                     improved = True
                     break
                 damping = max(damping * 10, 1e-6)
             if not improved:
+                # No step gains although little is left to gain: the gain's own change is not in the slopes.
+                quiet = float(step @ system[1]) < 1.0
                 break
             change, best = value - best, value
             p, x0, process, gain, damping = p1, x1, process1, gain1, damping * 0.1
             quiet = quiet + 1 if change < tolerance else 0
             if quiet >= 1:
                 break
-        return self._result(p, x0, process, gain, k, quiet >= 1)
+        return self._result(p, x0, process, gain, k, bool(quiet))
+
+    def _tried(self, p, x0, process, gain):
+        """The gain and twice the log-likelihood at a trial point, -inf where it cannot be simulated."""
+        try:
+            gain = self.gain(p, x0, process, gain)
+            return gain, self.evaluate(p, x0, gain)
+        except SymidError:
+            return gain, -np.inf
 
     def _moved(self, p, x0, process, step):
         q, (E, n) = len(self.free), x0.shape
@@ -154,7 +161,7 @@ class Fitter:
         process1 = process * np.exp(np.clip(step[q:q + len(process)], -1.5, 1.5)) if self.driven else process
         return p1, x0 + step[-E * n:].reshape(E, n), process1
 
-    def _normal(self, p, x0, gain, process, learn_noise):
+    def normal(self, p, x0, gain, process, learn_noise):
         """Normal equations of shared unknowns (parameters, log noise) and initial states."""
         runs = self.run(p, x0, gain, sensitivities=True)
         if runs is None:
@@ -190,7 +197,7 @@ class Fitter:
         return [np.stack([c[i] for c in columns], axis=2) for i in range(len(surprise))]
 
     def _result(self, p, x0, process, gain, iterations, converged) -> Fit:
-        system = self._normal(p, x0, gain, process, True)
+        system = self.normal(p, x0, gain, process, True)
         runs = self.run(p, x0, gain, sensitivities=False)
         surprise = self.surprises(runs)
         loglik2, cov = self.score(surprise)
@@ -223,6 +230,3 @@ def _solve(system, damping, bounds, at) -> np.ndarray:
         held[:q] |= out
     return step
 
-
-def replace_model(fit: Fit, model: Model) -> Fit:
-    return replace(fit, model=model)

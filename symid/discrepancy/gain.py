@@ -18,7 +18,10 @@ def linearised_along(simulator: Simulator, values: np.ndarray, states: np.ndarra
 
 
 def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray) -> np.ndarray:
-    """(n, m) gain that moves the state after a sample by gain @ (recorded - predicted).
+    """Gain that moves the state after a sample by gain @ (recorded - predicted).
+
+    (n, m), or (1 + k, n, m) where the model has delayed states: then also for the states 1 ... k
+    samples before, P (F - F K C)'^j C' S^-1 (fixed-lag smoothing; Anderson & Moore 1979, 7.3).
 
     Parameters
     ----------
@@ -36,7 +39,20 @@ def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np
     for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
         try:
             P = solve_discrete_are((leak * F).T, C.T, Q * scale + 1e-12 * np.eye(n), R * scale)
-            return np.linalg.solve(C @ P @ C.T + R * scale, C @ P)[:, :len(linear.A)].T
+            return _gains(F, P, C, np.linalg.inv(C @ P @ C.T + R * scale), linear, step)
         except (LinAlgError, ValueError):
             continue
     return np.zeros((len(linear.A), len(C)))
+
+
+def _gains(F, P, C, inverse, linear: Linearised, step: float) -> np.ndarray:
+    own = len(linear.A)
+    now = P @ C.T @ inverse
+    lags = linear.lag[linear.late_state >= 0]
+    if len(lags) == 0:
+        return now[:own]
+    back, error, gains = P, (F - F @ now @ C).T, [now[:own]]
+    for _ in range(int(np.ceil(lags.max() / step)) + 1):
+        back = back @ error
+        gains.append((back @ C.T @ inverse)[:own])
+    return np.array(gains)

@@ -151,7 +151,10 @@ def _peaks(values: np.ndarray, apart: int, keep: int) -> list[int]:
 
 def padded(gain: np.ndarray | None, sim: Simulator) -> np.ndarray | None:
     """The gain with rows of zero for states that a term added."""
-    return None if gain is None else np.vstack([gain, np.zeros((len(sim.states) - len(gain), gain.shape[1]))])
+    if gain is None:
+        return None
+    rows = len(sim.states) - gain.shape[-2]
+    return np.pad(gain, [(0, 0)] * (gain.ndim - 2) + [(0, rows), (0, 0)])
 
 
 def extended(initial: np.ndarray, sim: Simulator) -> np.ndarray:

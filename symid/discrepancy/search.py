@@ -19,6 +19,9 @@ from symid.simulation import simulator
 WORTH_REFITTING = 8.0
 """A suspect with a smaller forecast gain than this is refitted only if it is among the best few."""
 ALWAYS_REFITTED = 6
+FIRST_ITERATIONS = 6
+CONVERGED_FULLY = 8
+"""So many suspects, the best after the first iterations, are fitted to convergence from two starts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,41 +61,52 @@ def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, threads: int =
     """All suspects on top of `fit`, best score first."""
     screen = Screen(fit, data)
     with ThreadPoolExecutor(threads) as pool:
-        starts = list(pool.map(lambda s: _starts(fit, data, screen, s), suspects))
-        starts = sorted((s for s in starts if s), key=lambda s: -s[0].forecast)
+        starts = [s for s in pool.map(lambda s: _starts(fit, data, screen, s), suspects) if s]
+        starts.sort(key=lambda s: -s[0].forecast)
         chosen = [s for i, s in enumerate(starts) if s[0].forecast > WORTH_REFITTING or i < ALWAYS_REFITTED]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
-        found = list(pool.map(lambda s: _refit(fit, data, s), chosen))
-    return sorted((c for c in found if c is not None), key=lambda c: -c.score)
+        first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen) if c is not None]
+        first.sort(key=lambda c: -c.score)
+        others = {s[0].suspect: s[1:3] for s in chosen}
+        found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), first[:CONVERGED_FULLY]))
+    return sorted(found + first[CONVERGED_FULLY:], key=lambda c: -c.score)
 
 
 def _starts(fit: Fit, data: Data, screen: Screen, suspect: Suspect) -> list[Start]:
     """Start values of one suspect, best forecast first; none where it cannot be simulated."""
-    try:
-        model = fit.model.with_term(suspect.term)
-        if suspect.scanned is not None:
-            return [Start(g, suspect, v) for g, v in screen.scan(suspect, model)[:1]]
-        fitter = Fitter(model, data)
-        found = []
-        for values in suspect.starts():
-            try:
-                gain = forecast(fitter, fit, suspect, values)
-            except SymidError:
-                continue
-            if gain is not None:
-                found.append(Start(gain, suspect, values))
-        return sorted(found, key=lambda s: -s.forecast)
-    except SymidError:
-        return []
+    model = fit.model.with_term(suspect.term)
+    if suspect.scanned is not None:
+        found = screen.scan(suspect, model)
+        return [Start(g, suspect, v) for g, v in found[:1] + [f for f in found[1:] if f[0] > 0.7 * found[0][0]][:2]]
+    fitter, found = Fitter(model, data), []
+    for values in suspect.starts():
+        gain = forecast(fitter, fit, suspect, values) if suspect.strength is not None else None
+        if gain is not None:
+            found.append(Start(gain, suspect, values))
+    found.sort(key=lambda s: -s.forecast)
+    # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
+    finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
+    finite = [v for here, v in finite if np.isfinite(here)]
+    if found:
+        return found[:1] + [Start(found[0].forecast, suspect, v) for v in finite[:2] if v != found[0].values]
+    tried = [_refit(fit, data, Start(0.0, suspect, v), 4) for v in finite[:1]]
+    forecasts = [c.gain for c in tried if c is not None]
+    return [Start(forecasts[0] if forecasts else 0.0, suspect, v) for v in finite[:2]]
+
+
+def _point(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]):
+    p = np.array([(fit.values | suspect.named(values))[k] for k in fitter.sim.parameters])
+    return p, extended(fit.initial, fitter.sim), padded(fit.gain, fitter.sim)
+
+
+def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
+    return fitter.evaluate(*_point(fitter, fit, suspect, values))
 
 
 def forecast(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float | None:
     """Gain after one exact Gauss-Newton step from these values, or None if the run diverges."""
-    p = np.array([(fit.values | suspect.named(values))[k] for k in fitter.sim.parameters])
-    x0 = extended(fit.initial, fitter.sim)
-    gain = padded(fit.gain, fitter.sim)
-    here = fitter.evaluate(p, x0, gain)
-    system = fitter._normal(p, x0, gain, fit.process, False)
+    p, x0, gain = _point(fitter, fit, suspect, values)
+    here, system = fitter.evaluate(p, x0, gain), fitter.normal(p, x0, gain, fit.process, False)
     if system is None or not np.isfinite(here):
         return None
     H, g, _ = system
@@ -101,18 +115,34 @@ def forecast(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float
     return float(here - fit.loglik2 + step @ (g / d))
 
 
-def _refit(fit: Fit, data: Data, starts: list[Start]) -> Candidate | None:
-    suspect = starts[0].suspect
-    model = fit.model.with_term(suspect.term)
-    fitter, best = Fitter(model, data), None
-    for start in starts[:2]:
-        try:
-            new = fitter.fit(fit.values | suspect.named(start.values), extended(fit.initial, simulator(model)), fit.process)
-        except SymidError:
-            continue
-        if best is None or new.loglik2 > best.loglik2:
-            best = new
-    if best is None:
+def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Candidate | None:
+    suspect = start.suspect
+    fitter = Fitter(fit.model.with_term(suspect.term), data)
+    try:
+        new = fitter.fit(fit.values | suspect.named(start.values), extended(fit.initial, fitter.sim), fit.process, iterations)
+    except SymidError:
         return None
-    gain = best.loglik2 - fit.loglik2
-    return Candidate(suspect, best, gain, gain - price(suspect, data), starts[0].forecast)
+    gain = new.loglik2 - fit.loglik2
+    return Candidate(suspect, new, gain, gain - price(suspect, data), start.forecast)
+
+
+def _begin(fit: Fit, data: Data, starts: list[Start]) -> Candidate | None:
+    """A few iterations from the best start, and from the others where it does not keep its promise."""
+    best = None
+    for start in starts:
+        new = _refit(fit, data, start, FIRST_ITERATIONS)
+        if new is not None and (best is None or new.gain > best.gain):
+            best = new
+        if best is not None and best.gain > 0.5 * start.forecast:
+            break
+    return best
+
+
+def _converge(fit: Fit, data: Data, first: Candidate, others: list[Start]) -> Candidate:
+    """The candidate fitted to convergence, or what another start leads to if that is better."""
+    begun = first.fit
+    new = Fitter(begun.model, data).fit(begun.values, begun.initial, begun.process)
+    gain = new.loglik2 - fit.loglik2
+    found = [Candidate(first.suspect, new, gain, gain - price(first.suspect, data), first.forecast)]
+    found += [c for c in (_refit(fit, data, s) for s in others) if c is not None]
+    return max(found, key=lambda c: c.gain)

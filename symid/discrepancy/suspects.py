@@ -41,7 +41,7 @@ class Suspect:
 
     @property
     def scanned(self) -> LawParameter | None:
-        return next((q for q in self.law.parameters if q.key in SCANNED), None)
+        return next((q for q in self.law.parameters if q.key in SCANNED and (q.key != "frequency_Hz" or self.phase)), None)
 
     @property
     def size(self) -> int:
@@ -51,12 +51,12 @@ class Suspect:
         """Values by key as values by the name of the model's parameters."""
         return {self.term.parameter_name(k): v for k, v in values.items()}
 
-    def starts(self) -> list[dict[str, float]]:
-        """Values by key at which the law, not scanned, begins: off where it has an off, and finite ones."""
+    def starts(self, off: bool = True) -> list[dict[str, float]]:
+        """Values by key from which a fit may begin, the strength off or at finite sizes."""
         choices = []
         for q in self.law.parameters:
-            own = ([q.null] if q.null is not None else []) + list(q.starts)
-            choices.append(own or [q.typical])
+            null = [] if q.null is None else [q.null]
+            choices.append(null if q is self.strength and off else list(q.starts) or null or [q.typical])
         return [dict(zip([q.key for q in self.law.parameters], c, strict=True)) for c in product(*choices)]
 
     @property

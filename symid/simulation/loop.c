@@ -15,10 +15,11 @@
 #define NON(n) ((n) > 0 ? (n) : 1)
 
 typedef struct {
-    long N, substeps, method, nq, nqp, nqx, nh;
+    long N, substeps, method, nq, nqp, nqx, nh, npast;
     const double *t, *u, *w, *p, *c, *x0;
     const int *qp, *qx;             /* which parameters, which initial states */
-    const double *gain, *recorded;  /* NX x NY correction at the samples, or null */
+    const double *gain, *recorded;  /* (1 + npast) x NX x NY corrections at the samples, or null: of the
+                                       state now, and of what it was 1, 2 ... sample intervals ago */
     const double *ht, *hx;          /* given history before the start, or null */
     double limit;
     double *X, *Y, *SX, *SY;        /* results: N x NX, N x NY, N x NX x nq, N x NY x nq */
@@ -223,6 +224,37 @@ static int healthy(int n, const double *x, double limit)
     return 1;
 }
 
+/* Correction of state i per unit of surprise o, `late` sample intervals before the sample. */
+static double past_gain(const Work *v, double late, int i, int o)
+{
+    long j = (long)late, size = NX*NY;
+    if (late < 0) return v->r.gain[i*NY+o];
+    if (j >= v->r.npast) return 0;
+    double f = late - j;
+    return (1-f) * v->r.gain[j*size + i*NY+o] + f * v->r.gain[(j+1)*size + i*NY+o];
+}
+
+/* What a sample says about the past that delayed signals still read: a fixed-lag smoother
+ * (Anderson & Moore 1979, 7.3) on the stored steps, linear within each. */
+static void correct_past(Work *v, double now, double interval, const double *e, const double *Sy)
+{
+    long nq = v->r.nq, big = NX*nq;
+    for (long n = v->steps - 1; n >= 0; n--) {
+        double h = v->span[n], a = (now - v->when[n]) / interval, b = a - h / interval;
+        if (b >= v->r.npast) break;
+        double *P = v->poly + n*4*NX, *Q = v->spoly + n*4*big;
+        for (int i = 0; i < NX; i++)
+            for (int o = 0; o < NY; o++) {
+                double start = past_gain(v, a, i, o), slope = (past_gain(v, b, i, o) - start) / h;
+                double part[4] = {start, slope, 2*slope, slope};
+                for (int k = 0; k < 4; k++) {
+                    P[k*NX+i] += part[k] * e[o];
+                    add(-part[k], Sy + o*nq, Q + k*big + i*nq, nq);
+                }
+            }
+    }
+}
+
 /* Returns the number of samples that were reached before the run left `limit`. */
 long simulate(const Ode *model, const Run *given)
 {
@@ -274,15 +306,18 @@ long simulate(const Ode *model, const Run *given)
         if (nq && r->SY) memcpy(r->SY + k*NY*nq, Sy, NY * nq * sizeof(double));
         done = k + 1;
         if (k == r->N - 1) break;
-        if (r->gain)
+        if (r->gain) {
+            double e[NON(NY)];
             for (int j = 0; j < NY; j++) {
-                double e = r->recorded[k*NY+j] - y[j];
-                if (isnan(e)) continue;
+                e[j] = r->recorded[k*NY+j] - y[j];
+                if (isnan(e[j])) { e[j] = 0; memset(Sy + j*nq, 0, nq * sizeof(double)); }
                 for (int i = 0; i < NX; i++) {
-                    x[i] += r->gain[i*NY+j] * e;
+                    x[i] += r->gain[i*NY+j] * e[j];
                     add(-r->gain[i*NY+j], Sy + j*nq, S + i*nq, nq);
                 }
             }
+            if (keep && r->npast) correct_past(v, r->t[k], r->t[k+1] - r->t[k], e, Sy);
+        }
         double h = (r->t[k+1] - r->t[k]) / m;
         for (long s = 0; s < m; s++) {
             double t = r->t[k] + s * h;

@@ -18,7 +18,7 @@ from symid.model import Model, nearest
 from symid.simulation.linear import Linearised
 
 _DOUBLES = ct.POINTER(ct.c_double)
-_FIELDS = [*((n, ct.c_long) for n in ("N", "substeps", "method", "nq", "nqp", "nqx", "nh")),
+_FIELDS = [*((n, ct.c_long) for n in ("N", "substeps", "method", "nq", "nqp", "nqx", "nh", "npast")),
            *((n, ct.c_void_p) for n in ("t", "u", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "ht", "hx")),
            ("limit", ct.c_double), *((n, ct.c_void_p) for n in ("X", "Y", "SX", "SY"))]
 METHODS = {"rk4": 0, "euler": 1}
@@ -113,7 +113,8 @@ class Simulator:
         history : (K,) times before ``time[0]`` and (K, n) states, for delayed signals; without it
             the initial state held before the start.
         gain, recorded : (n, m) and (N, m): after each sample the state is moved by
-            gain @ (recorded - y), as in an observer or Kalman filter; NaN rows are skipped.
+            gain @ (recorded - y), as in an observer or Kalman filter; NaN is skipped. With
+            (1 + k, n, m), what the state was 1 ... k samples before is moved too, for delayed signals.
         limit : a state larger than this ends the run (`Trajectory.diverged`).
 
         Raises
@@ -139,6 +140,7 @@ class Simulator:
         }
         run = _Run(N=n, substeps=substeps, method=METHODS[method], nq=q, nqp=len(sensitivity),
                    nqx=len(initial_sensitivity), nh=0 if history is None else len(history[0]), limit=limit,
+                   npast=0 if gain is None or np.ndim(gain) == 2 else len(gain) - 1,
                    **{k: None if a is None else a.ctypes.data for k, a in keep.items()})
         reached = self._loop.simulate(self._ode, ct.byref(run))
         if reached < 0:

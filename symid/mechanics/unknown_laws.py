@@ -1,0 +1,92 @@
+"""Laws without a name: flexible functions that fit whatever is missing at one place.
+
+They are no explanation. They tell how much could still be explained at a place, against which
+the named laws are measured, and where an unexplained rest acts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import sympy as sm
+
+from symid.mechanics.laws import port_at
+from symid.model import Equation, Law, LawParameter, Model, State
+
+MEMORY_TIMES = (0.05, 0.2, 0.8)
+"""Time constants [s] of the filtered positions that let a flexible force remember."""
+
+
+def _parameters(count: int) -> tuple[LawParameter, ...]:
+    return tuple(LawParameter(f"c{i}", "1") for i in range(count))
+
+
+def unknown_force(role: str, scales: Mapping[str, tuple[float, float]], span: tuple[float, float]) -> Law:
+    """A force at a port: polynomials of position and rate, friction, memory and drift.
+
+    Parameters
+    ----------
+    role : role of the ports. scales : place -> rms of position and rate there.
+    span : start and end of the recording [s].
+    """
+    def build(model: Model, place: str, p) -> None:
+        port = port_at(model, role, place)
+        x, v = port.position / scales[place][0], port.rate / scales[place][1]
+        t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
+        shapes = [x**2, x**3, x**4, v * sm.Abs(v), v**3, v**2, x * sm.Abs(v), x**2 * v, sm.tanh(3 * v), sm.tanh(10 * v),
+                  x * t, v * t]
+        for i, tau in enumerate(MEMORY_TIMES):
+            name = f"unknown_{place}_memory{i}"
+            setattr(model, name, State(unit="1", role="memory", at=place))
+            setattr(model, f"{name}_equation", Equation(tau * model[name].dot - x + model[name]))
+            shapes.append(model[name].symbol)
+        model.add_effort(port.name, sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
+    return Law("unknown_force", role, _parameters(12 + len(MEMORY_TIMES)), build,
+               "Something acts on the {place} that no known law describes")
+
+
+def unknown_sensor(scales: Mapping[str, float]) -> Law:
+    """A sensor whose error is a polynomial of what it shows."""
+    def build(model: Model, place: str, p) -> None:
+        for sensor in model.find("sensor", place):
+            y = sensor.expr / scales[place]
+            model.redefine(sensor.name, sensor.expr + scales[place] * (p.c0 * y**2 + p.c1 * y**3 + p.c2 * sm.Abs(y)))
+    return Law("unknown_sensor_error", "sensor", _parameters(3), build,
+               "What the sensor {place} shows is distorted in a way that no known law describes")
+
+
+def _conjugate_rate(model: Model, equation: str) -> sm.Expr | None:
+    """The rate along which a force enters this equation alone: that of its generalized coordinate."""
+    for port in model.ports.values():
+        if list(port.into) == [equation]:
+            return port.rate / port.into[equation]
+    return None
+
+
+def _elastic_mount(model: Model, place: str, p) -> None:
+    """The base gives way: M x'' + c x' + k x = -d/dt of the mechanism's momentum along the base.
+
+    That momentum follows from how the base's acceleration enters the balances (reciprocity of
+    the mass matrix).
+    """
+    base = model.find("base_acceleration", place)[0]
+    pairs = [(sm.diff(e.expr, base.symbol), _conjugate_rate(model, e.name)) for e in model.equations.values()]
+    momentum = sum(c * r for c, r in pairs if c != 0 and r is not None)
+    dots = {s.symbol: s.dot for s in model.states.values()}
+    force = sum(sm.diff(momentum, s) * d for s, d in dots.items())
+    position, rate = f"elastic_mount_{place}_position", f"elastic_mount_{place}_rate"
+    setattr(model, position, State(unit="m", role="memory", at=place, meaning="position of the base on its springs"))
+    setattr(model, rate, State(unit="m/s", role="memory", at=place, meaning="velocity of the base on its springs"))
+    x, v, w = model[position], model[rate], 2 * sm.pi * p.frequency_Hz
+    setattr(model, f"{position}_equation", Equation(x.dot - v.symbol))
+    setattr(model, f"{rate}_equation", Equation(
+        v.dot + 2 * p.damping_ratio * w * v.symbol + w**2 * x.symbol - p.inverse_mass_1_kg * force))
+    model.redefine(base.name, base.expr + v.dot)
+
+
+ELASTIC_MOUNT = Law(
+    "elastic_mount", "base_acceleration",
+    (LawParameter("inverse_mass_1_kg", "1/kg", (0.0, 100.0), typical=0.1),
+     LawParameter("frequency_Hz", "Hz", (0.5, 40.0), None, (3.0, 6.0, 12.0), 5.0),
+     LawParameter("damping_ratio", "1", (0.0, 2.0), None, (0.05,), 0.05)),
+    _elastic_mount, "The mount gives way like a mass on springs of {frequency_Hz}", "Den Hartog 1934")
