@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from nlp_problems import HS071_OBJECTIVE, HS071_SOLUTION, hs071, one_variable, tracking
 
-from symid import ipopt_solver
+from symid.ipopt_solver import solve as ipopt_solver
 from symid.errors import SolveError
 from symid.ipopt_solver import solve_nlp
-from symid.ipopt_status import STATUS, explain
+from symid.ipopt_solver.status import STATUS, explain
 from symid.nlp import check_optimality
 
 pytest.importorskip("cyipopt", reason="cyipopt is absent: run `python -m symid.setup_ipopt`")

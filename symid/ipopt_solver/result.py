@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symid.ipopt_evaluation import Evaluation
-from symid.ipopt_status import SOLVED, explain
+from symid.ipopt_solver.evaluation import Evaluation
+from symid.ipopt_solver.status import SOLVED, explain
 from symid.nlp import NonlinearProgram
 
 

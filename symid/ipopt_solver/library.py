@@ -13,7 +13,7 @@ from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_void_p
 import numpy as np
 
 from symid.errors import SolveError
-from symid.ipopt_evaluation import Evaluation, RejectedPoint
+from symid.ipopt_solver.evaluation import Evaluation, RejectedPoint
 from symid.nlp import NonlinearProgram
 
 # Callbacks return int although newer headers say bool: the low byte is the same, so both work.

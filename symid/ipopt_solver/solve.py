@@ -9,11 +9,11 @@ from collections.abc import Callable
 
 import numpy as np
 
-from symid import ipopt_library
+from symid.ipopt_solver import library as ipopt_library
 from symid.errors import SolveError
-from symid.ipopt_evaluation import Evaluation, Iteration, RejectedPoint
-from symid.ipopt_result import SolverResult, WorstConstraint, make_result
-from symid.ipopt_status import SOLVED, STOPPED_BY_LIMIT, explain
+from symid.ipopt_solver.evaluation import Evaluation, Iteration, RejectedPoint
+from symid.ipopt_solver.result import SolverResult, WorstConstraint, make_result
+from symid.ipopt_solver.status import SOLVED, STOPPED_BY_LIMIT, explain
 from symid.nlp import NonlinearProgram
 
 __all__ = ["Iteration", "SolverResult", "WorstConstraint", "solve_nlp"]
@@ -222,7 +222,7 @@ class _CyipoptFunctions:
 
 
 def _run_cyipopt(nlp, evaluation, options, scales, point) -> int:
-    """Solve through cyipopt; the same contract as ipopt_library.solve."""
+    """Solve through cyipopt; the same contract as library.solve."""
     import cyipopt
 
     problem = cyipopt.Problem(

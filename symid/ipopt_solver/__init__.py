@@ -1,0 +1,7 @@
+"""Solve a nonlinear program with Ipopt. The only room that imports cyipopt."""
+
+from symid.ipopt_solver.evaluation import Iteration
+from symid.ipopt_solver.result import SolverResult, WorstConstraint
+from symid.ipopt_solver.solve import solve_nlp
+
+__all__ = ["Iteration", "SolverResult", "WorstConstraint", "solve_nlp"]
