@@ -6,6 +6,8 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
+from symid.discrepancy.diagnose import diagnose
+from symid.discrepancy.diagnosis import Diagnosis
 from symid.errors import DiagnosisError
 from symid.mechanics import PD, BenchDoublePendulum, DoubleLinkPendulum, FullStatePD
 from symid.model import Model
@@ -67,6 +69,13 @@ def read_case(directory: str | Path) -> Case:
         driven=standing,
         settling=3.0 if standing else 0.0,
     )
+
+
+def diagnose_case(case: Case, **options) -> Diagnosis:
+    """`diagnose` with everything that the case says."""
+    return diagnose(case.model, case.recording, fit_window=case.fit_window, held_out_window=case.held_out_window,
+                    sensor_noise=case.sensor_noise, episode_length=case.episode_length, driven=case.driven,
+                    settling=case.settling, **options)
 
 
 def _standing(facts: dict, path: Path) -> Model:

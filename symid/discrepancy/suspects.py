@@ -9,7 +9,9 @@ from itertools import product
 import numpy as np
 
 from symid.discrepancy.data import Data
-from symid.model import Law, LawParameter, Term
+from symid.mechanics import CANONICAL, LIBRARY, suspects
+from symid.mechanics.unknown_laws import ELASTIC_MOUNT
+from symid.model import Law, LawParameter, Model, Term
 
 SCANNED = ("frequency_Hz", "start_s", "time_s")
 """Keys of parameters that say when or how often: their starts are a grid over the recording."""
@@ -88,3 +90,14 @@ class Suspect:
                 places = np.arange(t0 - 0.25 * width, t1 - 0.5 * width, max(0.5 * width, span / 200))
             for place in places:
                 yield values | {q.key: float(place)}
+
+
+def established_suspects(model: Model) -> list[Suspect]:
+    """Every law of the library at every place: the canonical ones established, the others hypotheses."""
+    extra = LIBRARY | {ELASTIC_MOUNT.name: ELASTIC_MOUNT}
+    return [Suspect(t, t.name in CANONICAL) for t in suspects(model, extra) if not _given(model, t)]
+
+
+def _given(model: Model, term: Term) -> bool:
+    """Whether the model contains this term already."""
+    return any(str(t) == str(term) for t in model.terms)

@@ -1,0 +1,198 @@
+"""Find the missing physics: fit, suspect, refit, look for more, judge, prove."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from symid.discrepancy.baseline import fit_baseline
+from symid.discrepancy.data import Data, episodes_between
+from symid.discrepancy.diagnosis import Diagnosis, Effect
+from symid.discrepancy.fit import Fit, Fitter
+from symid.discrepancy.freerun import FreeRun, free_run
+from symid.discrepancy.remainder import Test, remainder
+from symid.discrepancy.screen import extended
+from symid.discrepancy.search import Candidate, explore, price
+from symid.discrepancy.suspects import Suspect, established_suspects
+from symid.discrepancy.words import sentence, words
+from symid.errors import SymidError
+from symid.model import Model
+from symid.recording import Recording
+from symid.simulation import simulator
+
+ACCEPT = 10.0
+"""A suspect is accepted when its score, the likelihood gain beyond BIC, exceeds this."""
+DOUBT = 10.0
+"""A hypothesis must beat what established suspects reach by this much to make the finding unexplained."""
+REMAINDER = 7.0
+"""-log10 of the probability by chance from which a remainder counts as systematic."""
+EQUIVALENT = 12.0
+MOST_EFFECTS = 3
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """Suspects that were added together, and their fit."""
+
+    suspects: tuple[Suspect, ...]
+    fit: Fit
+    score: float
+
+    @property
+    def established(self) -> bool:
+        return all(s.established for s in self.suspects)
+
+
+def diagnose(model: Model, recording: Recording, *, fit_window: tuple[float, float],
+             held_out_window: tuple[float, float] | None = None, sensor_noise: float | Mapping[str, float] | None = None,
+             episode_length: float | None = None, driven: bool = True, settling: float = 0.0,
+             start: Mapping[str, float] | None = None, suspects: Sequence[Suspect] | None = None,
+             threads: int = 2, progress: Callable[[str], None] = lambda text: None) -> Diagnosis:
+    """Compare a model with a recording and say what physics the model leaves out.
+
+    Parameters
+    ----------
+    fit_window, held_out_window : start and end [s]; the held-out one is used once, at the end.
+    sensor_noise : standard deviation of the sensors, one or by channel; from the recording if left out.
+    episode_length : seconds of one piece with an initial state of its own; None for one piece.
+    driven : whether random forces act at the model's noises besides the recorded inputs.
+    settling : seconds that the fit measure leaves out at the start of the fit window.
+    start : values [SI] of some parameters from which the first fit begins.
+    suspects : what may be missing; every law of the library at every place by default.
+
+    Raises
+    ------
+    DiagnosisError : a window is empty, a channel is missing, or the model cannot be fitted at all.
+    """
+    channels = dict(recording.channels)
+    noise = _noise(model, recording, sensor_noise)
+    data = Data(episodes_between(model, recording.time, channels, fit_window, episode_length), noise, driven)
+    base = fit_baseline(model, data, dict(start or {}))
+    progress(f"the model as given is fitted ({base.iterations} iterations)")
+    pool = list(established_suspects(model) if suspects is None else suspects)
+    found, ranking = _explain(base, data, pool, threads, progress)
+    left = remainder(found.fit, data)
+    progress("tested for a remainder")
+    verdict, effects, equivalent = _judge(found, ranking, left, base, data)
+    runs = {"baseline_train": free_run(base, data, settling), "augmented_train": free_run(found.fit, data, settling)}
+    if held_out_window is not None:
+        later = data.with_episodes(episodes_between(model, recording.time, channels, held_out_window, episode_length))
+        runs |= {"baseline_heldout": free_run(base, later), "augmented_heldout": free_run(found.fit, later)}
+    text = words(verdict, effects, equivalent, left, runs)
+    return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text)
+
+
+def _noise(model: Model, recording: Recording, given) -> np.ndarray:
+    table = given if isinstance(given, Mapping) else (recording.noise if given is None else {})
+    return np.array([float(table.get(y.channel, given if isinstance(given, (int, float)) else 1e-3))
+                     for y in model.outputs.values()])
+
+
+# ---- explaining ------------------------------------------------------------------------------
+def _explain(base: Fit, data: Data, pool: list[Suspect], threads: int, progress) -> tuple[Explanation, list[Candidate]]:
+    """The best explanation by one or several suspects, and the ranking of single ones."""
+    single = explore(base, data, pool, threads=threads, progress=progress)
+    best = Explanation((), base, 0.0)
+    alone = _preferred([Explanation((c.suspect,), c.fit, c.score) for c in single])
+    if alone is None or alone.score < ACCEPT:
+        return best, single
+    best = alone
+    while len(best.suspects) < MOST_EFFECTS:
+        progress(f"found {', '.join(str(s.term) for s in best.suspects)}; looking for more")
+        more = _extended(best, data, pool, threads, progress)
+        if more is None:
+            break
+        best = _reexamined(more, base, data, pool, threads, progress)
+    hypothesis = _preferred([Explanation((c.suspect,), c.fit, c.score) for c in single if not c.suspect.established])
+    if hypothesis is not None and best.established and hypothesis.score > best.score + DOUBT:
+        best = hypothesis
+    return best, single
+
+
+def _preferred(found: list[Explanation]) -> Explanation | None:
+    """The best established explanation, or a hypothesis that beats it beyond doubt."""
+    found = sorted(found, key=lambda e: -e.score)
+    named = next((e for e in found if e.established), None)
+    if not found or named is None:
+        return found[0] if found else None
+    return found[0] if found[0].score > named.score + DOUBT else named
+
+
+def _extended(best: Explanation, data: Data, pool, threads, progress) -> Explanation | None:
+    """`best` with one more suspect, if one is accepted."""
+    others = [s for s in pool if s.term not in {t.term for t in best.suspects}]
+    found = explore(best.fit, data, others, threads=threads, progress=progress)
+    more = [Explanation((*best.suspects, c.suspect), c.fit, best.score + c.score) for c in found if c.score > ACCEPT]
+    return _preferred(more)
+
+
+def _reexamined(both: Explanation, base: Fit, data: Data, pool, threads, progress) -> Explanation:
+    """Each suspect is taken out and every other tried in its place, once: greedy choices mislead."""
+    for old in both.suspects[:-1]:
+        kept = [s for s in both.suspects if s is not old]
+        without = _fit_with(kept, both.fit, base, data)
+        if without is None:
+            continue
+        rest = [s for s in pool if s.term not in {t.term for t in kept}]
+        found = explore(without.fit, data, rest, threads=threads, progress=progress)
+        swapped = _preferred([Explanation((*kept, c.suspect), c.fit, without.score + c.score) for c in found])
+        if swapped is not None and swapped.score > both.score + 1.0 and (swapped.established or not both.established):
+            both = swapped
+        if without.score > both.score:
+            both = without
+    return both
+
+
+def _fit_with(suspects: list[Suspect], near: Fit, base: Fit, data: Data) -> Explanation | None:
+    """The base model with exactly these suspects, started from values that a larger model had."""
+    model = base.model
+    for s in suspects:
+        model = model.with_term(s.term)
+    sim = simulator(model)
+    try:
+        fit = Fitter(model, data).fit({k: near.values[k] for k in sim.parameters}, extended(base.initial, sim), near.process)
+    except SymidError:
+        return None
+    return Explanation(tuple(suspects), fit, fit.loglik2 - base.loglik2 - sum(price(s, data) for s in suspects))
+
+
+# ---- judging ---------------------------------------------------------------------------------
+def _judge(found: Explanation, ranking: list[Candidate], left: list[Test], base: Fit, data: Data):
+    """Verdict, effects and equivalent candidates."""
+    effects = tuple(_effect(s, found, base) for s in _by_weight(found, base))
+    rest = left[0] if left and left[0].surprise > REMAINDER else None
+    first = found.suspects[0] if len(found.suspects) == 1 else None
+    equivalent = tuple(c for c in ranking if first is not None and c.suspect.established and c.suspect.term != first.term
+                       and c.score > found.score - EQUIVALENT)
+    if not found.suspects and rest is None:
+        return "adequate", (), ()
+    if rest is not None and not found.suspects:
+        return "unexplained", (Effect("unknown", rest.place, {}, None, rest.gain, rest.what),), ()
+    if not found.established:
+        odd = next(s for s in found.suspects if not s.established)
+        effects = tuple(sorted(effects, key=lambda e: (e.name, e.location) != (odd.term.name, odd.term.location)))
+        return "unexplained", effects, ()
+    if rest is not None:
+        return "unexplained", (Effect("unknown", rest.place, {}, None, rest.gain, rest.what), *effects), equivalent
+    return "missing_physics", effects, equivalent
+
+
+def _by_weight(found: Explanation, base: Fit) -> list[Suspect]:
+    return list(found.suspects)
+
+
+def _effect(suspect: Suspect, found: Explanation, base: Fit) -> Effect:
+    fit, term = found.fit, suspect.term
+    parameters = {q.key: (fit.values[term.parameter_name(q.key)], fit.errors[term.parameter_name(q.key)])
+                  for q in suspect.law.parameters}
+    window = None
+    if "start_s" in parameters:
+        begin = parameters["start_s"][0]
+        window = (begin, begin + parameters.get("duration_s", (0.5, 0.0))[0])
+    elif "time_s" in parameters:
+        at, error = parameters["time_s"]
+        window = (at - min(2 * error, 3.0), at + min(2 * error, 3.0))
+    gain = fit.loglik2 - base.loglik2
+    return Effect(term.name, term.location, parameters, window, gain, sentence(suspect, parameters))

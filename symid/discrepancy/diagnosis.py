@@ -1,0 +1,121 @@
+"""The finding: what the model leaves out, where, how large, how sure."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from symid.discrepancy.fit import Fit
+from symid.discrepancy.freerun import FreeRun
+from symid.discrepancy.remainder import Test
+from symid.discrepancy.search import Candidate
+from symid.model import Model
+
+FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One piece of missing physics.
+
+    Attributes
+    ----------
+    parameters : key -> (value, standard error), SI.
+    window : start and end [s] of an effect that lasts only for a time, or that begins at one.
+    gain : growth of twice the log-likelihood that is lost without it.
+    """
+
+    name: str
+    location: str
+    parameters: dict[str, tuple[float, float]]
+    window: tuple[float, float] | None
+    gain: float
+    sentence: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """What `diagnose` found.
+
+    Attributes
+    ----------
+    verdict : ``"missing_physics"``, ``"adequate"`` or ``"unexplained"``.
+    effects : what is missing; for ``unexplained`` one entry with the place and what it looks like.
+    ranking : all suspects that were refitted, by score. equivalent : those that explain as much.
+    baseline, final : fits before and after. improved : the model with the found terms.
+    runs : free simulations by ``baseline_train``, ``baseline_heldout``, ``augmented_train``, ``augmented_heldout``.
+    remainder : tests for something left over. words : the finding in sentences.
+    """
+
+    verdict: str
+    effects: tuple[Effect, ...]
+    ranking: tuple[Candidate, ...]
+    equivalent: tuple[Candidate, ...]
+    baseline: Fit
+    final: Fit
+    runs: dict[str, FreeRun]
+    remainder: tuple[Test, ...]
+    words: str
+    evidence: dict = field(default_factory=dict)
+
+    @property
+    def improved(self) -> Model:
+        return self.final.model
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Parameters of the improved model, SI."""
+        return self.final.values
+
+    def answer(self) -> dict:
+        """The finding as plain numbers and text, in the answer format."""
+        def rms(when: str) -> dict:
+            return {f"{part}_rms_rad": self.runs[f"{when}_{part}"].rms for part in ("train", "heldout")
+                    if f"{when}_{part}" in self.runs}
+        return {
+            "format": FORMAT,
+            "verdict": self.verdict,
+            "effects": [{"name": e.name, "location": e.location,
+                         "time_window_s": None if e.window is None else list(e.window),
+                         "parameters": {k: {"value": v, "std_error": s} for k, (v, s) in e.parameters.items()}}
+                        for e in self.effects],
+            "ranking": [{"name": c.suspect.term.name, "location": c.suspect.term.location, "score": c.score}
+                        for c in self.ranking],
+            "equivalent": [{"name": c.suspect.term.name, "location": c.suspect.term.location,
+                            "why": f"explains the recording almost as well (score {c.score:.1f})"} for c in self.equivalent],
+            "fit": {"baseline": rms("baseline"), "augmented": rms("augmented")},
+            "remainder": [{"location": t.place, "what": t.what, "gain": t.gain, "degrees_of_freedom": t.size,
+                           "minus_log10_probability": min(t.surprise, 300.0)} for t in self.remainder[:3]],
+            "words": self.words,
+        }
+
+    def to_json(self, path: str | Path) -> Path:
+        """Write the answer; the file appears when it is whole."""
+        return _whole(Path(path), json.dumps(self.answer(), indent=1))
+
+    def held_out_csv(self, path: str | Path) -> Path:
+        """Write the improved model's prediction of the held-out window, columns as in the recording."""
+        run = self.runs["augmented_heldout"]
+        names = [f"{y.channel}_rad" if y.unit == "rad" else y.channel for y in self.improved.outputs.values()]
+        rows = [["time_s", *names], *([f"{t:.6f}", *(f"{v:.9g}" for v in y)] for t, y in zip(run.time, run.simulated, strict=True))]
+        text = "".join(",".join(r) + "\n" for r in rows)
+        return _whole(Path(path), text)
+
+    def __str__(self) -> str:
+        return self.words
+
+    def _repr_html_(self) -> str:
+        rows = "".join(f"<tr><td>{e.name}</td><td>{e.location}</td><td>" + ", ".join(
+            f"{k} = {v:.4g} &plusmn; {s:.2g}" for k, (v, s) in e.parameters.items()) + "</td></tr>" for e in self.effects)
+        return f"<h4>{self.verdict}</h4><p>{self.words}</p><table>{rows}</table>"
+
+
+def _whole(path: Path, text: str) -> Path:
+    handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+    with os.fdopen(handle, "w") as file:
+        file.write(text)
+    os.replace(part, path)
+    return path
