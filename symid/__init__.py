@@ -13,6 +13,7 @@ _WHERE = {
                     "Parameter", "Port", "State", "Term"),
     "symid.recording": ("Recording", "read_recording"),
     "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
+    "symid.analysis": ("Stability", "stability", "stability_of"),
     "symid.identification": ("Cluster", "Identification", "LocalPool", "Solution", "Solve", "Study"),
 }
 _MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}
