@@ -3,6 +3,7 @@
 import re
 import sys
 from html.parser import HTMLParser
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -142,3 +143,21 @@ def test_text_is_escaped():
                                               (True, "yes"), (12, "12")])
 def test_numbers(value, shown):
     assert page.number(value) == shown
+
+
+def test_a_problem_shows_what_will_be_solved_and_builds_nothing():
+    problem = si.Identification(pendulum(), pendulum_recording(), window=(0, 2), episodes=si.Episodes(3, push=0.1, seed=5),
+                                weights={"measured": 2.0})
+    assert "transcription" not in vars(problem)
+    for text in (repr(problem), problem._repr_html_()):
+        for part in ("driven pendulum", "damping", "0 s to 2 s", "angle (weight 2)", "midpoint", "3, uniform noise, seed 5"):
+            assert part in text
+    assert "transcription" not in vars(problem)
+
+
+def test_drawing_is_the_only_thing_fetched_by_name_from_a_higher_floor():
+    """What `test_floors` cannot see in imports: modules that are named in a string."""
+    package = Path(si.__file__).parent
+    named = {(str(p.relative_to(package)), m) for p in package.rglob("*.py")
+             for m in re.findall(r'import_module\("(symid\.[\w.]+)"', p.read_text())}
+    assert named == {("identification/solution.py", "symid.plots"), ("__init__.py", "symid.mechanics")}

@@ -13,6 +13,7 @@ import numpy as np
 
 from symid.errors import TranscriptionError
 from symid.identification.identity import problem_identity
+from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution, StartRow
 from symid.identification.starts import default_start, given_start, random_start
 from symid.identification.study import Solve, Study, start_kinds
@@ -84,6 +85,12 @@ class Identification:
     def identity(self) -> dict[str, str]:
         """Fingerprints of what determines the numbers, see `identification.identity`."""
         return problem_identity(self)
+
+    def __repr__(self) -> str:
+        return problem_text(self)
+
+    def _repr_html_(self) -> str:
+        return problem_html(self)
 
     def __getstate__(self) -> dict:
         """Pickled without the transcription, which is larger than the recording and quickly made again."""

@@ -1,4 +1,4 @@
-"""A solution as text and as HTML."""
+"""A problem and a solution as text and as HTML."""
 
 from __future__ import annotations
 
@@ -6,7 +6,33 @@ from html import escape
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from symid.identification.problem import Identification
     from symid.identification.solution import Solution
+
+
+def problem_facts(problem: Identification) -> dict[str, str]:
+    """What an Identification will solve, in words; builds nothing."""
+    model, e = problem.model, problem.episodes
+    facts = {"model": model.name, "unknown": ", ".join(model.parameters) or "nothing but the motion"}
+    for recording, window in zip(problem.recordings, problem.windows, strict=True):
+        start, end = window or recording.interval
+        facts[f"recording {recording.name}"] = f"{start:g} s to {end:g} s"
+    facts["compared"] = ", ".join(f"{y.channel} (weight {problem.weights.get(name, 1.0):g})" for name, y in model.outputs.items())
+    facts["scheme"] = problem.scheme.name
+    facts["episodes"] = str(e.count) if e.count == 1 else f"{e.count}, {e.distribution} noise, seed {e.seed}"
+    return facts
+
+
+def problem_text(problem: Identification) -> str:
+    """The same, one line each."""
+    return "\n".join(["Identification", *(f"  {k:<12} {v}" for k, v in problem_facts(problem).items())])
+
+
+def problem_html(problem: Identification) -> str:
+    """The same for a notebook."""
+    cell = '<td style="text-align:left">{}</td>'
+    rows = (f"<tr>{cell.format(escape(k))}{cell.format(escape(v))}</tr>" for k, v in problem_facts(problem).items())
+    return f"<b>Identification</b><table>{''.join(rows)}</table>"
 
 
 def headline(solution: Solution) -> str:
