@@ -25,7 +25,7 @@ FLOOR = {
 # A library that only the named rooms may import, whatever their floor.
 SOLE_IMPORTERS = {
     "cyipopt": {"ipopt_solver"},
-    "sympy": {"model", "mechanics", "codegen", "regenerate"},
+    "sympy": {"model", "mechanics", "codegen", "regenerate", "bench"},  # bench: opty takes SymPy
     "matplotlib": {"plots"},
 }
 NOT_IN = {"pandas": {"model", "nlp", "codegen"}, "scipy": {"model"}}

@@ -1,0 +1,87 @@
+"""Which measurements are made, in which order: symid and its peers in turn, so that both meet the same machine."""
+
+from __future__ import annotations
+
+import statistics
+import tempfile
+from collections.abc import Callable
+from dataclasses import replace
+from importlib.util import find_spec
+
+from symid.bench.runs import run_fresh
+from symid.bench.task import Task
+
+CASADI = ("map + JIT", "expand")
+LOAD = (1, 2, 4, 8)  # lengths of a long recording, in windows
+
+
+def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda text: None) -> dict:
+    """All measurements of `task`, by name.
+
+    Parameters
+    ----------
+    quick : one random start instead of three; without episodes and opty.
+    say : told what is being measured.
+
+    Returns
+    -------
+    dict
+        ``absent``: packages that are not installed; ``evaluations``, ``first_use``, and ``solves``:
+        label of the solve -> side -> list of runs, one for each random start.
+    """
+    absent = [name for name in ("casadi", "opty") if find_spec(name) is None]
+    rounds = 1 if quick else 3
+    with tempfile.TemporaryDirectory(prefix="symid-bench-") as cache:
+        say("first use of a model")
+        first = [run_fresh("symid_side.first_use", task, cache=f"{cache}/{k}") for k in range(rounds)]
+        say("first identification")
+        new = run_fresh("symid_side.identification", task, "random", cache=cache)
+        run_fresh("symid_side.identification", task, "default", cache=cache)  # compiles the simulator
+        evaluations = {"symid, C": _evaluations("symid_side", "c", task, cache, say),
+                       "symid, NumPy": _evaluations("symid_side", "numpy", task, cache, say)}
+        if "casadi" not in absent:
+            evaluations |= {f"CasADi, {s}": _evaluations("casadi_side", s, task, cache, say) for s in CASADI}
+        solves = {label: _solves(each, sides, rounds, cache, say) for label, each, sides in _plan(task, absent, quick)}
+    return {"task": vars(task), "absent": absent, "evaluations": evaluations, "first_use": first,
+            "first_identification": new, "solves": solves}
+
+
+def measure_load(task: Task, say: Callable[[str], None] = lambda text: None) -> list[dict]:
+    """symid on the window laid end to end 1, 2, 4 and 8 times, from its default start."""
+    out = []
+    for repeat in LOAD:
+        say(f"recording of {repeat} windows")
+        out.append({"windows": repeat} | run_fresh("symid_side.identification", replace(task, repeat=repeat), "default"))
+    return out
+
+
+def _plan(task: Task, absent: list[str], quick: bool):
+    """(label, task, sides); a side is its name and the call that measures it."""
+    symid = {f"symid, {kind} start": ("symid_side.identification", kind) for kind in ("random", "default")}
+    casadi = {} if "casadi" in absent else {f"CasADi, {s}": ("casadi_side.identification", s) for s in CASADI}
+    yield f"{task.controller.upper()}, deterministic", task, symid | casadi
+    if quick:
+        return
+    if "opty" not in absent:
+        yield (f"{task.controller.upper()}, deterministic, opty", task,
+               {"symid, random start": symid["symid, random start"], "opty": ("opty_side.identification",)})
+    yield "PD, three episodes", replace(task, controller="pd", episodes=3), symid | casadi
+
+
+def _solves(task: Task, sides: dict[str, tuple], rounds: int, cache: str, say) -> dict[str, list[dict]]:
+    runs = {side: [] for side in sides}
+    for number in range(1 if "opty" in runs or task.episodes > 1 else rounds):
+        for side, (call, *arguments) in sides.items():
+            say(f"{task.controller.upper()}, {task.episodes} episode(s), random start {number + 1}: {side}")
+            runs[side].append(run_fresh(call, replace(task, number=number), *arguments, cache=cache))
+    return runs
+
+
+def _evaluations(side: str, setup: str, task: Task, cache: str, say) -> dict:
+    say(f"evaluations: {side.split('_')[0]}, {setup}")
+    return run_fresh(f"{side}.evaluations", task, setup, cache=cache)
+
+
+def middle(runs: list[dict], key: str) -> float:
+    """Median over runs."""
+    return statistics.median(r[key] for r in runs)

@@ -1,0 +1,54 @@
+"""One measurement in a process of its own, pinned to one core."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from dataclasses import asdict
+from importlib import import_module
+from pathlib import Path
+
+from symid.bench.task import Task
+from symid.errors import SymidError
+
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
+MARK = "measured: "
+
+
+def run_fresh(call: str, task: Task, *arguments: str, cache: str | Path | None = None) -> dict:
+    """What ``symid.bench.<call>(task, *arguments)`` returns in a fresh process.
+
+    Parameters
+    ----------
+    call : "module.function".
+    cache : folder of compiled kernels instead of the user's.
+
+    Raises
+    ------
+    SymidError : the process ended without a result.
+    """
+    environment = os.environ | ONE_THREAD | ({"SYMID_CACHE_DIR": str(cache)} if cache else {})
+    command = [sys.executable, "-m", "symid.bench.runs", call, json.dumps(asdict(task)), *arguments]
+    ended = subprocess.run(command, env=environment, capture_output=True, text=True, errors="replace")
+    results = [line for line in ended.stdout.splitlines() if line.startswith(MARK)]
+    if ended.returncode or not results:
+        last = "\n".join((ended.stderr or ended.stdout).splitlines()[-5:])
+        raise SymidError(f"bench: {call}({', '.join(arguments)}) ended with code {ended.returncode}: {last}")
+    return json.loads(results[-1][len(MARK):])
+
+
+def main(call: str, task: str, *arguments: str) -> None:
+    """Run one measurement here and print its result; the other end of `run_fresh`."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+    module, function = call.split(".")
+    given = json.loads(task)
+    given["window"] = tuple(given["window"])
+    result = getattr(import_module(f"symid.bench.{module}"), function)(Task(**given), *arguments)
+    print(MARK + json.dumps(result), flush=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
