@@ -21,6 +21,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from symid.identification import Identification
+    from symid.identification.show import headline
     from symid.recording import read_recording
     from symid.report import write_report
 
@@ -29,9 +30,10 @@ def run(arguments: argparse.Namespace) -> int:
     problem = Identification(build_model(folder / "body.json", "fpd"), read_recording(folder / "recording.csv"), FIT)
     print(f"Identifying 10 parameters from {FIT[1] - FIT[0]:g} s of {folder / 'recording.csv'} ...", file=sys.stderr)
     solution = problem.solve(on_iteration=show_iteration)
-    print(solution, end="\n\n")
     if not solution.solved:
+        print(solution)
         return 1
+    print(headline(solution), solution.message, sep="\n", end="\n\n")
     print(_beside_truth(solution, truth), end="\n\n")
     held_out = solution.fit_on(HELD_OUT)
     print(f"Held-out {HELD_OUT[0]:g} to {HELD_OUT[1]:g} s, free run: RMS {held_out['rms_deg']['all']:.3g} deg")
