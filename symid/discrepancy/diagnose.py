@@ -14,7 +14,7 @@ from symid.discrepancy.fit import Fit, Fitter
 from symid.discrepancy.freerun import FreeRun, free_run
 from symid.discrepancy.remainder import Test, remainder
 from symid.discrepancy.screen import extended
-from symid.discrepancy.search import Candidate, explore, price
+from symid.discrepancy.search import Candidate, explore, moment_profile, price
 from symid.discrepancy.suspects import Suspect, established_suspects
 from symid.discrepancy.words import sentence, words
 from symid.errors import SymidError
@@ -161,7 +161,7 @@ def _fit_with(suspects: list[Suspect], near: Fit, base: Fit, data: Data) -> Expl
 # ---- judging ---------------------------------------------------------------------------------
 def _judge(found: Explanation, ranking: list[Candidate], left: list[Test], base: Fit, data: Data):
     """Verdict, effects and equivalent candidates."""
-    effects = tuple(_effect(s, found, base) for s in _by_weight(found, base))
+    effects = tuple(_effect(s, found, base, data) for s in found.suspects)
     rest = left[0] if left and left[0].surprise > REMAINDER else None
     first = found.suspects[0] if len(found.suspects) == 1 else None
     equivalent = tuple(c for c in ranking if first is not None and c.suspect.established and c.suspect.term != first.term
@@ -179,11 +179,16 @@ def _judge(found: Explanation, ranking: list[Candidate], left: list[Test], base:
     return "missing_physics", effects, equivalent
 
 
-def _by_weight(found: Explanation, base: Fit) -> list[Suspect]:
-    return list(found.suspects)
+def _moment(fit: Fit, data: Data, name: str, error: float) -> tuple[float, float]:
+    """Mean and deviation of a moment under its likelihood, which has many peaks."""
+    at = fit.values[name]
+    moments, values = moment_profile(fit, data, name, (at - 4.0, at + 4.0), 0.1)
+    weight = np.exp(0.5 * (values - values.max()))
+    mean = float(np.sum(weight * moments) / weight.sum())
+    return mean, float(np.hypot(error, np.sqrt(np.sum(weight * (moments - mean) ** 2) / weight.sum())))
 
 
-def _effect(suspect: Suspect, found: Explanation, base: Fit) -> Effect:
+def _effect(suspect: Suspect, found: Explanation, base: Fit, data: Data) -> Effect:
     fit, term = found.fit, suspect.term
     parameters = {q.key: (fit.values[term.parameter_name(q.key)], fit.errors[term.parameter_name(q.key)])
                   for q in suspect.law.parameters}
@@ -192,7 +197,8 @@ def _effect(suspect: Suspect, found: Explanation, base: Fit) -> Effect:
         begin = parameters["start_s"][0]
         window = (begin, begin + parameters.get("duration_s", (0.5, 0.0))[0])
     elif "time_s" in parameters:
-        at, error = parameters["time_s"]
+        at, error = _moment(fit, data, term.parameter_name("time_s"), parameters["time_s"][1])
+        parameters["time_s"] = (at, error)
         window = (at - min(2 * error, 3.0), at + min(2 * error, 3.0))
     gain = fit.loglik2 - base.loglik2
     return Effect(term.name, term.location, parameters, window, gain, sentence(suspect, parameters))

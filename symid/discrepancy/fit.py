@@ -74,12 +74,12 @@ class Fitter:
         self.substeps = max(1, int(np.ceil(self.step / 0.0101)))
 
     # ---- one evaluation --------------------------------------------------------------
-    def run(self, p, x0, gain, sensitivities: bool, keep_states: bool = False):
+    def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs"):
         """Trajectories of all episodes, or None if one diverged."""
         out = []
         for e, start in zip(self.data.episodes, x0, strict=True):
             t = self.sim.simulate(p, start, e.time, e.inputs, substeps=self.substeps, gain=gain, recorded=e.recorded,
-                                  sensitivity=self.free if sensitivities else (), keep_states=keep_states,
+                                  sensitivity=self.free if sensitivities else (), keep=keep,
                                   initial_sensitivity=self.sim.states if sensitivities else ())
             if t.diverged:
                 return None
@@ -102,34 +102,38 @@ class Fitter:
         runs = self.run(p, x0, gain, sensitivities=False)
         return -np.inf if runs is None else self.score(self.surprises(runs))[0]
 
-    def gain(self, p, x0, process, previous=None):
-        """Kalman gain at these values, linearised along the trajectory that the present gain gives."""
+    def gain(self, p, process, path):
+        """Kalman gain at these values, linearised along a path of states; None without random forces."""
         if not self.driven:
             return None
-        runs = self.run(p, x0, previous, False, keep_states=True) if previous is not None else None
-        path = np.vstack([t.x for t in runs]) if runs else np.array(x0)
         return kalman_gain(linearised_along(self.sim, p, path), self.step, process, self.data.sensor_noise)
+
+    def path(self, p, x0, gain) -> np.ndarray:
+        """States along the trajectories, or the initial states if those diverge."""
+        runs = self.run(p, x0, gain, False, keep="states") if self.driven else None
+        return np.vstack([t.x for t in runs]) if runs else x0
 
     # ---- the iteration ---------------------------------------------------------------
     def fit(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray, iterations: int = 40,
-            tolerance: float = TOLERANCE, learn_noise: bool = True) -> Fit:
-        """Levenberg-Marquardt from `start`; DiagnosisError if the start itself diverges."""
+            tolerance: float = TOLERANCE, errors: bool = True) -> Fit:
+        """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if the start itself diverges."""
         p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
         x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
-        gain = self.gain(p, x0, process)
-        gain = self.gain(p, x0, process, gain)
+        gain = self.gain(p, process, x0)
+        path = self.path(p, x0, gain)
+        gain = self.gain(p, process, path)
         best, damping, quiet, k = self.evaluate(p, x0, gain), 1e-3, 0, 0
         if not np.isfinite(best):
             raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
         for k in range(1, iterations + 1):
-            system = self.normal(p, x0, gain, process, learn_noise)
+            system = self.normal(p, x0, gain, process, path)
             if system is None:
                 break
             improved = False
             for _ in range(8):
                 step = _solve(system, damping, self.bounds[self.index], p[self.index])
                 p1, x1, process1 = self._moved(p, x0, process, step)
-                gain1, value = self._tried(p1, x1, process1, gain)
+                gain1, value = self._tried(p1, x1, process1, path)
                 if value > best - 1e-9:
                     improved = True
                     break
@@ -139,19 +143,20 @@ class Fitter:
                 quiet = float(step @ system[1]) < 1.0
                 break
             change, best = value - best, value
+            path = self.path(p1, x1, gain1)
             p, x0, process, gain, damping = p1, x1, process1, gain1, damping * 0.1
             quiet = quiet + 1 if change < tolerance else 0
             if quiet >= 1:
                 break
-        return self._result(p, x0, process, gain, k, bool(quiet))
+        return self._result(p, x0, process, gain, path, k, bool(quiet), errors)
 
-    def _tried(self, p, x0, process, gain):
+    def _tried(self, p, x0, process, path):
         """The gain and twice the log-likelihood at a trial point, -inf where it cannot be simulated."""
         try:
-            gain = self.gain(p, x0, process, gain)
+            gain = self.gain(p, process, path)
             return gain, self.evaluate(p, x0, gain)
         except SymidError:
-            return gain, -np.inf
+            return None, -np.inf
 
     def _moved(self, p, x0, process, step):
         q, (E, n) = len(self.free), x0.shape
@@ -161,7 +166,7 @@ class Fitter:
         process1 = process * np.exp(np.clip(step[q:q + len(process)], -1.5, 1.5)) if self.driven else process
         return p1, x0 + step[-E * n:].reshape(E, n), process1
 
-    def normal(self, p, x0, gain, process, learn_noise):
+    def normal(self, p, x0, gain, process, path):
         """Normal equations of shared unknowns (parameters, log noise) and initial states."""
         runs = self.run(p, x0, gain, sensitivities=True)
         if runs is None:
@@ -169,35 +174,33 @@ class Fitter:
         surprise = self.surprises(runs)
         _, cov = self.score(surprise)
         white = np.linalg.inv(np.linalg.cholesky(cov))
-        noise = self._noise_columns(p, x0, gain, process, surprise) if self.driven and learn_noise else \
-            [np.zeros((*s.shape, len(process) if self.driven else 0)) for s in surprise]
+        noise = self._noise_columns(p, x0, process, path, surprise)
         q, n, w, E = len(self.free), x0.shape[1], noise[0].shape[2], len(runs)
         size = q + w + E * n
         H, g = np.zeros((size, size)), np.zeros(size)
         for i, (t, s, extra) in enumerate(zip(runs, surprise, noise, strict=True)):
-            J = np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2)
-            J = np.einsum("ab,nbq->naq", white, J).reshape(-1, q + w + n)
+            J = whitened(white, np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2))
             r = (s @ white.T).reshape(-1)
             where = np.r_[0:q + w, q + w + i * n:q + w + (i + 1) * n]
             H[np.ix_(where, where)] += J.T @ J
             g[where] += J.T @ r
         return H, g, q
 
-    def _noise_columns(self, p, x0, gain, process, surprise):
+    def _noise_columns(self, p, x0, process, path, surprise):
         """Change of the surprises per unit of log noise, by differences through the gain."""
-        columns, path = [], None
-        runs = self.run(p, x0, gain, False, keep_states=True)
-        path = linearised_along(self.sim, p, np.vstack([t.x for t in runs]))
+        if not self.driven:
+            return [np.zeros((*s.shape, 0)) for s in surprise]
+        linear, columns = linearised_along(self.sim, p, path), []
         for j in range(len(process)):
             more = process.copy()
             more[j] *= np.exp(0.1)
-            other = self.run(p, x0, kalman_gain(path, self.step, more, self.data.sensor_noise), False)
+            other = self.run(p, x0, kalman_gain(linear, self.step, more, self.data.sensor_noise), False)
             columns.append([np.zeros_like(s) for s in surprise] if other is None else
                            [(a - b) / 0.1 for a, b in zip(self.surprises(other), surprise, strict=True)])
         return [np.stack([c[i] for c in columns], axis=2) for i in range(len(surprise))]
 
-    def _result(self, p, x0, process, gain, iterations, converged) -> Fit:
-        system = self.normal(p, x0, gain, process, True)
+    def _result(self, p, x0, process, gain, path, iterations, converged, errors_too) -> Fit:
+        system = self.normal(p, x0, gain, process, path) if errors_too else None
         runs = self.run(p, x0, gain, sensitivities=False)
         surprise = self.surprises(runs)
         loglik2, cov = self.score(surprise)
@@ -209,6 +212,14 @@ class Fitter:
             errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0))) for i, k in enumerate(self.free)}
         return Fit(self.model, dict(zip(self.sim.parameters, map(float, p), strict=True)), x0, process, gain,
                    tuple(surprise), cov, float(loglik2), errors, iterations, converged)
+
+
+def whitened(white: np.ndarray, a: np.ndarray) -> np.ndarray:
+    """(N, m, q) times the (m, m) matrix `white` along m, as (N m, q)."""
+    out = np.empty_like(a)
+    for i, row in enumerate(white):
+        out[:, i] = sum(f * a[:, j] for j, f in enumerate(row) if f != 0)
+    return out.reshape(-1, a.shape[2])
 
 
 def _solve(system, damping, bounds, at) -> np.ndarray:

@@ -8,7 +8,7 @@ from scipy.linalg import LinAlgError, expm, solve_discrete_are
 from symid.simulation import Linearised, Simulator
 
 
-def linearised_along(simulator: Simulator, values: np.ndarray, states: np.ndarray, points: int = 40) -> Linearised:
+def linearised_along(simulator: Simulator, values: np.ndarray, states: np.ndarray, points: int = 16) -> Linearised:
     """The mean of the linearisations at `points` states of a trajectory (statistical linearisation)."""
     rows = states[np.isfinite(states).all(axis=1)]
     rows = rows[np.linspace(0, len(rows) - 1, points).astype(int)]

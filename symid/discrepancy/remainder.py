@@ -86,7 +86,7 @@ def _columns(screen: Screen, sim: Simulator, term: Term) -> np.ndarray | None:
     values, out = screen.fit.values | dict.fromkeys(names, 0.0), []
     for e, x0 in zip(screen.data.episodes, extended(screen.fit.initial, sim), strict=True):
         t = sim.simulate(values, x0, e.time, e.inputs, substeps=screen.substeps, gain=padded(screen.fit.gain, sim),
-                         recorded=e.recorded, sensitivity=names, keep_states=False)
+                         recorded=e.recorded, sensitivity=names, keep="outputs")
         if t.diverged:
             return None
         out.append(screen.whiten(t.dy))

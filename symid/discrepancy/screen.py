@@ -6,7 +6,7 @@ import numpy as np
 from scipy.signal import fftconvolve
 
 from symid.discrepancy.data import Data
-from symid.discrepancy.fit import Fit, Fitter
+from symid.discrepancy.fit import Fit, Fitter, whitened
 from symid.discrepancy.suspects import HIGHEST_FREQUENCY, Suspect
 from symid.model import Model
 from symid.simulation import Simulator, simulator
@@ -36,7 +36,7 @@ class Screen:
 
     def whiten(self, a: np.ndarray) -> np.ndarray:
         """(N, m, q) -> (N m, q) with unit covariance."""
-        return np.einsum("ab,nbq->naq", self.white, a).reshape(-1, a.shape[2])
+        return whitened(self.white, a)
 
     def project(self, a: np.ndarray) -> np.ndarray:
         return a - self.own @ (self.own.T @ a)
@@ -51,13 +51,13 @@ class Screen:
         return float(c @ (a.T @ self.rest)), c / scale
 
     def response(self, suspect: Suspect, sim: Simulator, values: dict[str, float]) -> np.ndarray | None:
-        """(N m, 1) change of the predictions per unit of the suspect's strength at `values`."""
+        """(N m, q) change of the predictions per unit of what can be switched off, at `values`."""
         p = self.fit.values | suspect.named(values)
-        name = suspect.term.parameter_name(suspect.strength.key)
+        names = [suspect.term.parameter_name(q.key) for q in suspect.law.parameters if q.null is not None]
         out = []
         for e, x0 in zip(self.data.episodes, extended(self.fit.initial, sim), strict=True):
             t = sim.simulate(p, x0, e.time, e.inputs, substeps=self.substeps, gain=padded(self.fit.gain, sim),
-                             recorded=e.recorded, sensitivity=[name], keep_states=False)
+                             recorded=e.recorded, sensitivity=names, keep="outputs")
             if t.diverged:
                 return None
             out.append(self.whiten(t.dy))

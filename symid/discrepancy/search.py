@@ -20,6 +20,9 @@ WORTH_REFITTING = 8.0
 """A suspect with a smaller forecast gain than this is refitted only if it is among the best few."""
 ALWAYS_REFITTED = 6
 FIRST_ITERATIONS = 6
+MOMENTS = 0.3
+"""Spacing [s] of the moments at which a lasting change is tried."""
+REFITTED_AT_MOST = 24
 CONVERGED_FULLY = 8
 """So many suspects, the best after the first iterations, are fitted to convergence from two starts."""
 
@@ -64,6 +67,7 @@ def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, threads: int =
         starts = [s for s in pool.map(lambda s: _starts(fit, data, screen, s), suspects) if s]
         starts.sort(key=lambda s: -s[0].forecast)
         chosen = [s for i, s in enumerate(starts) if s[0].forecast > WORTH_REFITTING or i < ALWAYS_REFITTED]
+        chosen = chosen[:REFITTED_AT_MOST]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
         first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen) if c is not None]
         first.sort(key=lambda c: -c.score)
@@ -79,47 +83,39 @@ def _starts(fit: Fit, data: Data, screen: Screen, suspect: Suspect) -> list[Star
         found = screen.scan(suspect, model)
         return [Start(g, suspect, v) for g, v in found[:1] + [f for f in found[1:] if f[0] > 0.7 * found[0][0]][:2]]
     fitter, found = Fitter(model, data), []
-    for values in suspect.starts():
-        gain = forecast(fitter, fit, suspect, values) if suspect.strength is not None else None
-        if gain is not None:
-            found.append(Start(gain, suspect, values))
+    if suspect.strength is not None:
+        for values in suspect.starts():
+            try:
+                columns = screen.response(suspect, fitter.sim, values)
+            except SymidError:
+                continue
+            if columns is not None:
+                found.append(Start(screen.score(columns)[0], suspect, values))
     found.sort(key=lambda s: -s.forecast)
+    if found and not suspect.strength.starts:
+        return found[:1]
     # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
     finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
-    finite = [v for here, v in finite if np.isfinite(here)]
+    finite = [v for here, v in finite if np.isfinite(here)][:2]
     if found:
-        return found[:1] + [Start(found[0].forecast, suspect, v) for v in finite[:2] if v != found[0].values]
+        return found[:1] + [Start(found[0].forecast, suspect, v) for v in finite]
     tried = [_refit(fit, data, Start(0.0, suspect, v), 4) for v in finite[:1]]
     forecasts = [c.gain for c in tried if c is not None]
-    return [Start(forecasts[0] if forecasts else 0.0, suspect, v) for v in finite[:2]]
-
-
-def _point(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]):
-    p = np.array([(fit.values | suspect.named(values))[k] for k in fitter.sim.parameters])
-    return p, extended(fit.initial, fitter.sim), padded(fit.gain, fitter.sim)
+    return [Start(forecasts[0] if forecasts else 0.0, suspect, v) for v in finite]
 
 
 def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
-    return fitter.evaluate(*_point(fitter, fit, suspect, values))
-
-
-def forecast(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float | None:
-    """Gain after one exact Gauss-Newton step from these values, or None if the run diverges."""
-    p, x0, gain = _point(fitter, fit, suspect, values)
-    here, system = fitter.evaluate(p, x0, gain), fitter.normal(p, x0, gain, fit.process, False)
-    if system is None or not np.isfinite(here):
-        return None
-    H, g, _ = system
-    d = np.sqrt(np.maximum(np.diag(H), 1e-300))
-    step = np.linalg.lstsq(H / np.outer(d, d) + 1e-9 * np.eye(len(g)), g / d, rcond=1e-12)[0]
-    return float(here - fit.loglik2 + step @ (g / d))
+    """Twice the log-likelihood with the suspect at these values and nothing refitted."""
+    p = np.array([(fit.values | suspect.named(values))[k] for k in fitter.sim.parameters])
+    return fitter.evaluate(p, extended(fit.initial, fitter.sim), padded(fit.gain, fitter.sim))
 
 
 def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Candidate | None:
     suspect = start.suspect
     fitter = Fitter(fit.model.with_term(suspect.term), data)
     try:
-        new = fitter.fit(fit.values | suspect.named(start.values), extended(fit.initial, fitter.sim), fit.process, iterations)
+        new = fitter.fit(fit.values | suspect.named(start.values), extended(fit.initial, fitter.sim), fit.process, iterations,
+                         errors=iterations >= 40)
     except SymidError:
         return None
     gain = new.loglik2 - fit.loglik2
@@ -145,4 +141,32 @@ def _converge(fit: Fit, data: Data, first: Candidate, others: list[Start]) -> Ca
     gain = new.loglik2 - fit.loglik2
     found = [Candidate(first.suspect, new, gain, gain - price(first.suspect, data), first.forecast)]
     found += [c for c in (_refit(fit, data, s) for s in others) if c is not None]
-    return max(found, key=lambda c: c.gain)
+    best = max(found, key=lambda c: c.gain)
+    moved = _profiled(best, data)
+    again = _refit(fit, data, moved) if moved is not None else None
+    return again if again is not None and again.gain > best.gain else best
+
+
+def _profiled(best: Candidate, data: Data) -> Start | None:
+    """A better moment for a lasting change: its likelihood has a peak for every swing of the motion."""
+    q = best.suspect.scanned
+    if q is None or q.key != "time_s" or best.score < 0:
+        return None
+    fit, name = best.fit, best.suspect.term.parameter_name(q.key)
+    moments, values = moment_profile(fit, data, name, data.span, MOMENTS)
+    value, moment = values.max(), float(moments[np.argmax(values)])
+    own = {k.key: fit.values[best.suspect.term.parameter_name(k.key)] for k in best.suspect.law.parameters}
+    return Start(best.forecast, best.suspect, own | {q.key: moment}) if value > fit.loglik2 + 0.1 else None
+
+
+def moment_profile(fit: Fit, data: Data, name: str, within: tuple[float, float], spacing: float):
+    """Moments of a lasting change and twice the log-likelihood of each, all else as fitted."""
+    t0, t1 = data.span
+    fitter = Fitter(fit.model, data)
+    at = fitter.sim.parameters.index(name)
+    p = np.array([fit.values[k] for k in fitter.sim.parameters])
+    moments, values = np.arange(max(t0 + spacing, within[0]), min(t1 - spacing, within[1]), spacing), []
+    for moment in moments:
+        p[at] = moment
+        values.append(fitter.evaluate(p, fit.initial, fit.gain))
+    return moments, np.array(values)

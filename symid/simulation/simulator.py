@@ -100,7 +100,7 @@ class Simulator:
                  noise: Mapping[str, np.ndarray] | None = None, sensitivity: Sequence[str] = (),
                  initial_sensitivity: Sequence[str] = (), substeps: int = 1, method: str = "rk4",
                  history: tuple[np.ndarray, np.ndarray] | None = None, gain: np.ndarray | None = None,
-                 recorded: np.ndarray | None = None, limit: float = 1e4, keep_states: bool = True) -> Trajectory:
+                 recorded: np.ndarray | None = None, limit: float = 1e4, keep: str = "all") -> Trajectory:
         """Integrate over `time` and report states and outputs at its samples.
 
         Parameters
@@ -116,6 +116,7 @@ class Simulator:
             gain @ (recorded - y), as in an observer or Kalman filter; NaN is skipped. With
             (1 + k, n, m), what the state was 1 ... k samples before is moved too, for delayed signals.
         limit : a state larger than this ends the run (`Trajectory.diverged`).
+        keep : ``"outputs"`` leaves out the states, ``"states"`` only their sensitivities.
 
         Raises
         ------
@@ -134,8 +135,8 @@ class Simulator:
             "qx": self._indices("state", self.states, initial_sensitivity),
             "gain": None if gain is None else _array(gain), "recorded": None if gain is None else _array(recorded),
             "ht": None if history is None else _array(history[0]), "hx": None if history is None else _array(history[1]),
-            "X": np.full((n, len(self.states)), np.nan) if keep_states else None, "Y": np.full((n, len(self.outputs)), np.nan),
-            "SX": np.full((n, len(self.states), q), np.nan) if q and keep_states else None,
+            "X": np.full((n, len(self.states)), np.nan) if keep != "outputs" else None, "Y": np.full((n, len(self.outputs)), np.nan),
+            "SX": np.full((n, len(self.states), q), np.nan) if q and keep == "all" else None,
             "SY": np.full((n, len(self.outputs), q), np.nan) if q else None,
         }
         run = _Run(N=n, substeps=substeps, method=METHODS[method], nq=q, nqp=len(sensitivity),
