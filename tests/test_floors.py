@@ -18,7 +18,7 @@ FLOOR = {
     "analysis": 5,
     "discrepancy": 6,
     "report": ROOF, "plots": ROOF, "cli": ROOF, "regenerate": ROOF, "bench": ROOF,
-    "demo": ROOF, "reproduce": ROOF, "setup_ipopt": ROOF, "synthetic": ROOF,
+    "conceal": ROOF, "demo": ROOF, "reproduce": ROOF, "setup_ipopt": ROOF, "synthetic": ROOF,
     "": ROOF,  # symid/__init__.py, the front door
 }  # fmt: skip
 

@@ -1,0 +1,93 @@
+"""Least squares of free simulations: what a model without the concealed effect can absorb.
+
+Kept apart from the diagnosis, so that the sealed figures do not come from what they judge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from symid.discrepancy.data import Episode
+from symid.errors import SymidError
+from symid.model import Model
+from symid.simulation import simulator
+
+DIVERGED = 1e3
+"""Error [rad or SI] that stands for a run that left every range."""
+
+
+@dataclass(frozen=True, eq=False)
+class FreeFit:
+    """Parameters, one initial state per episode (E, n), and what they simulate, (N, m) per episode."""
+
+    values: dict[str, float]
+    initial: np.ndarray
+    simulated: tuple[np.ndarray, ...]
+
+    def rms(self, episodes: Sequence[Episode], settling: float = 0.0) -> float:
+        """Root mean square of recorded minus simulated, without the first seconds of the first episode."""
+        begin = episodes[0].time[0] + settling
+        errors = [(e.recorded - y)[e.time >= begin] for e, y in zip(episodes, self.simulated, strict=True)]
+        return float(np.sqrt(np.mean(np.vstack(errors) ** 2)))
+
+
+def fit_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, float], initial: np.ndarray,
+             free: Sequence[str] | None = None) -> FreeFit:
+    """Fit parameters (all, or those in `free`) and initial states to free simulations of `episodes`.
+
+    Parameters
+    ----------
+    values, initial : where the search begins; (E, n) states.
+
+    Raises
+    ------
+    SymidError : the model diverges from there.
+    """
+    sim = simulator(model)
+    names = list(sim.parameters if free is None else free)
+    E, n, q = len(episodes), len(sim.states), len(names)
+    low = np.array([model.parameters[k].bounds[0] for k in names] + [-np.inf] * (E * n))
+    high = np.array([model.parameters[k].bounds[1] for k in names] + [np.inf] * (E * n))
+    start = np.clip(np.concatenate([[values[k] for k in names], np.ravel(initial)]), low, high)
+
+    def run(z, sensitivities):
+        p = dict(values) | dict(zip(names, z[:q], strict=True))
+        return [sim.simulate(p, x0, e.time, e.inputs, substeps=_substeps(e), keep="outputs",
+                             sensitivity=names if sensitivities else (),
+                             initial_sensitivity=sim.states if sensitivities else ())
+                for e, x0 in zip(episodes, z[q:].reshape(E, n), strict=True)]
+
+    def errors(z):
+        return np.concatenate([np.nan_to_num(t.y - e.recorded, nan=DIVERGED).ravel()
+                               for t, e in zip(run(z, False), episodes, strict=True)])
+
+    def slopes(z):
+        blocks = [np.nan_to_num(t.dy.reshape(-1, q + n)) for t in run(z, True)]
+        out, row = np.zeros((sum(map(len, blocks)), q + E * n)), 0
+        for i, b in enumerate(blocks):
+            out[row:row + len(b), :q] = b[:, :q]
+            out[row:row + len(b), q + i * n:q + (i + 1) * n] = b[:, q:]
+            row += len(b)
+        return out
+
+    if any(t.diverged for t in run(start, False)):
+        raise SymidError(f"model '{model.name}' diverges where its fit begins")
+    z = least_squares(errors, start, slopes, bounds=(low, high), x_scale="jac", max_nfev=60, ftol=1e-7, xtol=1e-9, gtol=1e-12).x
+    return FreeFit(dict(values) | dict(zip(names, map(float, z[:q]), strict=True)), z[q:].reshape(E, n),
+                   tuple(t.y for t in run(z, False)))
+
+
+def simulate_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, float], initial: np.ndarray) -> FreeFit:
+    """What these values simulate, without fitting anything."""
+    sim = simulator(model)
+    runs = [sim.simulate(values, x0, e.time, e.inputs, substeps=_substeps(e), keep="outputs")
+            for e, x0 in zip(episodes, initial, strict=True)]
+    return FreeFit(dict(values), np.asarray(initial), tuple(t.y for t in runs))
+
+
+def _substeps(episode: Episode) -> int:
+    return max(1, int(np.ceil(episode.step / 0.0101)))
