@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 import sympy as sm
 from sympy.core.function import AppliedUndef
-from sympy.physics.mechanics import KanesMethod, LagrangesMethod, System, dynamicsymbols
 
 from symid.errors import ModelError
 from symid.model import TIME, Component, Constant, Equation, Input, Model, Output, Parameter, Port, State, nearest
 from symid.model.declare import Bounds
+
+if TYPE_CHECKING:  # takes a quarter of a second to import, and whoever has such an object has it imported
+    from sympy.physics.mechanics import KanesMethod, LagrangesMethod, System
 
 
 @dataclass
@@ -60,6 +63,7 @@ def from_kane(kane: KanesMethod, units: Mapping[str, str], *, constants: Mapping
     ModelError
         With everything that is missing, unknown or unusable at once (`violations`).
     """
+    from sympy.physics.mechanics import KanesMethod
     if not isinstance(kane, KanesMethod):
         raise ModelError(f"from_kane needs a KanesMethod, found {type(kane).__name__}")
     try:
@@ -76,6 +80,7 @@ def from_lagrange(lagrange: LagrangesMethod, units: Mapping[str, str], *, consta
 
     The rate of a coordinate ``q`` becomes the state ``q_rate``; all else as in `from_kane`.
     """
+    from sympy.physics.mechanics import LagrangesMethod
     if not isinstance(lagrange, LagrangesMethod):
         raise ModelError(f"from_lagrange needs a LagrangesMethod, found {type(lagrange).__name__}")
     try:
@@ -95,6 +100,7 @@ def from_system(system: System, units: Mapping[str, str], **options) -> Model:
     method = system.eom_method
     if method is None:
         raise ModelError("this System has no equations yet: call form_eoms() first")
+    from sympy.physics.mechanics import KanesMethod
     wrap = from_kane if isinstance(method, KanesMethod) else from_lagrange
     return wrap(method, units, **options)
 
@@ -153,6 +159,7 @@ def _equations(draft: _Draft, q: list, speeds: list, speed_names: dict, mass: sm
 
 
 def _time() -> sm.Symbol:
+    from sympy.physics.mechanics import dynamicsymbols
     return dynamicsymbols._t
 
 

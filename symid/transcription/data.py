@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from symid.errors import TranscriptionError
 from symid.model import Model, nearest
@@ -52,6 +51,7 @@ class Measured:
         u = self.inputs[name]
         if abscissa in (0.0, 1.0) or not smooth:
             return (1 - abscissa) * u[self.first:self.last] + abscissa * u[self.first + 1:self.last + 1]
+        from scipy.interpolate import CubicSpline  # here: half of the schemes need no spline, and it is slow to import
         t = self.time[self.first:self.last] + abscissa * self.step
         return CubicSpline(self.time, u)(t)
 
