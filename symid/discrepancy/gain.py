@@ -11,10 +11,8 @@ from symid.simulation import Linearised, Simulator
 def linearised_along(simulator: Simulator, values: np.ndarray, states: np.ndarray, points: int = 16) -> Linearised:
     """The mean of the linearisations at `points` states of a trajectory (statistical linearisation)."""
     rows = states[np.isfinite(states).all(axis=1)]
-    rows = rows[np.linspace(0, len(rows) - 1, points).astype(int)]
-    every = [simulator.linearise(values, x) for x in rows]
-    mean = {k: np.mean([getattr(e, k) for e in every], axis=0) for k in ("A", "G", "C", "A_late", "C_late", "lag")}
-    return Linearised(**mean, late_state=every[0].late_state)
+    rows = rows[np.linspace(0, len(rows) - 1, points).astype(int)] if len(rows) else states[:1]
+    return simulator.linearise(values, rows)
 
 
 def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray) -> np.ndarray:

@@ -154,25 +154,31 @@ class Simulator:
         with ThreadPoolExecutor(threads) as pool:
             return list(pool.map(lambda run: self.simulate(**common, **run), runs))
 
-    def linearise(self, parameters, state, inputs=None, rates=None, late=None) -> Linearised:
-        """The model linearised at one state [SI arrays or names], rates and inputs zero by default."""
-        s, f = self.source, lambda k: np.zeros(k)
-        n, m, late_n, w = len(s.states), len(s.outputs), len(s.late), len(s.noises)
-        x = self._vector("state", self.states, state)
-        late = np.array([x[s.states.index(o)] if (o := str(self.model.delays[_late(self.model, y)].of)) in s.states else 0.0
-                         for y in s.late]) if late is None else _array(late)
-        a = {"xd": f(n) if rates is None else _array(rates), "x": x, "l": late,
-             "u": f(len(s.inputs)) if inputs is None else _array(inputs), "w": f(w),
-             "p": self._vector("parameter", self.parameters, parameters), "c": self.constants}
-        out = [np.zeros(k) for k in ((n, n), (n, n), (n, late_n), (n, w), (m, n), (m, late_n), (late_n,))]
-        call = [self._ode] + [_pointer(v) for v in a.values()] + [ct.c_double(0.0)] + [_pointer(v) for v in out]
-        self._loop.linearise(*call)
-        mass, rx, rl, rw, hx, hl, lag = out
-        if not np.all(np.isfinite(mass)) or np.linalg.matrix_rank(mass) < n:
-            raise SymidError(f"simulation of '{self.model.name}': the rates cannot be solved for at the state {x}; the mass "
-                             "matrix is singular there")
+    def linearise(self, parameters, state, inputs=None) -> Linearised:
+        """The model linearised at one state [SI array or names], or on average over (P, n) states.
+
+        Rates, noise and inputs are zero unless given; delayed states have the state's own value.
+        """
+        s = self.source
+        points = np.atleast_2d(self._vector("state", self.states, state) if np.ndim(state) < 2 else _array(state))
         late_of = tuple(str(self.model.delays[_late(self.model, y)].of) for y in s.late)
-        return Linearised.from_residual(mass, rx, rl, rw, hx, hl, lag, s.states, late_of)
+        n, m, late, w = len(s.states), len(s.outputs), len(s.late), len(s.noises)
+        zero, p = np.zeros(max(n, w, len(s.inputs), 1)), self._vector("parameter", self.parameters, parameters)
+        x, at, u = np.zeros(n), np.zeros(late), zero if inputs is None else _array(inputs)
+        out = [np.zeros(k) for k in ((n, n), (n, n), (n, late), (n, w), (m, n), (m, late), (late,))]
+        call = [self._ode, *map(_pointer, (zero, x, at, u, zero, p, self.constants)), ct.c_double(0.0), *map(_pointer, out)]
+        mean = [np.zeros_like(k) for k in out]
+        for point in points:
+            x[:] = point
+            at[:] = [point[s.states.index(o)] if o in s.states else 0.0 for o in late_of]
+            self._loop.linearise(*call)
+            for total, part in zip(mean, out, strict=True):
+                total += part / len(points)
+        mass = mean[0]
+        if not all(np.isfinite(k).all() for k in mean) or not np.linalg.cond(mass) < 1e14:
+            raise SymidError(f"simulation of '{self.model.name}': the rates cannot be solved for at the state {x}; the mass "
+                             "matrix is singular or not finite there")
+        return Linearised.from_residual(*mean, s.states, late_of)
 
     # ---- checking --------------------------------------------------------------------
     def _vector(self, kind: str, names: tuple[str, ...], values) -> np.ndarray:
