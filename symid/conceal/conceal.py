@@ -35,7 +35,7 @@ class Concealed:
     setup : what the user is told. terms : what is concealed, with its parameters [SI].
     recording : with noise. clean : (N, m) the same outputs without noise.
     kind : ``"none"``, ``"single"``, ``"two"`` or ``"unlisted"``.
-    visibility : rms of what the model cannot absorb, over the rms of all noise.
+    visibility : rms of what the model cannot absorb, over the rms of all noise; 0 where nothing is concealed.
     sway : rms that the process noise causes. reference : rms errors of model and truth.
     equivalent, near : other answers that the recording hardly tells from the truth, per effect.
     """
@@ -82,7 +82,7 @@ def conceal(setup: Setup, terms: Mapping[Term, Mapping[str, float]], *, seed: in
     _refuse_excursion(setup, truth, _outputs(truth, recording))
     kind = "none" if not terms else "two" if len(terms) > 1 else "single" if next(iter(terms)).name in listed else "unlisted"
     all_noise = _rms(_outputs(truth, recording) - clean)
-    return Concealed(setup, dict(terms), recording, clean, kind, missed / all_noise, sway, noise,
+    return Concealed(setup, dict(terms), recording, clean, kind, missed / all_noise if missed else 0.0, sway, noise,
                      _reference(setup, recording, quiet, clean))
 
 

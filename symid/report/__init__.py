@@ -1,5 +1,6 @@
 """Reports that a person reads: one HTML file each, with figures inside."""
 
+from symid.report.diagnosis import diagnosis_html, write_diagnosis_report
 from symid.report.solution import report_html, write_report
 
-__all__ = ["report_html", "write_report"]
+__all__ = ["diagnosis_html", "report_html", "write_diagnosis_report", "write_report"]

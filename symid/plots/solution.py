@@ -1,33 +1,11 @@
-"""Figures of a solution. The only file that knows matplotlib.
-
-Each function returns a figure that shows itself in a notebook and has matplotlib's own methods
-(``savefig``). No global state of pyplot is touched.
-"""
+"""Figures of a solution."""
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
-from matplotlib.figure import Figure
 
 from symid.identification import Solution
-from symid.units import known_unit
-
-INK, RECORDED, MODEL, WARN, QUIET = "#222222", "#9a9a9a", "#1f5fa8", "#c0392b", "#d9d9d9"
-DEGREE = np.pi / 180
-
-
-class Picture(Figure):
-    """A figure without pyplot, which a notebook shows as PNG."""
-
-    def png(self, dpi: float = 130) -> bytes:
-        buffer = io.BytesIO()
-        self.savefig(buffer, format="png", dpi=dpi)
-        return buffer.getvalue()
-
-    def _repr_png_(self) -> bytes:
-        return self.png(dpi=78)
+from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened, shown_unit
 
 
 def plot_fit(solution: Solution, episode: int = 0) -> Picture:
@@ -38,7 +16,7 @@ def plot_fit(solution: Solution, episode: int = 0) -> Picture:
     axes = figure.subplots(2 * len(outputs), 1, sharex=True, squeeze=False, height_ratios=[2.6, 1] * len(outputs))[:, 0]
     time = frame.index.to_numpy()
     for (name, output), above, below in zip(outputs.items(), axes[::2], axes[1::2], strict=True):
-        unit, factor = _shown_unit(output.unit)
+        unit, factor = shown_unit(output.unit)
         recorded, model = frame[f"{name} recorded"].to_numpy() * factor, frame[name].to_numpy() * factor
         above.plot(time, recorded, color=RECORDED, lw=1.4, label="recorded")
         above.plot(time, model, color=MODEL, lw=0.9, label="model")
@@ -48,7 +26,7 @@ def plot_fit(solution: Solution, episode: int = 0) -> Picture:
         above.set_title(f"{output.channel.replace('_', ' ')}: RMS error {rms:.3g} {unit}", loc="left", fontsize=10)
         above.set_ylabel(unit)
         below.set_ylabel(f"residual\n{unit}", fontsize=8)
-        _open(above, below)
+        opened(above, below)
     # Between the title's line and the edge: never on top of the curves.
     axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize=9, borderaxespad=0.1)
     axes[-1].set_xlabel("time [s]")
@@ -101,7 +79,7 @@ def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
     axes.set(xlim=(low, high), ylim=(-0.7, len(table) - 0.3))
     legend = "   ( × true value )" if truth else ""
     axes.set_title(f"[{unit or '1'}]{legend}", loc="left", fontsize=9)
-    _open(axes)
+    opened(axes)
 
 
 def _limits(value: np.ndarray, half: np.ndarray, others: list[float]) -> tuple[float, float]:
@@ -118,7 +96,7 @@ def _limits(value: np.ndarray, half: np.ndarray, others: list[float]) -> tuple[f
 def plot_starts(solution: Solution) -> Picture:
     """How every start ended: its error in rank order, and how far its parameters are from the best's."""
     rows, names = sorted(solution.starts, key=lambda r: r.rms), list(solution.values)
-    unit, factor = _shown_unit("rad" if "rms_deg" in solution.fit else "")
+    unit, factor = shown_unit("rad" if "rms_deg" in solution.fit else "")
     figure = Picture(figsize=(9, max(3.2, 0.24 * len(names) + 1.2)), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=[1, 1.3])
     rank, error = np.arange(1, len(rows) + 1), np.array([r.rms for r in rows]) * factor
@@ -138,21 +116,5 @@ def plot_starts(solution: Solution) -> Picture:
     right.set_yticks(np.arange(len(names)), names, fontsize=8)
     right.invert_yaxis()
     right.set_xlabel("difference from the best start,\nas a share of the largest magnitude", fontsize=9)
-    _open(left, right)
+    opened(left, right)
     return figure
-
-
-def _shown_unit(unit: str) -> tuple[str, float]:
-    """The unit that a person reads, and the factor to it: degrees for angles."""
-    if unit and known_unit(unit).si.startswith("rad"):
-        return unit.replace("rad", "deg"), 1 / DEGREE
-    return unit, 1.0
-
-
-def _open(*all_axes) -> None:
-    """Quieter axes: no frame above and to the right, small ticks, a light grid."""
-    for axes in all_axes:
-        axes.spines[["top", "right"]].set_visible(False)
-        axes.tick_params(labelsize=8.5)
-        axes.grid(True, axis="x", color="#eeeeee", lw=0.8)
-        axes.set_axisbelow(True)

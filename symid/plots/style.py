@@ -1,0 +1,41 @@
+"""How all figures look: colours, axes, units that a person reads."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from symid.units import known_unit
+
+INK, RECORDED, MODEL, WARN, QUIET = "#222222", "#9a9a9a", "#1f5fa8", "#c0392b", "#d9d9d9"
+DEGREE = np.pi / 180
+
+
+class Picture(Figure):
+    """A figure without pyplot, which a notebook shows as PNG."""
+
+    def png(self, dpi: float = 130) -> bytes:
+        buffer = io.BytesIO()
+        self.savefig(buffer, format="png", dpi=dpi)
+        return buffer.getvalue()
+
+    def _repr_png_(self) -> bytes:
+        return self.png(dpi=78)
+
+
+def shown_unit(unit: str) -> tuple[str, float]:
+    """The unit that a person reads, and the factor to it: degrees for angles."""
+    if unit and known_unit(unit).si.startswith("rad"):
+        return unit.replace("rad", "deg"), 1 / DEGREE
+    return unit, 1.0
+
+
+def opened(*all_axes) -> None:
+    """Quieter axes: no frame above and to the right, small ticks, a light grid."""
+    for axes in all_axes:
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.tick_params(labelsize=8.5)
+        axes.grid(True, axis="x", color="#eeeeee", lw=0.8)
+        axes.set_axisbelow(True)

@@ -1,0 +1,136 @@
+"""The report on one diagnosis: the words first, then what they rest on."""
+
+from __future__ import annotations
+
+from math import degrees
+from pathlib import Path
+
+from symid.discrepancy import Diagnosis
+from symid.discrepancy.latent import latent_torques
+from symid.files import write_atomically
+from symid.plots import plot_before_after, plot_latent, plot_scores, plot_spectra
+from symid.report.page import facts, figure, heading, number, page, paragraph, table
+
+VERDICTS = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}
+MEANING = {"missing_physics": "the model leaves out what is named below",
+           "adequate": "nothing that this recording could show is missing",
+           "unexplained": "something systematic is missing that no established effect explains"}
+MOST = 15
+"""Suspects listed."""
+
+
+def write_diagnosis_report(diagnosis: Diagnosis, path: str | Path, name: str = "Diagnosis",
+                           provenance: dict[str, object] | None = None) -> Path:
+    """Write a report on a diagnosis as one HTML file with its figures inside, whole or not at all.
+
+    Parameters
+    ----------
+    name : title of the page. provenance : what was compared with what, as words.
+    """
+    return write_atomically(path, diagnosis_html(diagnosis, name, provenance))
+
+
+def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: dict[str, object] | None = None) -> str:
+    """The same as text."""
+    d = diagnosis
+    parts = [paragraph(d.words, "lead"), paragraph(f"Verdict: {VERDICTS[d.verdict].lower()} ({MEANING[d.verdict]}).", "note")]
+    if d.effects:
+        parts += [heading("What is missing"), effects_table(d)]
+    if d.equivalent:
+        parts += [heading("What this recording cannot tell from it"), _equivalents(d)]
+    parts += [heading("Before and after"), _fits(d),
+              figure(plot_before_after(d), "Free simulations, where the improvement is largest; errors below each.")]
+    parts += [heading("Where and when"), *_where(d)]
+    parts += [figure(plot_spectra(d), "At which frequencies the free run is wrong.")]
+    parts += [heading("Suspects"), paragraph("Every law was tried at every place where it could act, together with all unknowns of "
+                                             "the model. Listed are those that were fitted completely, each alone.", "note")]
+    if d.ranking:
+        parts += [figure(plot_scores(d), "Dark blue: chosen. Light blue: explains the recording as well."), _ranking(d)]
+    parts += [heading("What is left"), _remainder(d), heading("Parameters of the model"), _parameters(d)]
+    if provenance:
+        parts += [heading("Provenance"), facts(provenance)]
+    return page(name, *parts)
+
+
+def effects_table(d: Diagnosis) -> str:
+    """What was found: law, place, parameters with standard errors, when, and how much it gains."""
+    rows = []
+    for e in d.effects:
+        values = "; ".join(f"{k} = {_with_error(v, s)}" for k, (v, s) in e.parameters.items())
+        when = "always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s"
+        rows.append([_plain(e.name), e.location, when, float(e.gain), values or e.sentence])
+    return table(["effect", "place", "when", "gain", "parameters (SI)"], rows)
+
+
+def _with_error(value: float, error: float) -> str:
+    return f"{number(float(value))} ± {error:.2g}" if error > 0 else number(float(value))
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def _equivalents(d: Diagnosis) -> str:
+    rows = [[_plain(c.suspect.term.name), c.suspect.term.location, float(c.score), experiment(c.suspect.term.name)]
+            for c in d.equivalent]
+    return table(["instead", "place", "score", "experiment that would tell them apart"], rows)
+
+
+# What separates two laws is where their effects differ: in frequency, amplitude or time.
+_EXPERIMENTS = (
+    (("delay", "lag", "torque_feedback", "acceleration"), "a faster excitation: above the frequencies in this recording a delay turns "
+     "the phase without loss, a lag loses amplitude, an inertia grows"),
+    (("friction", "drag", "dead_zone", "stiffness", "saturation", "backlash", "hysteresis"),
+     "the same excitation at half and at twice the amplitude: each of these laws changes with amplitude in its own way"),
+    (("gain_change", "push", "periodic"), "a longer recording: an event passes, a change stays, an oscillation returns"),
+    (("integral",), "a constant push that is held for a minute: an accumulated error removes the offset in the end"),
+    (("gain", "offset", "tilt", "mass", "inertia"), "calibrate the sensors and the drive, or weigh the part: the motion alone shows "
+     "only their product"),
+)
+
+
+def experiment(name: str) -> str:
+    """In words, an experiment in which the law `name` differs from its likes."""
+    return next((text for words, text in _EXPERIMENTS if any(w in name for w in words)), "motion that is faster, larger or longer")
+
+
+def _fits(d: Diagnosis) -> str:
+    rows = []
+    for key, title in (("train", "fit window"), ("heldout", "held-out window, not used before")):
+        if f"baseline_{key}" in d.runs:
+            before, after = (d.runs[f"{k}_{key}"].rms for k in ("baseline", "augmented"))
+            rows.append([title, degrees(before), degrees(after), 100 * (1 - after / before)])
+    return table(["free simulation", "model as given, RMS [deg]", "improved, RMS [deg]", "error removed [%]"], rows)
+
+
+def _where(d: Diagnosis) -> list[str]:
+    before = latent_torques(d.baseline, d.runs["baseline_train"])
+    if not before:
+        return [paragraph("The model declares no process noise, so there is no place at which a missing force could be told.", "note")]
+    after = latent_torques(d.final, d.runs["augmented_train"]) if d.effects else ()
+    caption = ("The force that would have to be added at each place to make the free run follow the recording, with two standard "
+               "errors; it holds what random forces contribute as well.")
+    return [figure(plot_latent(before, after), caption)]
+
+
+def _ranking(d: Diagnosis) -> str:
+    rows = [[_plain(c.suspect.term.name), c.suspect.term.location, float(c.score), float(c.gain),
+             "" if c.suspect.established else "hypothesis"] for c in d.ranking[:MOST]]
+    return table(["suspect", "place", "score", "gain", ""], rows)
+
+
+def _remainder(d: Diagnosis) -> str:
+    rows = [[t.place, t.what, float(t.gain), t.size, _odds(t.surprise)] for t in d.remainder[:5]]
+    return table(["place", "test for", "statistic", "degrees of freedom", "by chance once in"], rows) if rows else paragraph("Not tested.")
+
+
+def _odds(surprise: float) -> str:
+    return f"{10 ** surprise:,.0f}" if surprise < 6 else f"10^{min(surprise, 300):.0f}"
+
+
+def _parameters(d: Diagnosis) -> str:
+    model, rows = d.improved, []
+    for name, value in d.values.items():
+        before = d.baseline.values.get(name, float("nan"))
+        rows.append([name, float(before), float(value), float(d.final.errors.get(name, float("nan"))), model.parameters[name].unit])
+    return table(["parameter", "model as given", "improved", "std. error", "unit (SI)"], rows)
