@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from symid.cli import main
 from symid.conceal import Setup, Unsuitable, conceal, draw_case, rig_facts, setup_from_facts, standing_facts, write_case
 from symid.conceal.fit import fit_free, simulate_free
 from symid.conceal.magnitudes import OTHER, RANGES, draw_terms, draw_values, parse_effect
+from symid.conceal.shipped import SHIPPED, shipped_case
 from symid.conceal.write import csv_text, next_name, sealed_document
 from symid.discrepancy import read_case
 from symid.discrepancy.data import episodes_between
@@ -245,6 +247,15 @@ def test_command_writes_cases_that_follow_those_that_are_there(tmp_path, capsys,
     assert {k: v for k, v in new.items() if k != "id"} == {k: v for k, v in old.items() if k != "id"}
     assert next_name(tmp_path, "rig") == "r03" and next_name(tmp_path, "standing") == "s01"
     assert csv_text(offset).splitlines()[0] == "time_s,link1_angle_rad,link2_angle_rad"
+
+
+@pytest.mark.parametrize("name", ["s02", "r01"])
+def test_the_shipped_cases_are_made_anew_bit_for_bit(tmp_path, name):
+    shipped = Path(__file__).parents[1] / "data" / "concealed"
+    assert sorted(p.name for p in (shipped / "cases").iterdir()) == sorted(SHIPPED)
+    write_case(shipped_case(name), tmp_path, name)
+    for file in (f"cases/{name}/recording.csv", f"cases/{name}/case.json", f"sealed/{name}.json"):
+        assert (tmp_path / file).read_bytes() == (shipped / file).read_bytes()
 
 
 def test_sealed_answers_suit_the_scorer(tmp_path, shared, offset, standing):
