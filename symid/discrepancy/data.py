@@ -9,6 +9,7 @@ import numpy as np
 
 from symid.errors import DiagnosisError
 from symid.model import Model
+from symid.recording import Recording
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,10 +57,21 @@ class Data:
 
     @property
     def span(self) -> tuple[float, float]:
-        return float(self.episodes[0].time[0]), float(self.episodes[-1].time[-1])
+        return min(float(e.time[0]) for e in self.episodes), max(float(e.time[-1]) for e in self.episodes)
 
     def with_episodes(self, episodes) -> Data:
         return Data(tuple(episodes), self.sensor_noise, self.driven)
+
+
+def episodes_of(model: Model, recording: Recording, part: tuple[float, float] | str,
+                length: float | None = None) -> tuple[Episode, ...]:
+    """The episodes of a window (see `episodes_between`), or the segments with a split label."""
+    if not isinstance(part, str):
+        return episodes_between(model, recording.time, dict(recording.channels), part, length)
+    found = []
+    for s in recording.segments(part):
+        found += episodes_between(model, s.time, dict(s.channels), s.interval)
+    return tuple(found)
 
 
 def episodes_between(model: Model, time: np.ndarray, channels: Mapping[str, np.ndarray], window: tuple[float, float],

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.discrepancy.baseline import fit_baseline
-from symid.discrepancy.data import Data, episodes_between
+from symid.discrepancy.data import Data, episodes_of
 from symid.discrepancy.diagnosis import Diagnosis, Effect
 from symid.discrepancy.fit import Fit, Fitter
 from symid.discrepancy.freerun import FreeRun, free_run
 from symid.discrepancy.remainder import Test, remainder
 from symid.discrepancy.screen import extended
-from symid.discrepancy.search import Candidate, explore, moment_profile, price
+from symid.discrepancy.search import LIGHT, Candidate, explore, moment_profile, price
 from symid.discrepancy.suspects import Suspect, established_suspects
 from symid.discrepancy.words import sentence, words
 from symid.errors import SymidError
@@ -45,8 +45,8 @@ class Explanation:
         return all(s.established for s in self.suspects)
 
 
-def diagnose(model: Model, recording: Recording, *, fit_window: tuple[float, float],
-             held_out_window: tuple[float, float] | None = None, sensor_noise: float | Mapping[str, float] | None = None,
+def diagnose(model: Model, recording: Recording, *, fit_window: tuple[float, float] | str,
+             held_out_window: tuple[float, float] | str | None = None, sensor_noise: float | Mapping[str, float] | None = None,
              episode_length: float | None = None, driven: bool = True, settling: float = 0.0,
              start: Mapping[str, float] | None = None, suspects: Sequence[Suspect] | None = None,
              threads: int = 2, progress: Callable[[str], None] = lambda text: None) -> Diagnosis:
@@ -54,7 +54,8 @@ def diagnose(model: Model, recording: Recording, *, fit_window: tuple[float, flo
 
     Parameters
     ----------
-    fit_window, held_out_window : start and end [s]; the held-out one is used once, at the end.
+    fit_window, held_out_window : start and end [s], or the label of a split of the recording, whose
+        segments have each an initial state of their own; the held-out one is used once, at the end.
     sensor_noise : standard deviation of the sensors, one or by channel; from the recording if left out.
     episode_length : seconds of one piece with an initial state of its own; None for one piece.
     driven : whether random forces act at the model's noises besides the recorded inputs.
@@ -66,19 +67,19 @@ def diagnose(model: Model, recording: Recording, *, fit_window: tuple[float, flo
     ------
     DiagnosisError : a window is empty, a channel is missing, or the model cannot be fitted at all.
     """
-    channels = dict(recording.channels)
     noise = _noise(model, recording, sensor_noise)
-    data = Data(episodes_between(model, recording.time, channels, fit_window, episode_length), noise, driven)
+    data = Data(episodes_of(model, recording, fit_window, episode_length), noise, driven)
     base = fit_baseline(model, data, dict(start or {}))
     progress(f"the model as given is fitted ({base.iterations} iterations)")
     pool = list(established_suspects(model) if suspects is None else suspects)
     found, ranking = _explain(base, data, pool, threads, progress)
+    found = _polished(found, data)
     left = remainder(found.fit, data)
     progress("tested for a remainder")
     verdict, effects, equivalent = _judge(found, ranking, left, base, data)
     runs = {"baseline_train": free_run(base, data, settling), "augmented_train": free_run(found.fit, data, settling)}
     if held_out_window is not None:
-        later = data.with_episodes(episodes_between(model, recording.time, channels, held_out_window, episode_length))
+        later = data.with_episodes(episodes_of(model, recording, held_out_window, episode_length))
         runs |= {"baseline_heldout": free_run(base, later), "augmented_heldout": free_run(found.fit, later)}
     text = words(verdict, effects, equivalent, left, runs)
     return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text)
@@ -111,6 +112,14 @@ def _explain(base: Fit, data: Data, pool: list[Suspect], threads: int, progress)
     return best, single
 
 
+def _polished(found: Explanation, data: Data) -> Explanation:
+    """The same explanation fitted until nothing moves."""
+    if not found.suspects:
+        return found
+    fit = Fitter(found.fit.model, data).fit(found.fit.values, found.fit.initial, found.fit.process)
+    return Explanation(found.suspects, fit, found.score + fit.loglik2 - found.fit.loglik2)
+
+
 def _preferred(found: list[Explanation]) -> Explanation | None:
     """The best established explanation, or a hypothesis that beats it beyond doubt."""
     found = sorted(found, key=lambda e: -e.score)
@@ -123,7 +132,7 @@ def _preferred(found: list[Explanation]) -> Explanation | None:
 def _extended(best: Explanation, data: Data, pool, threads, progress) -> Explanation | None:
     """`best` with one more suspect, if one is accepted."""
     others = [s for s in pool if s.term not in {t.term for t in best.suspects}]
-    found = explore(best.fit, data, others, threads=threads, progress=progress)
+    found = explore(best.fit, data, others, effort=LIGHT, threads=threads, progress=progress)
     more = [Explanation((*best.suspects, c.suspect), c.fit, best.score + c.score) for c in found if c.score > ACCEPT]
     return _preferred(more)
 
@@ -136,7 +145,7 @@ def _reexamined(both: Explanation, base: Fit, data: Data, pool, threads, progres
         if without is None:
             continue
         rest = [s for s in pool if s.term not in {t.term for t in kept}]
-        found = explore(without.fit, data, rest, threads=threads, progress=progress)
+        found = explore(without.fit, data, rest, effort=LIGHT, threads=threads, progress=progress)
         swapped = _preferred([Explanation((*kept, c.suspect), c.fit, without.score + c.score) for c in found])
         if swapped is not None and swapped.score > both.score + 1.0 and (swapped.established or not both.established):
             both = swapped

@@ -16,7 +16,7 @@ from scipy.linalg import expm
 from symid.discrepancy.fit import Fit
 from symid.discrepancy.freerun import FreeRun
 from symid.discrepancy.gain import linearised_along
-from symid.model import Model
+from symid.model import Model, Noise
 
 PACES = (0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
 """Rates of the random walk that are tried, in torques that move an output by its error, per root second."""
@@ -57,8 +57,18 @@ def latent_torques(fit: Fit, run: FreeRun) -> tuple[Latent, ...]:
     noise = _sensor_noise(run.recorded)
     _, torque, error = max((_smoothed(A, G * size, C, residual, step, noise, pace, starts) for pace in PACES),
                            key=lambda found: found[0])
-    return tuple(Latent(w.at or name, w.unit, run.time, torque[:, i] * size[i], error[:, i] * size[i])
+    size = size * [_sign(model, w) for w in model.noises.values()]
+    return tuple(Latent(w.at or name, w.unit, run.time, torque[:, i] * size[i], error[:, i] * abs(size[i]))
                  for i, (name, w) in enumerate(model.noises.items()))
+
+
+def _sign(model: Model, noise: Noise) -> float:
+    """-1 for a noise that enters the balances against the force at its joint."""
+    port = next((p for p in model.ports.values() if p.at == noise.at and p.role == "joint"), None)
+    if port is None:
+        return 1.0
+    equation, into = next(iter(port.into.items()))
+    return float(np.sign(float(model[equation].expr.coeff(noise.symbol) * into))) or 1.0
 
 
 def _sensor_noise(recorded: np.ndarray) -> np.ndarray:

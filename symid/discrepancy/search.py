@@ -22,9 +22,18 @@ ALWAYS_REFITTED = 6
 FIRST_ITERATIONS = 6
 MOMENTS = 0.3
 """Spacing [s] of the moments at which a lasting change is tried."""
-REFITTED_AT_MOST = 24
-CONVERGED_FULLY = 8
-"""So many suspects, the best after the first iterations, are fitted to convergence from two starts."""
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How many suspects are refitted at all, and how many of those to convergence."""
+
+    refitted: int = 20
+    converged: int = 5
+
+
+FULL, LIGHT = Effort(), Effort(10, 3)
+CONVERGING_ITERATIONS = 20
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +68,7 @@ def price(suspect: Suspect, data: Data) -> float:
     return log(data.samples) * (suspect.size + (suspect.scanned is not None))
 
 
-def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, threads: int = 2,
+def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, effort: Effort = FULL, threads: int = 2,
             progress: Callable[[str], None] = lambda text: None) -> list[Candidate]:
     """All suspects on top of `fit`, best score first."""
     screen = Screen(fit, data)
@@ -67,13 +76,13 @@ def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, threads: int =
         starts = [s for s in pool.map(lambda s: _starts(fit, data, screen, s), suspects) if s]
         starts.sort(key=lambda s: -s[0].forecast)
         chosen = [s for i, s in enumerate(starts) if s[0].forecast > WORTH_REFITTING or i < ALWAYS_REFITTED]
-        chosen = chosen[:REFITTED_AT_MOST]
+        chosen = chosen[:effort.refitted]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
         first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen) if c is not None]
         first.sort(key=lambda c: -c.score)
         others = {s[0].suspect: s[1:3] for s in chosen}
-        found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), first[:CONVERGED_FULLY]))
-    return sorted(found + first[CONVERGED_FULLY:], key=lambda c: -c.score)
+        found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), first[:effort.converged]))
+    return sorted(found + first[effort.converged:], key=lambda c: -c.score)
 
 
 def _starts(fit: Fit, data: Data, screen: Screen, suspect: Suspect) -> list[Start]:
@@ -136,15 +145,22 @@ def _begin(fit: Fit, data: Data, starts: list[Start]) -> Candidate | None:
 
 def _converge(fit: Fit, data: Data, first: Candidate, others: list[Start]) -> Candidate:
     """The candidate fitted to convergence, or what another start leads to if that is better."""
-    begun = first.fit
-    new = Fitter(begun.model, data).fit(begun.values, begun.initial, begun.process)
-    gain = new.loglik2 - fit.loglik2
-    found = [Candidate(first.suspect, new, gain, gain - price(first.suspect, data), first.forecast)]
-    found += [c for c in (_refit(fit, data, s) for s in others) if c is not None]
+    found = [_continued(fit, data, first)]
+    for start in others:
+        other = _refit(fit, data, start, FIRST_ITERATIONS)
+        if other is not None and other.gain > found[0].gain + 1.0:
+            found.append(_continued(fit, data, other))
     best = max(found, key=lambda c: c.gain)
     moved = _profiled(best, data)
     again = _refit(fit, data, moved) if moved is not None else None
     return again if again is not None and again.gain > best.gain else best
+
+
+def _continued(fit: Fit, data: Data, begun: Candidate) -> Candidate:
+    """The same candidate after more iterations, with standard errors."""
+    new = Fitter(begun.fit.model, data).fit(begun.fit.values, begun.fit.initial, begun.fit.process, CONVERGING_ITERATIONS)
+    gain = new.loglik2 - fit.loglik2
+    return Candidate(begun.suspect, new, gain, gain - price(begun.suspect, data), begun.forecast)
 
 
 def _profiled(best: Candidate, data: Data) -> Start | None:

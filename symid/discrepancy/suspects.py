@@ -87,7 +87,7 @@ class Suspect:
                 places = np.linspace(t0 + 0.04 * span, t1 - 0.04 * span, 40)
             else:
                 width = values.get("duration_s", 1.0)
-                places = np.arange(t0 - 0.25 * width, t1 - 0.5 * width, max(0.5 * width, span / 200))
+                places = np.arange(t0 - 0.25 * width, t1 - 0.5 * width, max(0.5 * width, span / 60))
             for place in places:
                 yield values | {q.key: float(place)}
 

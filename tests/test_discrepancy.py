@@ -1,0 +1,231 @@
+"""The search for missing physics on a system that no line of symid knows: a driven cart on a spring."""
+
+import json
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sm
+
+from symid.discrepancy import Suspect, diagnose, established_suspects, read_case
+from symid.discrepancy.baseline import fit_baseline
+from symid.discrepancy.data import Data, episodes_between
+from symid.discrepancy.gain import kalman_gain
+from symid.discrepancy.remainder import remainder
+from symid.discrepancy.search import explore
+from symid.discrepancy.words import quantity
+from symid.errors import DiagnosisError
+from symid.mechanics import LIBRARY
+from symid.model import (
+    Constant, Equation, Input, Law, LawParameter, Model, Noise, Output, Parameter, Port, State,
+)
+from symid.simulation import Linearised, synthetic_recording
+
+TRUE = {"stiffness": 30.0, "damping": 1.2}
+SENSOR = 2e-4
+
+
+def cart() -> Model:
+    m = Model("cart on a spring")
+    m.position, m.speed = State(unit="m"), State(unit="m/s")
+    m.shaker = Input(unit="m/s^2", role="excitation", at="input")
+    m.mass = Constant(2.0, unit="kg", role="mass", at="cart")
+    m.stiffness = Parameter(unit="N/m", bounds=(0, 1e4))
+    m.damping = Parameter(unit="N*s/m", bounds=(0, 1e3))
+    m.gust = Noise(unit="N", role="process_noise", at="cart")
+    m.kinematics = Equation(m.position.dot - m.speed)
+    m.balance = Equation(m.mass * (m.speed.dot + m.shaker) + m.damping * m.speed + m.stiffness * m.position - m.gust)
+    m.cart = Port(position=m.position, rate=m.speed, into={"balance": -1}, role="joint", at="cart", unit="N")
+    m.seen = Output(m.position, role="sensor", at="sensor:cart")
+    return m
+
+
+def recorded(seed=1, term=None, values=None, gust=0.05, duration=60):
+    model = cart() if term is None else cart().with_term(term)
+    own = {} if term is None else {term.parameter_name(k): v for k, v in values.items()}
+    return synthetic_recording(model, TRUE | own, duration=duration, rate=50, seed=seed, process_noise={"gust": gust},
+                               sensor_noise={"position": SENSOR})
+
+
+def data_of(recording, driven=True, window=(0.0, 40.0), length=None) -> Data:
+    episodes = episodes_between(cart(), recording.time, dict(recording.channels), window, length)
+    return Data(episodes, np.array([SENSOR]), driven)
+
+
+FEW = ("coulomb_friction", "cubic_stiffness", "input_gain", "input_delay", "external_push", "viscous_friction",
+       "torsional_spring", "stribeck_friction", "quadratic_stiffness")
+
+
+def few() -> list[Suspect]:
+    """Some suspects of the library, for speed."""
+    return [s for s in established_suspects(cart()) if s.term.name in FEW]
+
+
+def finding(recording, suspects=None):
+    return diagnose(cart(), recording, fit_window=(0.0, 40.0), held_out_window=(40.0, 60.0), sensor_noise=SENSOR,
+                    suspects=suspects or few())
+
+
+@cache
+def friction_found():
+    return finding(recorded(4, LIBRARY["coulomb_friction"].at("cart"), {"torque_Nm": 0.35}))
+
+
+def test_the_fit_finds_the_truth_within_its_own_errors():
+    z = []
+    for seed in range(8):
+        fit = fit_baseline(cart(), data_of(recorded(seed)))
+        z += [(fit.values[k] - TRUE[k]) / fit.errors[k] for k in TRUE]
+        # Drawn every 10 ms, seen every 20 ms: as strong as noise of this size held for 20 ms.
+        assert fit.process[0] == pytest.approx(0.05 / 2**0.5, rel=0.3)
+    assert np.abs(z).max() < 4 and 0.4 < np.std(z) < 1.7
+
+
+def test_surprises_of_the_right_model_are_white():
+    fit = fit_baseline(cart(), data_of(recorded(3)))
+    assert max(t.surprise for t in remainder(fit, data_of(recorded(3)))) < 4
+
+
+def test_free_runs_of_pieces_without_random_forces():
+    data = data_of(recorded(2, gust=0.0), driven=False, length=4.0)
+    fit = fit_baseline(cart(), data)
+    assert len(data.episodes) == 10 and fit.gain is None
+    assert fit.values["stiffness"] == pytest.approx(TRUE["stiffness"], abs=4 * fit.errors["stiffness"])
+
+
+def test_kalman_gain_of_a_random_walk():
+    linear = Linearised(np.zeros((1, 1)), np.ones((1, 1)), np.ones((1, 1)), np.zeros((1, 0)), np.zeros((1, 0)),
+                        np.zeros(0), np.zeros(0, int))
+    gain = kalman_gain(linear, 1.0, np.array([1.0]), np.array([1.0]))
+    golden = (1 + 5**0.5) / 2          # P = (1 + sqrt 5)/2 solves P^2 = P + 1
+    assert gain[0, 0] == pytest.approx(golden / (golden + 1), rel=1e-6)
+
+
+def test_nothing_missing_is_adequate():
+    finding_ = finding(recorded(5))
+    assert finding_.verdict == "adequate" and finding_.effects == ()
+    assert "explains the recording" in finding_.words
+
+
+def test_friction_is_named_placed_and_measured():
+    finding_ = friction_found()
+    first = finding_.effects[0]
+    assert (finding_.verdict, first.name, first.location) == ("missing_physics", "coulomb_friction", "cart")
+    value, error = first.parameters["torque_Nm"]
+    assert abs(value - 0.35) < 4 * error and error < 0.02
+    assert finding_.runs["augmented_heldout"].rms < 0.2 * finding_.runs["baseline_heldout"].rms
+    assert "cart is held back by a dry friction" in finding_.words
+
+
+@pytest.mark.slow
+def test_with_the_whole_library():
+    recording = recorded(4, LIBRARY["coulomb_friction"].at("cart"), {"torque_Nm": 0.35})
+    assert finding(recording, established_suspects(cart())).effects[0].name == "coulomb_friction"
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name, place, values, key", [
+    ("cubic_stiffness", "cart", {"k3_Nm_rad3": 4000.0}, "k3_Nm_rad3"),
+    ("input_delay", "input", {"delay_s": 0.05}, "delay_s"),
+])
+def test_what_is_missing_is_named_placed_and_measured(name, place, values, key):
+    finding_ = finding(recorded(4, LIBRARY[name].at(place), values))
+    first = finding_.effects[0]
+    assert (finding_.verdict, first.name, first.location) == ("missing_physics", name, place)
+    value, error = first.parameters[key]
+    assert abs(value - values[key]) < 4 * error and error < 0.2 * abs(values[key])
+    assert finding_.runs["augmented_heldout"].rms < finding_.runs["baseline_heldout"].rms
+    assert place.removeprefix("sensor:") in finding_.words or name.startswith("input")
+
+
+def test_a_push_is_found_with_its_time():
+    push = {"peak_Nm": 6.0, "start_s": 23.0, "duration_s": 0.4}
+    first = finding(recorded(6, LIBRARY["external_push"].at("cart"), push)).effects[0]
+    assert (first.name, first.location) == ("external_push", "cart")
+    assert abs(first.window[0] - 23.0) < 0.5
+
+
+def _sine_spring(model, place, p):
+    port = model["cart"]
+    model.add_effort("cart", -p.force_N * sm.sin(port.position / p.wave_m))
+
+
+SINE = Law("washboard", "joint", (LawParameter("force_N", "N", (-10.0, 10.0)),
+                                  LawParameter("wave_m", "m", (0.001, 0.1), None, (0.005, 0.01, 0.02))), _sine_spring,
+           "The {place} runs over a washboard of {force_N}")
+
+
+def test_a_suspect_of_the_user_takes_part():
+    pool = [*few(), Suspect(SINE.at("cart"))]
+    first = finding(recorded(7, SINE.at("cart"), {"force_N": 0.5, "wave_m": 0.01}), suspects=pool).effects[0]
+    assert first.name == "washboard"
+    assert first.parameters["wave_m"][0] == pytest.approx(0.01, rel=0.1)
+
+
+def test_physics_of_no_list_is_unexplained_and_placed():
+    finding_ = finding(recorded(7, SINE.at("cart"), {"force_N": 1.0, "wave_m": 0.01}))
+    assert finding_.verdict == "unexplained" and finding_.effects[0].location == "cart"
+
+
+def test_hopeless_suspects_gain_nothing():
+    data = data_of(recorded(8))
+    fit = fit_baseline(cart(), data)
+    found = explore(fit, data, few())
+    assert found and max(c.score for c in found) < 5
+    # What the model's own unknowns say already is never an explanation.
+    own = [c for c in found if c.suspect.term.name in ("viscous_friction", "torsional_spring")]
+    assert all(abs(c.gain) < 1.0 for c in own)
+
+
+def test_the_answer_is_in_the_stated_format(tmp_path):
+    finding_ = friction_found()
+    answer = json.loads(finding_.to_json(tmp_path / "answer.json").read_text())
+    assert answer["verdict"] == "missing_physics"
+    assert set(answer["effects"][0]) == {"name", "location", "time_window_s", "parameters"}
+    assert set(answer["effects"][0]["parameters"]["torque_Nm"]) == {"value", "std_error"}
+    assert set(answer["ranking"][0]) == {"name", "location", "score"}
+    assert set(answer["fit"]["augmented"]) == {"train_rms_rad", "heldout_rms_rad"}
+    lines = finding_.held_out_csv(tmp_path / "held.csv").read_text().splitlines()
+    assert lines[0] == "time_s,position" and len(lines) == 1 + 1001
+    assert finding_.improved.terms[-1].name == "coulomb_friction"
+    assert "coulomb_friction" in finding_._repr_html_()
+
+
+@pytest.mark.parametrize("value, error, unit, text", [
+    (0.084, 0.003, "s", "84.0 ± 3.0 ms"), (5.0, 0.0, "N*m", "5.00 N m"), (0.01, 0.001, "rad", "0.573 ± 0.057 deg"),
+])
+def test_quantities_read_well(value, error, unit, text):
+    assert quantity(value, error, unit) == text
+
+
+def test_windows_and_channels_are_checked():
+    recording = recorded(1)
+    with pytest.raises(DiagnosisError, match="fewer than 8 samples"):
+        diagnose(cart(), recording, fit_window=(100.0, 120.0))
+    with pytest.raises(DiagnosisError, match="no channel 'position'"):
+        episodes_between(cart(), recording.time, {"shaker": recording["shaker"]}, (0, 10))
+
+
+@pytest.mark.parametrize("text, words", [
+    (None, "has no case.json"), ("{", "is not JSON"), ("{}", "the key 'system' is missing"),
+    ('{"system": "boat", "baseline": {}, "fit_window_s": [], "heldout_window_s": [], "angle_noise_rms_rad_approx": 1}',
+     "system is 'boat'; known: standing, rig"),
+    ('{"system": "standing", "baseline": {}, "body": {}, "fit_window_s": [], "heldout_window_s": [], '
+     '"angle_noise_rms_rad_approx": 1}', "body has no 'l_L_m'"),
+])
+def test_case_directories_are_checked(tmp_path, text, words):
+    if text is not None:
+        (tmp_path / "case.json").write_text(text)
+    with pytest.raises(DiagnosisError, match=words):
+        read_case(tmp_path)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case, name", [("dev-s01", "muscle_lag"), ("dev-r02", "sensor_offset")])
+def test_practice_cases(case, name):
+    folder = Path(__file__).parents[2] / "shared" / "concealed" / "cases" / case
+    if not folder.exists():
+        pytest.skip(f"no practice cases at {folder.parent}")
+    from symid.discrepancy import diagnose_case
+    assert diagnose_case(read_case(folder)).effects[0].name == name
