@@ -28,18 +28,18 @@ def plot_before_after(diagnosis: Diagnosis) -> Picture:
     figure = Picture(figsize=(9.5, 2.5 * len(outputs) + 0.6), layout="constrained")
     grid = figure.subplots(2 * len(outputs), len(windows), sharex="col", sharey="row", squeeze=False,
                            height_ratios=[2.4, 1] * len(outputs))
-    for column, (key, title) in zip(grid.T, windows, strict=True):
+    for first, column, (key, title) in zip((True, False), grid.T, windows, strict=False):
         before, after = diagnosis.runs[f"baseline_{key}"], diagnosis.runs[f"augmented_{key}"]
         rows = _where_most_changes(before, after)
         for i, output in enumerate(outputs):
             _panel(column[2 * i], column[2 * i + 1], before, after, rows, i, shown_unit(output.unit), bool(diagnosis.effects))
-            if column is grid.T[0]:
+            if first:
                 unit = shown_unit(output.unit)[0]
                 column[2 * i].set_ylabel(f"{output.channel.replace('_', ' ')}\n[{unit}]", fontsize=9)
                 column[2 * i + 1].set_ylabel(f"error\n[{unit}]", fontsize=8)
         column[0].set_title(title, loc="left", fontsize=10)
         column[-1].set_xlabel("time [s]")
-    grid[0, -1].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=3, frameon=False, fontsize=8.5, borderaxespad=0.1)
+    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside upper right", ncols=3, frameon=False, fontsize=8.5)
     figure.align_ylabels(grid[:, 0])
     return figure
 
@@ -79,7 +79,7 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
         unit, factor = shown_unit(output.unit)
         shown = [(before, WARN, "model as given")] + ([(after, MODEL, "improved")] if diagnosis.effects else [])
         for run, color, label in shown:
-            f, power = welch((run.recorded - run.simulated)[:, i] * factor, rate, nperseg=length)
+            f, power = welch((run.recorded - run.simulated)[:, i] * factor, rate, nperseg=length, detrend=False)
             axes.loglog(f[1:], power[1:], color=color, lw=1.1, label=label)
         axes.set_title(output.channel.replace("_", " "), loc="left", fontsize=10)
         axes.set_xlabel("frequency [Hz]")
@@ -117,16 +117,18 @@ def plot_latent(before: Sequence[Latent], after: Sequence[Latent] = ()) -> Pictu
     figure = Picture(figsize=(9.5, 1.9 * len(before) + 0.4), layout="constrained")
     panels = figure.subplots(len(before), 1, squeeze=False, sharex=True)[:, 0]
     for i, (axes, latent) in enumerate(zip(panels, before, strict=True)):
+        # Where a run begins the estimate is free: its band must not set the scale.
+        margin = len(latent.time) // 50 + 1
+        top = 1.25 * np.abs(latent.torque[margin:-margin]).max() or 1.0
+        prefix, factor = next((p, f) for p, f in (("", 1.0), ("m", 1e3), ("µ", 1e6)) if top * f > 0.5 or p == "µ")
         axes.axhline(0, color=INK, lw=0.5)
         for one, color, label in [(latent, WARN, "model as given"), *((a, MODEL, "improved") for a in after[i:i + 1])]:
-            low, high = one.torque - 2 * one.error, one.torque + 2 * one.error
+            torque, error = one.torque * factor, one.error * factor
+            low, high = torque - 2 * error, torque + 2 * error
             axes.fill_between(one.time, low, high, color=color, alpha=0.18, lw=0)
-            axes.plot(one.time, one.torque, color=color, lw=0.8, label=label)
-        # Where a run begins the estimate is free: its band must not set the scale.
-        inner = slice(len(latent.time) // 50, -max(1, len(latent.time) // 50))
-        top = 1.25 * np.abs(latent.torque[inner]).max() or 1.0
-        axes.set(xlim=(latent.time[0], latent.time[-1]), ylim=(-top, top))
-        axes.set_ylabel(f"{latent.place}\n[{latent.unit.replace('*', ' ')}]", fontsize=9)
+            axes.plot(one.time, torque, color=color, lw=0.8, label=label)
+        axes.set(xlim=(latent.time[0], latent.time[-1]), ylim=(-top * factor, top * factor))
+        axes.set_ylabel(f"{latent.place}\n[{prefix}{latent.unit.replace('*', ' ')}]", fontsize=9)
         opened(axes)
     panels[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize=8.5, borderaxespad=0.1)
     panels[-1].set_xlabel("time [s]")

@@ -66,6 +66,11 @@ def _with_error(value: float, error: float) -> str:
     return f"{number(float(value))} ± {error:.2g}" if error > 0 else number(float(value))
 
 
+def _short(x: float) -> float:
+    """Four digits: more than a fit is good for."""
+    return float(f"{x:.4g}")
+
+
 def _plain(name: str) -> str:
     return name.replace("_", " ")
 
@@ -99,7 +104,7 @@ def _fits(d: Diagnosis) -> str:
     for key, title in (("train", "fit window"), ("heldout", "held-out window, not used before")):
         if f"baseline_{key}" in d.runs:
             before, after = (d.runs[f"{k}_{key}"].rms for k in ("baseline", "augmented"))
-            rows.append([title, degrees(before), degrees(after), 100 * (1 - after / before)])
+            rows.append([title, _short(degrees(before)), _short(degrees(after)), round(100 * (1 - after / before), 1)])
     return table(["free simulation", "model as given, RMS [deg]", "improved, RMS [deg]", "error removed [%]"], rows)
 
 
@@ -131,6 +136,6 @@ def _odds(surprise: float) -> str:
 def _parameters(d: Diagnosis) -> str:
     model, rows = d.improved, []
     for name, value in d.values.items():
-        before = d.baseline.values.get(name, float("nan"))
-        rows.append([name, float(before), float(value), float(d.final.errors.get(name, float("nan"))), model.parameters[name].unit])
+        before = d.baseline.values.get(name)
+        rows.append([name, "" if before is None else number(float(before)), float(value), float(d.final.errors.get(name, float("nan"))), model.parameters[name].unit])
     return table(["parameter", "model as given", "improved", "std. error", "unit (SI)"], rows)
