@@ -21,7 +21,7 @@ def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda
     Parameters
     ----------
     quick : one random start instead of three; without episodes and opty.
-    say : told what is being measured.
+    say : told what has been measured.
 
     Returns
     -------
@@ -32,9 +32,8 @@ def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda
     absent = [name for name in ("casadi", "opty") if find_spec(name) is None]
     rounds = 1 if quick else 3
     with tempfile.TemporaryDirectory(prefix="symid-bench-") as cache:
-        say("first use of a model")
         first = [run_fresh("symid_side.first_use", task, cache=f"{cache}/{k}") for k in range(rounds)]
-        say("first identification")
+        say("first use of a model")
         new = run_fresh("symid_side.identification", task, "random", cache=cache)
         run_fresh("symid_side.identification", task, "default", cache=cache)  # compiles the simulator
         evaluations = {"symid, C": _evaluations("symid_side", "c", task, cache, say),
@@ -50,8 +49,8 @@ def measure_load(task: Task, say: Callable[[str], None] = lambda text: None) -> 
     """symid on the window laid end to end 1, 2, 4 and 8 times, from its default start."""
     out = []
     for repeat in LOAD:
-        say(f"recording of {repeat} windows")
         out.append({"windows": repeat} | run_fresh("symid_side.identification", replace(task, repeat=repeat), "default"))
+        say(f"recording of {repeat} windows")
     return out
 
 
@@ -72,14 +71,17 @@ def _solves(task: Task, sides: dict[str, tuple], rounds: int, cache: str, say) -
     runs = {side: [] for side in sides}
     for number in range(1 if "opty" in runs or task.episodes > 1 else rounds):
         for side, (call, *arguments) in sides.items():
-            say(f"{task.controller.upper()}, {task.episodes} episode(s), random start {number + 1}: {side}")
-            runs[side].append(run_fresh(call, replace(task, number=number), *arguments, cache=cache))
+            run = run_fresh(call, replace(task, number=number), *arguments, cache=cache)
+            runs[side].append(run)
+            say(f"{task.controller.upper()}, {task.episodes} episode(s), random start {number + 1}, {side}: "
+                f"{run['total']:.2f} s, {run['iterations']} iterations")
     return runs
 
 
 def _evaluations(side: str, setup: str, task: Task, cache: str, say) -> dict:
-    say(f"evaluations: {side.split('_')[0]}, {setup}")
-    return run_fresh(f"{side}.evaluations", task, setup, cache=cache)
+    found = run_fresh(f"{side}.evaluations", task, setup, cache=cache)
+    say(f"evaluations: {side.removesuffix('_side')}, {setup}")
+    return found
 
 
 def middle(runs: list[dict], key: str) -> float:

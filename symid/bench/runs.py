@@ -34,8 +34,8 @@ def run_fresh(call: str, task: Task, *arguments: str, cache: str | Path | None =
     ended = subprocess.run(command, env=environment, capture_output=True, text=True, errors="replace")
     results = [line for line in ended.stdout.splitlines() if line.startswith(MARK)]
     if ended.returncode or not results:
-        last = "\n".join((ended.stderr or ended.stdout).splitlines()[-5:])
-        raise SymidError(f"bench: {call}({', '.join(arguments)}) ended with code {ended.returncode}: {last}")
+        last = [line for line in (ended.stderr or ended.stdout).splitlines() if line.strip()][-1:]
+        raise SymidError(f"bench: {call}({', '.join(arguments)}) ended with code {ended.returncode}: {''.join(last)}")
     return json.loads(results[-1][len(MARK):])
 
 

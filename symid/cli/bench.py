@@ -19,7 +19,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from symid.bench import Task, load_table, measure, measure_load, table
+    from symid.bench.measure import measure, measure_load
+    from symid.bench.table import load_table, table
+    from symid.bench.task import Task
 
     task = Task(*_files(arguments), window=tuple(arguments.window))
     if arguments.load:
@@ -46,4 +48,4 @@ def _files(arguments: argparse.Namespace) -> tuple[str, str]:
 
 
 def _say(text: str) -> None:
-    print(f"measuring {text} ...", file=sys.stderr, flush=True)
+    print(f"measured {text}", file=sys.stderr, flush=True)

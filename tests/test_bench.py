@@ -1,0 +1,115 @@
+"""`symid bench`: it runs, and its tables say what was measured; times are not asserted."""
+
+import json
+from dataclasses import replace
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from symid.bench.measure import measure_load
+from symid.bench.peers import TORQUE, for_peers
+from symid.bench.runs import run_fresh
+from symid.bench.table import load_table, ratio, table
+from symid.bench.task import Task
+from symid.cli.main import main
+from symid.errors import SymidError
+from symid.synthetic import write_standing
+
+
+@pytest.fixture(scope="module")
+def tiny(tmp_path_factory) -> Task:
+    """Four seconds of the synthetic recording."""
+    folder = tmp_path_factory.mktemp("data")
+    write_standing(folder)
+    return Task(str(folder / "recording.csv"), str(folder / "body.json"), (0.0, 4.0))
+
+
+@pytest.fixture
+def run_here(monkeypatch):
+    """Measurements in this process: fresh ones import for a second each."""
+    def run(call, task, *arguments, cache=None):
+        module, function = call.split(".")
+        return getattr(import_module(f"symid.bench.{module}"), function)(task, *arguments)
+    monkeypatch.setattr("symid.bench.measure.run_fresh", run)
+
+
+def test_the_command_prints_ratios_and_targets(tiny, tmp_path, capsys, run_here):
+    arguments = ["bench", "--quick", "--recording", tiny.recording, "--body", tiny.body, "--window", "0", "4"]
+    assert main([*arguments, "--json", str(tmp_path / "bench.json")]) == 0
+    printed = capsys.readouterr().out
+    assert "one evaluation, 200 intervals" in printed
+    found = json.loads((tmp_path / "bench.json").read_text())
+    for name in found["absent"]:
+        assert f"{name} is not installed" in printed
+    assert ("CasADi's best / symid" in printed) == ("casadi" not in found["absent"])
+    (sides,) = found["solves"].values()
+    solved = [run["rms"] for runs in sides.values() for run in runs if run["status"] == "Solve_Succeeded"]
+    assert {"symid, random start", "symid, default start"} <= sides.keys()
+    assert min(solved) > 0 and "memory above the interpreter's start" in printed
+
+
+def test_peers_solve_the_same_program(tiny):
+    """Scaled rows of the peers at the recorded motion are the constraints of symid's program there."""
+    task = replace(tiny, controller="pd", episodes=2)
+    peer, problem = for_peers(task), task.identification()
+    t, z = problem.transcription, problem.start("random", 0, 0)
+    middle, rate = (peer.recorded[1:] + peer.recorded[:-1]) / 2, np.diff(peer.recorded, axis=0) / peer.step
+    acceleration = (peer.acceleration[1:] + peer.acceleration[:-1]) / 2
+    for e, noise in enumerate(peer.noises):
+        values = peer.function({"sin": np.sin, "cos": np.cos})(*middle.T, *rate.T, *peer.start, acceleration, *noise.T)
+        equations = t.program.constants[e][-len(peer.row_scale):]
+        own = t.program.interval.residual(*t.program.interval_arguments(z, e)) * equations
+        np.testing.assert_allclose(np.column_stack(values) * peer.row_scale, own, rtol=1e-9, atol=1e-9)
+    assert peer.row_scale.tolist() == [1, 1, TORQUE, TORQUE]
+    assert peer.rms(np.stack([peer.recorded] * 2)) == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("setup", ["map + JIT", "expand"])
+def test_casadi_finds_the_same_optimum(tiny, setup):
+    pytest.importorskip("casadi", reason="casadi is not installed")
+    from symid.bench import casadi_side, symid_side
+    task = replace(tiny, controller="pd", window=(0.0, 10.0))
+    peer, own = casadi_side.identification(task, setup), symid_side.identification(task, "random")
+    assert peer["status"] == own["status"] == "Solve_Succeeded"
+    assert peer["rms"] == pytest.approx(own["rms"], rel=1e-4)
+
+
+def test_long_recordings(tiny, monkeypatch, run_here):
+    monkeypatch.setattr("symid.bench.measure.LOAD", (1, 2))
+    rows = measure_load(tiny)
+    assert [row["windows"] for row in rows] == [1, 2]
+    assert len(load_table(rows).splitlines()) == 3
+
+
+def test_a_fresh_process_gives_its_numbers(tiny):
+    assert run_fresh("symid_side.evaluations", tiny, "numpy")["intervals"] == 200
+
+
+def test_a_failed_run_is_told(tiny):
+    with pytest.raises(SymidError, match="symid_side.evaluations.*backend 'fortran'"):
+        run_fresh("symid_side.evaluations", tiny, "fortran")
+
+
+def test_recording_and_body_belong_together(tiny, capsys):
+    assert main(["bench", "--recording", tiny.recording]) == 2
+    assert "--recording and --body belong together" in capsys.readouterr().err
+
+
+def test_ratio_is_the_median_over_starts_of_the_best_peer():
+    peers = [[{"total": t} for t in row] for row in ([4.0, 9.0, 5.0], [6.0, 3.0, 7.0])]
+    assert ratio(peers, [{"total": t} for t in (2.0, 1.0, 1.0)]) == 3.0
+
+
+def test_a_missed_target_is_said():
+    one = {"build": 1.0, "solve": 1.0, "total": 2.0, "iterations": 5, "rms": 0.01, "functions_share": 0.5,
+           "memory_mb": 900.0, "import": 1.0, "status": "Solve_Succeeded"}
+    rates = {"residual_ms": 1.0, "jacobian_ms": 1.0, "hessian_ms": 1.0, "intervals": 10}
+    found = {"absent": ["casadi", "opty"], "evaluations": {"symid, C": rates, "symid, NumPy": rates},
+             "first_use": [{"seconds": 0.2}], "first_identification": one,
+             "solves": {"FPD": {"symid, random start": [one], "symid, default start": [one]}}}
+    lines = table(found).splitlines()
+    missed = [line for line in lines if "NOT MET" in line]
+    assert [line.split("  ")[0] for line in missed] == [
+        "slowest evaluation, symid, C", "generated functions' share of the solve", "memory above the interpreter's start"]
+    assert sum("is not installed" in line for line in lines) == 2
