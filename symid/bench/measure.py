@@ -5,7 +5,7 @@ from __future__ import annotations
 import statistics
 import tempfile
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import asdict, replace
 from importlib.util import find_spec
 
 from symid.bench.runs import run_fresh
@@ -41,7 +41,7 @@ def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda
         if "casadi" not in absent:
             evaluations |= {f"CasADi, {s}": _evaluations("casadi_side", s, task, cache, say) for s in CASADI}
         solves = {label: _solves(each, sides, rounds, cache, say) for label, each, sides in _plan(task, absent, quick)}
-    return {"task": vars(task), "absent": absent, "evaluations": evaluations, "first_use": first,
+    return {"task": asdict(task), "absent": absent, "evaluations": evaluations, "first_use": first,
             "first_identification": new, "solves": solves}
 
 
