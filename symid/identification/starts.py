@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import least_squares, lsq_linear, minimize_scalar
 
 from symid.errors import SolveError
 from symid.identification.bounds import guesses, parameter_bounds
@@ -31,6 +31,8 @@ def random_start(t: Transcription, seed: int, number: int) -> np.ndarray:
 
 
 REGRESSION_INTERVALS = 1000     # enough for a start; more only cost time
+LAGS = np.arange(0.02, 0.5, 0.04)
+"""Values [s] among which the regression looks for unknown lags."""
 
 
 def default_start(t: Transcription) -> np.ndarray:
@@ -39,20 +41,45 @@ def default_start(t: Transcription) -> np.ndarray:
     Where the loop that the regression finds cannot be simulated, the recorded motion with the
     regressed parameters is the start.
     """
-    parameters = equation_error(t)
+    parameters = _equation_error_of_lags(t)
     shot = shoot(t, parameters)
     return t.start(parameters) if shot is None else t.start(*shot)
 
 
-def equation_error(t: Transcription) -> np.ndarray:
-    """(free parameters,) SI: those with which the recorded motion satisfies the equations best.
+def _equation_error_of_lags(t: Transcription) -> np.ndarray:
+    """`equation_error`, with unknown lags all at the one value with which it is least.
+
+    The output error of a simulation has many local optima over a lag, and none where the loop is
+    unstable; the equation error has one, and costs little.
+    """
+    first, (lower, upper) = guesses(t), parameter_bounds(t)
+    late = {str(d.lag) for d in t.model.delays.values()}
+    lags = [i for i, name in enumerate(t.layout.parameter_names) if name.split("[")[0] in late]
+    if not lags:
+        return equation_error(t, first)[0]
+
+    def regress(lag):
+        first[lags] = np.clip(lag, lower[lags], upper[lags])
+        return equation_error(t, first)
+
+    lo, hi = lower[lags].min(), upper[lags].max()
+    grid = np.array([lo, *LAGS[(LAGS > lo) & (LAGS < hi)], hi])
+    best = int(np.argmin([regress(lag)[1] for lag in grid]))
+    near = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
+    found = minimize_scalar(lambda lag: regress(lag)[1], bounds=near, method="bounded", options={"xatol": 0.002, "maxiter": 12})
+    return regress(found.x)[0]
+
+
+def equation_error(t: Transcription, first: np.ndarray) -> tuple[np.ndarray, float]:
+    """Parameters (free parameters,) SI with which the recorded motion satisfies the equations best.
 
     With states and their differences taken from the recording, the residuals of the intervals
     are least squares in the parameters alone: inverse dynamics and regression in one step.
+    Lags stay as they are in `first`, from which the search begins. Also gives the sum of squares.
     """
-    first, kernel = t.layout.offsets[-1], t.program.interval
-    lower, upper = (b[first:] for b in (t.program.lower, t.program.upper))
-    z = t.start(guesses(t))
+    at, kernel = t.layout.offsets[-1], t.program.interval
+    lower, upper = (b[at:] for b in (t.program.lower, t.program.upper))
+    z = t.start(first)
     shared = kernel.jacobian_cols >= kernel.n_local
     rows, cols = kernel.jacobian_rows[shared], kernel.jacobian_cols[shared] - kernel.n_local
     used = np.unique(rows)
@@ -63,11 +90,11 @@ def equation_error(t: Transcription) -> np.ndarray:
         return local[::every], parameters, np.ascontiguousarray(data[::every]), constants
 
     def residual(p):
-        z[first:] = p
+        z[at:] = p
         return np.concatenate([kernel.residual(*arguments(e))[:, used].ravel() for e in range(len(t.layout.intervals))])
 
     def jacobian(p):
-        z[first:] = p
+        z[at:] = p
         blocks = []
         for e in range(len(t.layout.intervals)):
             values = kernel.jacobian(*arguments(e))[:, shared]
@@ -76,10 +103,39 @@ def equation_error(t: Transcription) -> np.ndarray:
             blocks.append(dense.reshape(-1, len(p)))
         return np.concatenate(blocks)
 
-    p = np.clip(z[first:], np.nextafter(lower, np.inf), np.nextafter(upper, -np.inf))
-    if len(p) and len(used) and np.isfinite(residual(p)).all():
+    p = np.clip(z[at:], np.nextafter(lower, np.inf), np.nextafter(upper, -np.inf))
+    if not (len(p) and len(used) and np.isfinite(residual(p)).all()):
+        return p * t.layout.parameter_scale, np.inf
+    p, improved = _gauss_newton(residual, jacobian, p, lower, upper)
+    if not improved:
         p = least_squares(residual, p, jacobian, bounds=(lower, upper), x_scale="jac", max_nfev=30).x
-    return p * t.layout.parameter_scale
+    return p * t.layout.parameter_scale, float(np.sum(residual(p) ** 2))
+
+
+def _gauss_newton(residual, jacobian, p: np.ndarray, lower: np.ndarray, upper: np.ndarray) -> tuple[np.ndarray, bool]:
+    """Full Gauss-Newton steps within the bounds from `p` while they help, and whether the first did.
+
+    Feedback gains enter linearly: one step finds them, where a trust region crawls from bound to
+    bound, and does not end.
+    """
+    squares, improved = np.sum(residual(p) ** 2), False
+    for _ in range(10):
+        triangle = np.linalg.qr(np.column_stack([jacobian(p), -residual(p)]), mode="r")
+        step = lsq_linear(triangle[:, :-1], triangle[:, -1], _around(lower - p, upper - p), method="bvls").x
+        end = np.clip(p + step, np.nextafter(lower, np.inf), np.nextafter(upper, -np.inf))
+        now = np.sum(residual(end) ** 2)
+        if not now < squares:
+            break
+        p, squares, improved, gained = end, now, True, squares - now
+        if gained < 1e-4 * squares:
+            break
+    return p, improved
+
+
+def _around(lower: np.ndarray, upper: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Bounds of a step with some room between them, where both bounds are equal."""
+    room = np.where(upper - lower < 1e-12, 1e-12, 0.0)
+    return lower - room, upper + room
 
 
 def given_start(t: Transcription, given: dict[str, float] | Solution) -> np.ndarray:
