@@ -60,6 +60,7 @@ def problem_identity(problem: Identification) -> dict[str, str]:
         "episodes": digest(problem.episodes),
         "weights": digest(problem.weights),
         "per_recording": digest(tuple(problem.per_recording)),
+        "ridge": digest(problem.ridge),
         "backend": problem.backend,
         "version of symid": version("symid"),
     }

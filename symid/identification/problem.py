@@ -15,10 +15,12 @@ from symid.errors import TranscriptionError
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution, StartRow
+from symid.identification.search import search_start
 from symid.identification.starts import default_start, given_start, random_start
 from symid.identification.study import Solve, Study, start_kinds
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model
+from symid.nlp import NonlinearProgram, with_ridge
 from symid.recording import Recording
 from symid.transcription import Episodes, Midpoint, Scheme, Transcription, measure, transcribe
 
@@ -40,6 +42,9 @@ class Identification:
     weights : output name -> weight of its squared error, 1 by default.
     per_recording : names of parameters that differ between the recordings.
     backend : "auto", "c" or "numpy".
+    ridge : weight, for each episode, of the sum of squared parameters, each divided by its larger
+        bound, added to the objective; for parameters that the data do not determine alone, such
+        as the weights of a neural network.
 
     Raises
     ------
@@ -55,6 +60,7 @@ class Identification:
     weights: dict[str, float] = field(default_factory=dict)
     per_recording: Sequence[str] = ()
     backend: str = "auto"
+    ridge: float = 0.0
 
     def __post_init__(self):
         many = self.recordings if isinstance(self.recordings, Sequence) else (self.recordings,)
@@ -101,7 +107,8 @@ class Identification:
         """A free vector to start from.
 
         kind : "default" (made from the recording), "random" (recorded motion, parameters uniform
-            within their bounds), parameter values by name, a Solution of a similar problem, or a
+            within their bounds), "search" (random, then searched until simulations follow the
+            recording: for several episodes), parameter values by name, a Solution of a similar problem, or a
             free vector as it is.
         """
         if isinstance(kind, np.ndarray):
@@ -110,13 +117,30 @@ class Identification:
             return default_start(self.transcription)
         if kind == "random":
             return random_start(self.transcription, seed, number)
+        if isinstance(kind, str) and kind == "search":
+            return search_start(self, seed, number)
         return given_start(self.transcription, kind)
 
+    def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
+        """What Ipopt solves from the free vector `start`: the collocation, with the ridge."""
+        nlp, layout = self.transcription.nonlinear_program(start), self.transcription.layout
+        if not self.ridge:
+            return nlp
+        return with_ridge(nlp, np.arange(layout.offsets[-1], layout.size), self.ridge * len(layout.intervals))
+
     def solve_from(self, start: np.ndarray, *, on_iteration: Callable[[Iteration], bool | None] | None = None,
-                   warm_start: SolverResult | None = None, **solver) -> SolverResult:
-        """Run Ipopt from one free vector; `solver` goes to `symid.ipopt_solver.solve_nlp`."""
-        nlp = self.transcription.nonlinear_program(start)
-        return solve_nlp(nlp, on_iteration=on_iteration, warm_start=warm_start, **solver)
+                   warm_start: SolverResult | None = None, dual_limit: float = np.inf, **solver) -> SolverResult:
+        """Run Ipopt from one free vector; `solver` goes to `symid.ipopt_solver.solve_nlp`.
+
+        dual_limit : dual infeasibility above which the solve is given up. Where several episodes
+            lead to an unstable loop the multipliers grow without end, and each factorisation takes
+            longer than all before it.
+        """
+        def watch(iteration: Iteration) -> bool | None:
+            told = None if on_iteration is None else on_iteration(iteration)
+            return told is not False and iteration.dual_infeasibility <= dual_limit
+
+        return solve_nlp(self.nonlinear_program(start), on_iteration=watch, warm_start=warm_start, **solver)
 
     def solve(self, starts: int = 1, *, start: str | dict[str, float] | Solution = "default", seed: int = 0,
               executor: Executor | None = None, store: str | Path | None = None,

@@ -6,6 +6,8 @@ Knows no time, no mechanics and no solver; NumPy and SciPy alone.
 from symid.nlp.derivatives import DerivativeReport, check_derivatives
 from symid.nlp.optimality import OptimalityReport, check_optimality
 from symid.nlp.program import NonlinearProgram
+from symid.nlp.ridge import with_ridge
+from symid.nlp.soften import soften
 
 __all__ = [
     "DerivativeReport",
@@ -13,4 +15,6 @@ __all__ = [
     "OptimalityReport",
     "check_derivatives",
     "check_optimality",
+    "soften",
+    "with_ridge",
 ]
