@@ -1,0 +1,62 @@
+"""`symid reproduce`: the identifications, tables and figure of Wang & van den Bogert 2020."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from symid.cli.options import add_executor_arguments, chosen_executor
+from symid.errors import RecordingError, SolveError
+
+SUMMARY = "run the article's twelve identifications and print every number beside the article's"
+BESIDE = "shared/recordings/standing_subject05"
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--only", nargs="+", metavar="NAME", help="cases (PD-3) or controllers (PD, FPD, NN); default: all")
+    parser.add_argument("--recordings", metavar="DIRECTORY",
+                        help=f"with recording_50hz.csv and body.json (default: ../{BESIDE})")
+    parser.add_argument("--starts", type=int, default=10, metavar="K", help="starts of each case (default: 10)")
+    parser.add_argument("--seeds", nargs="+", type=int, default=[0], metavar="S",
+                        help="of the process noise, each reported (default: 0)")
+    parser.add_argument("--quick", action="store_true", help="one start of each case")
+    parser.add_argument("--output", default="reproduction", metavar="DIRECTORY",
+                        help="for the CSV and the figures (default: reproduction)")
+    add_executor_arguments(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    from symid import mechanics
+    from symid.files import write_atomically
+    from symid.identification.study import tell
+    from symid.plots.article import plot_stable_share, plot_starts_spread
+    from symid.recording import read_recording
+    from symid.reproduce import comparison, reproduce, text
+    from symid.reproduce.article import chosen
+
+    if arguments.starts < 1:
+        raise SolveError(f"--starts {arguments.starts} is not possible; give at least 1")
+    cases, folder = chosen(arguments.only), _folder(arguments.recordings)
+    recording = read_recording(folder / "recording_50hz.csv")
+    body = mechanics.DoubleLinkPendulum.from_json(folder / "body.json")
+    with chosen_executor(arguments.jobs, arguments.cluster) as executor:
+        found = reproduce(cases, body, recording, starts=1 if arguments.quick else arguments.starts, seeds=arguments.seeds,
+                          executor=executor, jobs=arguments.jobs, store=arguments.store, on_finished=tell)
+    print(text(found))
+    output = Path(arguments.output)
+    write_atomically(output / "comparison.csv", comparison(found).to_csv(index=False))
+    if found.findings:
+        write_atomically(output / "figure_2.png", plot_stable_share(found.findings).png())
+        write_atomically(output / "starts.png", plot_starts_spread(found.findings).png())
+    print(f"\nWritten: comparison.csv, figure_2.png and starts.png in {output}")
+    return 1 if found.failed or not all(f.best.solved for f in found.findings) else 0
+
+
+def _folder(given: str | None) -> Path:
+    """The folder of the article's recording: as given, or beside this checkout or the working directory."""
+    places = [Path(given)] if given else [Path("..") / BESIDE, Path(__file__).resolve().parents[3] / BESIDE]
+    for place in places:
+        if (place / "recording_50hz.csv").is_file():
+            return place
+    raise RecordingError(f"the article's recording (recording_50hz.csv and body.json) is not in {places[0]}; "
+                         "name its folder with --recordings")

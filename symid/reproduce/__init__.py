@@ -1,0 +1,7 @@
+"""Wang & van den Bogert 2020 again: twelve identifications, two stability tests of each, all numbers beside theirs."""
+
+from symid.reproduce.article import CASES, Case
+from symid.reproduce.run import Reproduction, reproduce
+from symid.reproduce.tables import comparison, notes, text
+
+__all__ = ["CASES", "Case", "Reproduction", "comparison", "notes", "reproduce", "text"]

@@ -1,0 +1,89 @@
+"""The twelve identifications as one study, and the stability of the best of each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from symid import mechanics
+from symid.analysis import Stability, stability_of
+from symid.errors import SolveError
+from symid.identification import Finished, Identification, Solution, Solve, Study
+from symid.model import Model
+from symid.recording import Recording
+from symid.reproduce.article import HELD_OUT, RANGE, TORQUE_NOISE, WINDOW, Case
+from symid.transcription import Episodes
+
+LAWS = {"PD": mechanics.PD, "FPD": mechanics.FullStatePD, "NN": mechanics.NeuralNetwork}
+NETWORK_RIDGE = 4e-4
+"""Weight of the network's squared weights: w/20 have a standard deviation of a few tenths, and Ipopt a Hessian."""
+SOLVER = {"search": {"max_iterations": 200, "dual_limit": 1e4}, "random": {"max_iterations": 500}}
+
+
+@dataclass(frozen=True, eq=False)
+class Finding:
+    """One case with one draw of process noise: all starts, the best solution, its stability."""
+
+    case: Case
+    seed: int
+    starts: pd.DataFrame
+    best: Solution
+    stability: Stability
+
+
+@dataclass(frozen=True, eq=False)
+class Reproduction:
+    """What `reproduce` found, and which cases gave no solution: case name and seed -> why."""
+
+    findings: tuple[Finding, ...]
+    failed: dict[str, str]
+
+
+def problem(case: Case, body: mechanics.DoubleLinkPendulum, recording: Recording, seed: int = 0) -> Identification:
+    """The identification of one case, with noise drawn from `seed`."""
+    model: Model = body.with_feedback(LAWS[case.controller]())
+    episodes = Episodes(case.episodes, torque=TORQUE_NOISE, seed=seed) if case.episodes > 1 else Episodes()
+    return Identification(model, recording, WINDOW[case.controller], episodes=episodes,
+                          ridge=NETWORK_RIDGE if case.controller == "NN" else 0.0)
+
+
+def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recording: Recording, *, starts: int = 10,
+              seeds: Sequence[int] = (0,), executor: Executor | None = None, jobs: int = 1,
+              store: str | Path | None = None, on_finished: Callable[[Finished], None] | None = None) -> Reproduction:
+    """Identify every case from several starts, and test the best solution of each for stability.
+
+    PD and full-state PD without noise begin with random gains, as in the article; all others with
+    `identification.search`, because random ones seldom end at all.
+
+    Parameters
+    ----------
+    starts : of each case; start number k is the same however many there are.
+    seeds : of the process noise; deterministic cases are solved for the first of them only.
+    executor, jobs, store : as for `Study.run`; `jobs` are also the threads of the simulations.
+    """
+    solves = {}
+    for case in cases:
+        for seed in seeds if case.episodes > 1 else seeds[:1]:
+            one = problem(case, body, recording, seed)
+            kind = "random" if case.episodes == 1 and case.controller != "NN" else "search"
+            labels = {"controller": case.controller, "episodes": case.episodes, "noise seed": seed}
+            solves |= {f"{case.name}/{seed}/{k}": Solve(one, kind, k, 0, SOLVER[kind], labels) for k in range(starts)}
+    study = Study(solves, store)
+    result = study.run_here(on_finished) if executor is None else study.run(executor, on_finished=on_finished)
+    table, findings, failed = result.table, [], {}
+    for case in cases:
+        for seed in seeds if case.episodes > 1 else seeds[:1]:
+            labels = {"controller": case.controller, "episodes": case.episodes, "noise seed": seed}
+            try:
+                best = result.best(**labels)
+            except SolveError as none:
+                failed[f"{case.name}/{seed}"] = str(none)
+                continue
+            rows = table[(table[list(labels)] == pd.Series(labels)).all(axis=1)]
+            tested = stability_of(best.model, best.values, recording, window=RANGE, held_out=HELD_OUT, threads=jobs)
+            findings.append(Finding(case, seed, rows, best, tested))
+    return Reproduction(tuple(findings), failed)

@@ -1,0 +1,95 @@
+"""The article's cases, their table, and the command that runs them."""
+
+import json
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from symid.cli import main
+from symid.errors import SymidError
+from symid.reproduce import CASES, Reproduction, comparison, notes
+from symid.reproduce.article import chosen
+from symid.reproduce.run import Finding, problem
+
+
+def test_there_are_the_twelve_cases_of_the_article():
+    assert list(CASES) == ["PD-1", "PD-2", "PD-3", "PD-4", "FPD-1", "FPD-2", "FPD-3", "FPD-4", "NN-1", "NN-6", "NN-8", "NN-10"]
+    assert all(len(c.rms_deg) == 10 and list(c.rms_deg) == sorted(c.rms_deg) for c in CASES.values())
+
+
+def test_facts_are_those_of_the_reference(shared):
+    reference = json.loads((shared / "reference" / "paper_results.json").read_text())["results"]
+    for row in reference:
+        case = CASES[f"{row['controller']}-{row['episodes']}"]
+        assert case.rms_deg == tuple(row["rms_deg_sorted"])
+        assert (case.eigenvalue_percent, case.forward_percent) == (row["eigenvalue_stable_percent"], row["forward_stable_percent"])
+        assert {k: v[0] for k, v in case.gains.items()} == row.get("gains_mean", {})
+
+
+def test_cases_are_chosen_by_name_or_controller():
+    assert [c.name for c in chosen(["nn", "PD-3", "NN-6"])] == ["NN-1", "NN-6", "NN-8", "NN-10", "PD-3"]
+    assert len(chosen(None)) == 12
+    with pytest.raises(SymidError, match="no case 'PD-7'.*PD-"):
+        chosen(["PD-7"])
+
+
+def test_gains_of_the_article_are_parameters_of_the_models(shared):
+    body, recording = _material(shared)
+    for case in CASES.values():
+        one = problem(case, body, recording, seed=3)
+        assert set(case.gains) <= set(one.model.parameters)
+        assert one.episodes.count == case.episodes and (case.episodes == 1 or one.episodes.seed == 3)
+
+
+def _material(shared):
+    from symid import mechanics
+    from symid.recording import read_recording
+    folder = shared / "recordings" / "standing_subject05"
+    return mechanics.DoubleLinkPendulum.from_json(folder / "body.json"), read_recording(folder / "recording_50hz.csv")
+
+
+class _Best:
+    """As much of a Solution as a table reads."""
+
+    def __init__(self, model, values):
+        self.model, self.values, self.solved, self.fit = model, values, True, {"rms_deg": {"all": 1.1}}
+
+
+class _Stability:
+    eigenvalue_percent, forward_percent = 70.0, 50.0
+
+
+def test_every_number_stands_beside_the_articles(shared):
+    case = CASES["PD-3"]
+    model = problem(case, *_material(shared)).model
+    best = _Best(model, {k: mean + 2 * spread for k, (mean, spread) in case.gains.items()})
+    starts = pd.DataFrame({"solved": [True, False, True], "rms_deg": [1.1, np.nan, 1.2]})
+    table = comparison(Reproduction((Finding(case, 4, starts, best, _Stability()),), {}))
+    assert np.allclose(table["deviation"].dropna(), (table["here"] - table["article"]).dropna())
+    gains = table[table["quantity"].isin(case.gains)]
+    assert np.allclose(gains["deviation"] / gains["spread"], 2) and set(gains["where"]) == {"table 1"}
+    here = table.set_index("quantity")["here"]
+    assert here["solved starts"] == pytest.approx(200 / 3) and here["median rms of the solved starts"] == pytest.approx(1.15)
+    assert set(table["noise_seed"]) == {4} and "table 3" in set(table["where"])
+
+
+def test_what_was_chosen_is_said():
+    for word in ("uniform", "Gaussian", "activation", "initial state", "3.1416", "ridge"):
+        assert word in notes()
+
+
+def test_a_missing_recording_is_one_sentence(capsys, tmp_path):
+    assert main(["reproduce", "--recordings", str(tmp_path)]) == 2
+    assert "--recordings" in capsys.readouterr().err
+    assert main(["reproduce", "--starts", "0"]) == 2
+    assert not list(tmp_path.iterdir())
+
+
+def test_one_case_from_the_command_line(capsys, tmp_path, shared):
+    folder = shared / "recordings" / "standing_subject05"
+    assert main(["reproduce", "--only", "NN-1", "--quick", "--recordings", str(folder), "--output", str(tmp_path)]) == 0
+    table = pd.read_csv(tmp_path / "comparison.csv").set_index("quantity")
+    assert table.loc["rms of the best start", "here"] <= 0.384
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["comparison.csv", "figure_2.png", "starts.png"]
+    assert "Figure 2" in capsys.readouterr().out
