@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -12,6 +10,7 @@ from symid.discrepancy.fit import Fit
 from symid.discrepancy.freerun import FreeRun
 from symid.discrepancy.remainder import Test
 from symid.discrepancy.search import Candidate
+from symid.files import write_atomically
 from symid.model import Model
 
 FORMAT = 1
@@ -36,7 +35,7 @@ class Effect:
     sentence: str = ""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Diagnosis:
     """What `diagnose` found.
 
@@ -94,7 +93,7 @@ class Diagnosis:
 
     def to_json(self, path: str | Path) -> Path:
         """Write the answer; the file appears when it is whole."""
-        return _whole(Path(path), json.dumps(self.answer(), indent=1))
+        return write_atomically(path, json.dumps(self.answer(), indent=1))
 
     def held_out_csv(self, path: str | Path) -> Path:
         """Write the improved model's prediction of the held-out window, columns as in the recording."""
@@ -102,20 +101,16 @@ class Diagnosis:
         names = [f"{y.channel}_rad" if y.unit == "rad" else y.channel for y in self.improved.outputs.values()]
         rows = [["time_s", *names], *([f"{t:.6f}", *(f"{v:.9g}" for v in y)] for t, y in zip(run.time, run.simulated, strict=True))]
         text = "".join(",".join(r) + "\n" for r in rows)
-        return _whole(Path(path), text)
+        return write_atomically(path, text)
 
     def __str__(self) -> str:
         return self.words
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{e.name} at {e.location}" for e in self.effects)
+        return f"<Diagnosis: {self.verdict}{': ' * bool(found)}{found}>"
 
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><td>{e.name}</td><td>{e.location}</td><td>" + ", ".join(
             f"{k} = {v:.4g} &plusmn; {s:.2g}" for k, (v, s) in e.parameters.items()) + "</td></tr>" for e in self.effects)
         return f"<h4>{self.verdict}</h4><p>{self.words}</p><table>{rows}</table>"
-
-
-def _whole(path: Path, text: str) -> Path:
-    handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-    with os.fdopen(handle, "w") as file:
-        file.write(text)
-    os.replace(part, path)
-    return path

@@ -52,14 +52,31 @@ def latent_torques(fit: Fit, run: FreeRun) -> tuple[Latent, ...]:
     A, G, C = linear.without_delay()
     residual = run.recorded - run.simulated
     size = _moving(A, G, C, residual)
-    lengths = [len(s) for s in fit.surprise]
-    starts = np.cumsum([0, *lengths[:-1]]) if sum(lengths) == len(run.time) else np.zeros(1, dtype=int)
-    noise = _sensor_noise(run.recorded)
-    _, torque, error = max((_smoothed(A, G * size, C, residual, step, noise, pace, starts) for pace in PACES),
-                           key=lambda found: found[0])
+    ends = np.cumsum([len(s) for s in fit.surprise])
+    pieces = list(zip([0, *ends[:-1]], ends, strict=True)) if ends[-1] == len(run.time) else [(0, len(run.time))]
+    torque, variance = _most_likely(A, G * size, C, residual, step, _sensor_noise(run.recorded), pieces)
+    error = np.sqrt(variance)
     size = size * [_sign(model, w) for w in model.noises.values()]
     return tuple(Latent(w.at or name, w.unit, run.time, torque[:, i] * size[i], error[:, i] * abs(size[i]))
                  for i, (name, w) in enumerate(model.noises.items()))
+
+
+def _most_likely(A, G, C, residual, step, noise, pieces):
+    """Torques (N, w) and their variances, with the pace of the walk that makes the error most likely."""
+    n, w = G.shape
+    H, R = np.hstack([C, np.zeros((len(C), w))]), np.diag(noise**2)
+    spread = 10 * max(np.sqrt(np.mean(residual**2)), noise.max())
+    start = np.diag([spread] * n + [1.0] * w) ** 2
+    longest = max(end - begin for begin, end in pieces)
+    best = None
+    for pace in PACES:
+        F, Q = _walk(A, G, step, pace)
+        steps = _covariances(F, Q, H, R, start, longest)
+        value, before, after = _filtered(F, H, residual, pieces, steps)
+        if best is None or value > best[0]:
+            best = value, F, before, after, steps
+    x, variance = _smoothed(*best[1:4], pieces, best[4])
+    return x[:, n:], variance[:, n:]
 
 
 def _sign(model: Model, noise: Noise) -> float:
@@ -97,35 +114,57 @@ def _moving(A, G, C, residual) -> np.ndarray:
     return 1.0 / np.maximum(moved.max(0), 1e-12)
 
 
-def _smoothed(A, G, C, residual, step, noise, pace, starts):
-    """Log-likelihood, torque (N, w) and standard error (N, w)."""
-    n, w, N = len(A), G.shape[1], len(residual)
+def _walk(A, G, step: float, pace: float) -> tuple[np.ndarray, np.ndarray]:
+    """Transition and process covariance of state and torque over one sample, the torque a random walk."""
+    n, w = G.shape
     block = np.zeros((n + w, n + w))
     block[:n, :n], block[:n, n:] = A * step, G * step
-    F = expm(block)
-    Q = np.zeros_like(F)
+    Q = np.zeros_like(block)
     Q[n:, n:] = np.eye(w) * pace**2 * step
-    H, R = np.hstack([C, np.zeros((len(C), w))]), np.diag(noise**2)
-    spread = np.maximum(np.sqrt(np.mean(residual**2)), noise.max())
-    P0 = np.diag([*(10 * spread for _ in range(n)), *(1.0 for _ in range(w))]) ** 2
-    x, P, value = np.zeros(n + w), P0, 0.0
-    before_x, before_P, after_x, after_P = (np.empty((N, *s)) for s in ((n + w,), (n + w, n + w)) * 2)
-    begins = set(starts.tolist())
-    for k in range(N):
-        x, P = (np.zeros(n + w), P0) if k in begins else (F @ x, F @ P @ F.T + Q)
-        before_x[k], before_P[k] = x, P
+    return expm(block), Q
+
+
+def _covariances(F, Q, H, R, P, longest: int):
+    """Before and after each sample, with gain and covariance of the surprise, until they repeat."""
+    found, eye = [], np.eye(len(F))
+    for k in range(longest):
+        P = F @ P @ F.T + Q if k else P
         S = H @ P @ H.T + R
         K = np.linalg.solve(S, H @ P).T
-        e = residual[k] - H @ x
-        value -= 0.5 * (e @ np.linalg.solve(S, e) + np.linalg.slogdet(S)[1])
-        rest = np.eye(n + w) - K @ H
-        x, P = x + K @ e, rest @ P @ rest.T + K @ R @ K.T   # Joseph's form stays positive
-        after_x[k], after_P[k] = x, P
-    for k in range(N - 2, -1, -1):
-        if k + 1 in begins:
-            continue
-        back = np.linalg.solve(before_P[k + 1], F @ after_P[k]).T
-        after_x[k] += back @ (after_x[k + 1] - before_x[k + 1])
-        after_P[k] += back @ (after_P[k + 1] - before_P[k + 1]) @ back.T
-    variance = np.diagonal(after_P, axis1=1, axis2=2)[:, n:]
-    return value, after_x[:, n:], np.sqrt(np.maximum(variance, 0.0))
+        after = (eye - K @ H) @ P @ (eye - K @ H).T + K @ R @ K.T   # Joseph's form stays positive
+        found.append((P, after, K, S))
+        if k and np.allclose(P, found[-2][0], rtol=1e-7, atol=0):
+            break
+        P = after
+    return found
+
+
+def _filtered(F, H, residual, pieces, steps):
+    """Log-likelihood, and states before and after each sample."""
+    before, after, value = np.zeros((len(residual), len(F))), np.zeros((len(residual), len(F))), 0.0
+    inverse = [(np.linalg.inv(S), np.linalg.slogdet(S)[1]) for *_, S in steps]
+    for begin, end in pieces:
+        x = np.zeros(len(F))
+        for k in range(begin, end):
+            i = min(k - begin, len(steps) - 1)
+            x = F @ x if k > begin else x
+            e = residual[k] - H @ x
+            value -= 0.5 * (e @ inverse[i][0] @ e + inverse[i][1])
+            before[k] = x
+            after[k] = x = x + steps[i][2] @ e
+    return value, before, after
+
+
+def _smoothed(F, before, after, pieces, steps):
+    """States and their variances given all samples of the piece (Rauch, Tung & Striebel 1965)."""
+    x, variance = after.copy(), np.empty_like(after)
+    back = [np.linalg.solve(steps[min(i + 1, len(steps) - 1)][0], F @ s[1]).T for i, s in enumerate(steps)]
+    for begin, end in pieces:
+        P = steps[min(end - 1 - begin, len(steps) - 1)][1]
+        variance[end - 1] = np.diag(P)
+        for k in range(end - 2, begin - 1, -1):
+            i = min(k - begin, len(steps) - 1)
+            x[k] += back[i] @ (x[k + 1] - before[k + 1])
+            P = steps[i][1] + back[i] @ (P - steps[min(i + 1, len(steps) - 1)][0]) @ back[i].T
+            variance[k] = np.diag(P)
+    return x, np.maximum(variance, 0.0)

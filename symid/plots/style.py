@@ -6,6 +6,7 @@ import io
 
 import numpy as np
 from matplotlib.figure import Figure
+from PIL import Image
 
 from symid.units import known_unit
 
@@ -22,7 +23,10 @@ class Picture(Figure):
         return buffer.getvalue()
 
     def _repr_png_(self) -> bytes:
-        return self.png(dpi=78)
+        """Small, since notebooks are kept with their pictures: few colours are enough for lines."""
+        buffer = io.BytesIO()
+        Image.open(io.BytesIO(self.png(dpi=78))).convert("RGB").quantize(48).save(buffer, format="png", optimize=True)
+        return buffer.getvalue()
 
 
 def shown_unit(unit: str) -> tuple[str, float]:

@@ -1,0 +1,144 @@
+"""`symid diagnose`: words on stdout, progress on stderr, files whole or not at all, one sentence for bad input."""
+
+import json
+import re
+import subprocess
+import sys
+from importlib import import_module
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from symid import plots
+from symid.cli import main
+from symid.conceal import draw_case, write_case
+from symid.discrepancy import diagnose_case, established_suspects, read_case
+from symid.discrepancy.latent import latent_torques
+from symid.mechanics import LIBRARY
+from symid.report import diagnosis_html, write_diagnosis_report
+from symid.report.diagnosis import experiment
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory) -> Path:
+    """A rig whose first sensor is off, as a case directory below and its sealed answer beside."""
+    folder = tmp_path_factory.mktemp("concealed")
+    write_case(draw_case("rig", [("sensor_offset", "sensor:link1", {"offset_rad": 0.004})], (3, 0)), folder, "r01")
+    return folder
+
+
+def few(case):
+    """Suspects enough to be right and to be wrong."""
+    return [s for s in established_suspects(case.model) if s.term.name in ("sensor_offset", "gravity_tilt", "torsional_spring")]
+
+
+@pytest.fixture(scope="module")
+def finding(folder):
+    case = read_case(folder / "cases" / "r01")
+    return diagnose_case(case, suspects=few(case), threads=1)
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """The commands with few suspects: what they do with a finding is the same."""
+    monkeypatch.setattr(import_module("symid.discrepancy.diagnose"), "established_suspects",
+                        lambda model: [s for s in established_suspects(model) if s.term.name == "sensor_offset"])
+
+
+def test_a_case_directory_ends_in_words_json_report_and_prediction(folder, tmp_path, capsys, quick):
+    arguments = ["--json", "r01.json", "--report", "r01.html", "--held-out-csv", "r01_heldout.csv"]
+    arguments = [a if a.startswith("--") else str(tmp_path / a) for a in arguments]
+    assert main(["diagnose", str(folder / "cases" / "r01"), "--threads", "1", *arguments]) == 0
+    out, err = capsys.readouterr()
+    assert "link1" in out and "held-out" in out
+    assert "fitted" in err and "fitted" not in out
+    answer = json.loads((tmp_path / "r01.json").read_text())
+    assert answer["verdict"] == "missing_physics"
+    (effect,) = answer["effects"]
+    assert (effect["name"], effect["location"]) == ("sensor_offset", "sensor:link1")
+    offset = effect["parameters"]["offset_rad"]
+    assert abs(offset["value"] - 0.004) < 4 * offset["std_error"]
+    assert answer["words"] == out.strip()
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["r01.html", "r01.json", "r01_heldout.csv"]
+
+
+def test_the_scorer_takes_the_answer_and_the_prediction(folder, finding, tmp_path, shared):
+    scorer = shared / "concealed" / "score.py"
+    if not scorer.is_file():
+        pytest.skip(f"no scorer at {scorer}")
+    finding.to_json(tmp_path / "r01.json")
+    finding.held_out_csv(tmp_path / "r01_heldout.csv")
+    subprocess.run([sys.executable, str(scorer), "--truth", str(folder / "sealed"), "--cases", str(folder / "cases"),
+                    "--answers", str(tmp_path), "--json", str(tmp_path / "score.json")], check=True, capture_output=True)
+    row = json.loads((tmp_path / "score.json").read_text())["cases"][0]
+    assert row["top1"] == 1 and row["location_ok"] == 1 and row["heldout_source"] == "computed" and row["gap_closed"] > 0.95
+
+
+def test_the_report_says_it_all_without_a_file_beside_it(finding, tmp_path):
+    path = write_diagnosis_report(finding, tmp_path / "report.html", "My rig", {"recording": "rig.csv"})
+    html = path.read_text()
+    assert html.index(finding.words.split(" ")[0]) < html.index("<table")
+    for part in ("My rig", "missing physics", "sensor offset", "held-out window", "torsional spring", "rig.csv", "What is left"):
+        assert part in html
+    assert html.count("data:image/png;base64,") == 4
+    assert not re.search(r'(src|href)="(?!data:)', html)
+    assert diagnosis_html(finding, "My rig", {"recording": "rig.csv"}) == html
+
+
+def test_figures_show_the_numbers_of_the_finding(finding):
+    scores = plots.plot_scores(finding)
+    widths = [bar.get_width() for bar in scores.axes[0].patches]
+    assert widths == [max(c.score, 0) for c in finding.ranking]
+    panels = plots.plot_before_after(finding).axes
+    recorded, before, after = panels[0].lines
+    run = finding.runs["augmented_train"]
+    start = int(np.argmin(np.abs(run.time - after.get_xdata()[0])))
+    np.testing.assert_allclose(after.get_ydata(), np.degrees(run.simulated[start:start + len(after.get_ydata()), 0]))
+    assert [line.get_label() for line in (recorded, before, after)] == ["recorded", "model as given", "improved"]
+    assert panels[0].get_ylabel().endswith("[deg]")
+    assert len(plots.plot_spectra(finding).axes[0].lines) == 2
+
+
+def test_a_hidden_torque_is_located_in_time_place_size_and_sign():
+    """A push at the ankle: there, then, as large, and not at the hip."""
+    case = draw_case("standing", [("external_push", "ankle", {"peak_Nm": 40.0, "start_s": 20.0, "duration_s": 0.6})], (8, 0))
+    from symid.discrepancy.baseline import fit_baseline
+    from symid.discrepancy.data import Data, episodes_between
+    from symid.discrepancy.freerun import free_run
+    s = case.setup
+    episodes = episodes_between(s.model, case.recording.time, dict(case.recording.channels), s.windows[0])
+    data = Data(episodes, np.full(2, s.sensor_noise), True)
+    fit = fit_baseline(s.model, data, dict(s.parameters))
+    ankle, hip = latent_torques(fit, free_run(fit, data))
+    assert (ankle.place, ankle.unit, hip.place) == ("ankle", "N*m", "hip")
+    peak = int(np.argmax(np.abs(ankle.torque)))
+    assert abs(ankle.time[peak] - 20.3) < 0.15
+    assert 25 < ankle.torque[peak] < 55
+    during = (ankle.time > 20) & (ankle.time < 20.6)
+    assert ankle.torque[during].mean() == pytest.approx(20, rel=0.25)   # the mean of sin^2 is a half
+    assert abs(hip.torque[during].mean()) < 0.25 * ankle.torque[during].mean()
+
+
+def test_every_law_has_an_experiment_that_would_split_it_from_its_likes():
+    told = {name: experiment(name) for name in LIBRARY}
+    assert all(len(text) > 20 for text in told.values())
+    assert told["feedback_delay"] != told["coulomb_friction"]
+
+
+@pytest.mark.parametrize(("arguments", "message"), [
+    (["nowhere"], "nowhere is no case directory, so --body, --controller, --window must be given"),
+    (["nowhere.csv", "--body", "none.json", "--controller", "pd", "--window", "0", "5"], "none.json"),
+    (["{case}", "--window", "0", "5"], "case.json says what --window would"),
+    (["{case}", "--threads", "0"], "--threads 0 is not possible"),
+    (["{case}", "--json", "no/such/folder/a.json"], "the folder no/such/folder does not exist"),
+    (["nowhere.csv", "--held-out-csv", "a.csv"], "--held-out-csv needs a held-out window"),
+    (["{empty}"], "is no case: it has no case.json"),
+    (["nowhere.csv", "--body", "b", "--controller", "pd", "--window", "0", "5", "--sensor-noise", "-1"], "--sensor-noise -1 is not possible"),
+])
+def test_bad_input_ends_in_one_sentence(folder, tmp_path, capsys, arguments, message):
+    places = {"case": folder / "cases" / "r01", "empty": tmp_path}
+    assert main(["diagnose", *(a.format(**places) for a in arguments)]) == 2
+    out, err = capsys.readouterr()
+    assert out == "" and err.startswith("symid: error: ") and message in err and err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
