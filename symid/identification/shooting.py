@@ -7,8 +7,10 @@ recording somewhat: from a worse one, or an unstable one, it could end in anothe
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
-from scipy.optimize import least_squares
+from scipy.optimize import OptimizeResult, least_squares
 
 from symid.identification.bounds import parameter_bounds
 from symid.simulation import Trajectory, simulator
@@ -17,21 +19,21 @@ from symid.transcription import Measured, Transcription
 MAX_EVALUATIONS = 15
 
 
-def shoot(t: Transcription, parameters: np.ndarray) -> tuple[np.ndarray, list[np.ndarray]] | None:
+def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarray, list[np.ndarray]] | None:
     """Parameters and states of every episode that fit the recordings' outputs, or None.
 
-    `parameters` (free parameters,) SI, where the search begins. Process noise enters only the
-    final simulation of each episode. None where parameters belong to single recordings, where the
-    first simulation errs by more than the recorded outputs vary, or where an episode cannot be
-    simulated.
+    The search begins from each of the `candidates` (free parameters,) SI, and the best end is kept.
+    Process noise enters only the final simulation of each episode. None where parameters belong to
+    single recordings, where from every candidate the first simulation errs by more than the
+    recorded outputs vary, or where an episode cannot be simulated.
     """
     if len(t.layout.parameter_names) != len(t.model.parameters):
         return None
     shooting = _Shooting(t)
-    z = shooting.unknowns(parameters)
-    if not shooting.follows(z):
+    ends = [shooting.fit(z) for z in map(shooting.unknowns, candidates) if shooting.follows(z)]
+    if not ends:
         return None
-    found = shooting.fit(z)
+    found = min(ends, key=lambda end: end.cost).x
     runs = [shooting.run(found, r, noise=noise) for r, noise in zip(t.recording_of, _noise(t), strict=True)]
     if any(run.diverged for run in runs):
         return None
@@ -91,9 +93,9 @@ class _Shooting:
         spread = [np.var(m.targets[m.nodes] * self.weights, axis=0) for m in self.t.measured]
         return bool(np.mean(self.residual(z) ** 2) < np.mean(spread))
 
-    def fit(self, z: np.ndarray) -> np.ndarray:
+    def fit(self, z: np.ndarray) -> OptimizeResult:
         return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
-                             max_nfev=MAX_EVALUATIONS, ftol=1e-6).x
+                             max_nfev=MAX_EVALUATIONS, ftol=1e-6)
 
 
 def _noise(t: Transcription) -> list[dict[str, np.ndarray]]:

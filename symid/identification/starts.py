@@ -41,22 +41,23 @@ def default_start(t: Transcription) -> np.ndarray:
     Where the loop that the regression finds cannot be simulated, the recorded motion with the
     regressed parameters is the start.
     """
-    parameters = _equation_error_of_lags(t)
-    shot = shoot(t, parameters)
-    return t.start(parameters) if shot is None else t.start(*shot)
+    candidates = _equation_error_of_lags(t)
+    shot = shoot(t, candidates)
+    return t.start(candidates[0]) if shot is None else t.start(*shot)
 
 
-def _equation_error_of_lags(t: Transcription) -> np.ndarray:
-    """`equation_error`, with unknown lags all at the one value with which it is least.
+def _equation_error_of_lags(t: Transcription) -> list[np.ndarray]:
+    """`equation_error`, with unknown lags all at the one value with which it is least, or at their least.
 
-    The output error of a simulation has many local optima over a lag, and none where the loop is
-    unstable; the equation error has one, and costs little.
+    The output error of a simulation has local optima over a lag, and none where the loop is
+    unstable; the equation error has one, and costs little. But noise in the loop can feign a lag
+    there, so that the smallest lags are a candidate, too.
     """
     first, (lower, upper) = guesses(t), parameter_bounds(t)
     late = {str(d.lag) for d in t.model.delays.values()}
     lags = [i for i, name in enumerate(t.layout.parameter_names) if name.split("[")[0] in late]
     if not lags:
-        return equation_error(t, first)[0]
+        return [equation_error(t, first)[0]]
 
     def regress(lag):
         first[lags] = np.clip(lag, lower[lags], upper[lags])
@@ -67,7 +68,7 @@ def _equation_error_of_lags(t: Transcription) -> np.ndarray:
     best = int(np.argmin([regress(lag)[1] for lag in grid]))
     near = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
     found = minimize_scalar(lambda lag: regress(lag)[1], bounds=near, method="bounded", options={"xatol": 0.002, "maxiter": 12})
-    return regress(found.x)[0]
+    return [regress(lag)[0] for lag in (found.x, lo)]
 
 
 def equation_error(t: Transcription, first: np.ndarray) -> tuple[np.ndarray, float]:
