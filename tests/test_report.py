@@ -11,6 +11,8 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid import plots
+from symid.plots import solution as solution_figures
+from symid.plots import style
 from symid.report import page, report_html, write_report
 
 
@@ -52,8 +54,8 @@ def lines_of(axes, colour):
 
 def test_fit_shows_the_recording_the_model_and_their_difference(solution):
     above, below = solution.plot().axes
-    (recorded,), (model,) = lines_of(above, plots.RECORDED), lines_of(above, plots.MODEL)
-    (residual,) = lines_of(below, plots.WARN)
+    (recorded,), (model,) = lines_of(above, style.RECORDED), lines_of(above, style.MODEL)
+    (residual,) = lines_of(below, style.WARN)
     frame = solution.trajectories[0]
     np.testing.assert_allclose(recorded.get_ydata(), np.rad2deg(frame["measured recorded"]))
     np.testing.assert_allclose(residual.get_ydata(), recorded.get_ydata() - model.get_ydata())
@@ -78,13 +80,13 @@ def test_a_parameter_at_a_bound_is_marked_everywhere(at_bound):
 
 
 def test_an_interval_far_larger_than_the_values_does_not_hide_them():
-    low, high = plots._limits(np.array([1.0, 2.0]), np.array([1e6, 0.1]), [])
+    low, high = solution_figures._limits(np.array([1.0, 2.0]), np.array([1e6, 0.1]), [])
     assert -2 < low < 1 and 2 < high < 5
 
 
 @pytest.mark.parametrize("value", [np.array([0.0]), np.array([-1e-9]), np.array([3e7]), np.array([5.0, 5.0])])
 def test_every_value_lies_on_its_axis(value):
-    low, high = plots._limits(value, np.full(value.shape, np.nan), [])
+    low, high = solution_figures._limits(value, np.full(value.shape, np.nan), [])
     assert low < value.min() and value.max() < high
 
 
