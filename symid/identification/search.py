@@ -33,7 +33,7 @@ CHILDREN, PARENTS, SHOTS = 150, 10, 3
 ENOUGH = 0.7        # of the recorded variance: as many loops as are shot err by less, and breeding ends
 FLOOR = 0.005       # least mutation, relative to the bounds
 NEAR = 0.05         # the regression begins within this part of the bounds
-FEW, MANY = 25, 80  # evaluations of the first and of the last shooting
+FEW, MANY = 25, 250  # evaluations of the first and of the last shooting
 
 
 def search_start(problem: Identification, seed: int, number: int) -> np.ndarray:
@@ -180,4 +180,4 @@ class _Loop:
 
     def shoot(self, z: np.ndarray, evaluations: int) -> np.ndarray:
         return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
-                             max_nfev=evaluations, ftol=1e-4).x
+                             max_nfev=evaluations, ftol=1e-5).x
