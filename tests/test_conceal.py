@@ -8,10 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from conftest import pendulum
 
 import symid.model as si
 from symid.cli import main
-from symid.conceal import Setup, Unsuitable, conceal, draw_case, rig_facts, setup_from_facts, standing_facts, write_case
+from symid.conceal import (
+    Setup, Unsuitable, conceal, draw_case, rig_facts, setup_from_facts, standing_facts, with_equivalents, write_case,
+)
 from symid.conceal.fit import fit_free, simulate_free
 from symid.conceal.magnitudes import OTHER, RANGES, draw_terms, draw_values, parse_effect
 from symid.conceal.shipped import SHIPPED, shipped_case
@@ -20,7 +23,6 @@ from symid.discrepancy import read_case
 from symid.discrepancy.data import episodes_between
 from symid.errors import SymidError
 from symid.mechanics import CANONICAL, LIBRARY
-from tests.conftest import pendulum
 
 SHORT_RIG = ("rig", [("sensor_offset", "sensor:link1", {"offset_rad": 0.004})], (3, 0))
 
@@ -267,3 +269,15 @@ def test_sealed_answers_suit_the_scorer(tmp_path, shared, offset, standing):
     done = subprocess.run([sys.executable, str(scorer), "--self-test", "--truth", str(tmp_path / "sealed")],
                           capture_output=True, text=True)
     assert "self-test passed: 3 cases" in done.stdout, done.stderr
+
+
+def test_what_the_noise_hides_is_equivalent_and_what_it_does_not_is_not():
+    """The same recording under the same noise, and under noise a thousand times as large."""
+    case = draw_case("rig", [("sensor_offset", "sensor:link1", {"offset_rad": 0.002})], (3, 0))
+    told = with_equivalents(case)
+    assert told.equivalent == told.near == ((),)
+    louder = {k: c + 1000 * (v - c) for (k, v), c in zip(case.recording.channels.items(), case.clean.T, strict=True)}
+    hidden = with_equivalents(replace(case, recording=replace(case.recording, channels=louder)))
+    assert {t.name for t in hidden.equivalent[0]} >= {"sensor_offset", "gravity_tilt", "torsional_spring"}
+    (effect,) = sealed_document(hidden, "r01")["effects"]
+    assert {"name": "gravity_tilt", "location": "global"} in effect["equivalent"]

@@ -17,12 +17,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--effect", action="append", default=[], metavar="NAME@PLACE[:KEY=VALUE,...]",
                         help="what to conceal, twice for two; sizes that are not given are drawn")
     parser.add_argument("--random", action="store_true", help="conceal one random effect, two, none, or an unlisted one")
+    parser.add_argument("--equivalents", action="store_true",
+                        help="also establish which other answers the recording cannot tell from the truth (up to a minute each)")
     parser.add_argument("--seed", type=int, default=0, help="the same seed gives the same files (default: 0)")
     parser.add_argument("--count", type=int, default=1, metavar="N", help="how many cases (default: 1)")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from symid.conceal import draw_case, write_case
+    from symid.conceal import draw_case, with_equivalents, write_case
     from symid.conceal.magnitudes import parse_effect
     from symid.conceal.setup import SYSTEMS
     from symid.conceal.write import next_name
@@ -37,6 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     system = arguments.system if arguments.system in SYSTEMS else _imitated(arguments.system)
     for number in range(arguments.count):
         case = draw_case(system, effects, (arguments.seed, number))
+        case = with_equivalents(case) if arguments.equivalents else case
         name = next_name(arguments.folder, case.setup.system)
         directory = write_case(case, arguments.folder, name)
         print(f"{directory}: {len(case.recording)} samples", flush=True)

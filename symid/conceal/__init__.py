@@ -2,8 +2,9 @@
 
 from symid.conceal.conceal import Concealed, Unsuitable, conceal
 from symid.conceal.draw import draw_case
+from symid.conceal.equivalents import with_equivalents
 from symid.conceal.setup import Setup, rig_facts, setup_from_facts, standing_facts
 from symid.conceal.write import write_case
 
 __all__ = ["Concealed", "Setup", "Unsuitable", "conceal", "draw_case", "rig_facts", "setup_from_facts", "standing_facts",
-           "write_case"]
+           "with_equivalents", "write_case"]

@@ -52,6 +52,12 @@ class Concealed:
     equivalent: tuple[tuple[Term, ...], ...] = ()
     near: tuple[tuple[Term, ...], ...] = ()
 
+    @property
+    def quiet(self) -> Recording:
+        """The recording without noise."""
+        channels = [y.channel for y in self.setup.model.outputs.values()]
+        return replace(self.recording, channels=dict(self.recording.channels) | dict(zip(channels, self.clean.T, strict=True)))
+
 
 def conceal(setup: Setup, terms: Mapping[Term, Mapping[str, float]], *, seed: int, visibility: float = 1.0,
             listed: Collection[str] = CANONICAL) -> Concealed:
@@ -74,14 +80,14 @@ def conceal(setup: Setup, terms: Mapping[Term, Mapping[str, float]], *, seed: in
     values = dict(setup.parameters) | {t.parameter_name(k): v for t, given in terms.items() for k, v in given.items()}
     record = _Recorder(setup, truth, values, seed)
     quiet = record({}, 0.0)
-    clean = _outputs(truth, quiet)
+    clean = outputs_of(truth, quiet)
     _refuse_excursion(setup, truth, clean)
     missed = _missed(setup, setup.model, setup.parameters, quiet) if terms else 0.0
     noise, sway = _process_noise(setup, record, clean, missed, visibility)
     recording = record(noise, setup.sensor_noise)
-    _refuse_excursion(setup, truth, _outputs(truth, recording))
+    _refuse_excursion(setup, truth, outputs_of(truth, recording))
     kind = "none" if not terms else "two" if len(terms) > 1 else "single" if next(iter(terms)).name in listed else "unlisted"
-    all_noise = _rms(_outputs(truth, recording) - clean)
+    all_noise = _rms(outputs_of(truth, recording) - clean)
     return Concealed(setup, dict(terms), recording, clean, kind, missed / all_noise if missed else 0.0, sway, noise,
                      _reference(setup, recording, quiet, clean))
 
@@ -104,7 +110,7 @@ class _Recorder:
         return long.window(0.0, s.fit + s.held_out)
 
 
-def _outputs(model: Model, recording: Recording) -> np.ndarray:
+def outputs_of(model: Model, recording: Recording) -> np.ndarray:
     return np.column_stack([recording[y.channel] for y in model.outputs.values()])
 
 
@@ -121,11 +127,11 @@ def _refuse_excursion(setup: Setup, model: Model, outputs: np.ndarray) -> None:
 
 
 # ---- what the model without the effects makes of it ---------------------------------------------
-def _episodes(setup: Setup, model: Model, recording: Recording, window) -> tuple[Episode, ...]:
+def episodes_of(setup: Setup, model: Model, recording: Recording, window) -> tuple[Episode, ...]:
     return episodes_between(model, recording.time, dict(recording.channels), window, setup.segment)
 
 
-def _states(model: Model, episodes: Sequence[Episode]) -> np.ndarray:
+def first_states(model: Model, episodes: Sequence[Episode]) -> np.ndarray:
     """(E, n) initial states to begin from: what outputs show, and their slopes for rates."""
     shown = {str(y.expr): i for i, y in enumerate(model.outputs.values())}
     rates, out = model.rates(), np.zeros((len(episodes), len(model.states)))
@@ -143,9 +149,9 @@ def _states(model: Model, episodes: Sequence[Episode]) -> np.ndarray:
 
 def _missed(setup: Setup, model: Model, values: Mapping[str, float], quiet: Recording) -> float:
     """Rms of what `model`, fitted to the noise-free recording, cannot absorb."""
-    episodes = _episodes(setup, model, quiet, setup.windows[0])
+    episodes = episodes_of(setup, model, quiet, setup.windows[0])
     try:
-        return fit_free(model, episodes, values, _states(model, episodes)).rms(episodes, setup.settling)
+        return fit_free(model, episodes, values, first_states(model, episodes)).rms(episodes, setup.settling)
     except SymidError as error:
         raise Unsuitable(str(error)) from None
 
@@ -154,9 +160,7 @@ def needed(case: Concealed) -> bool:
     """Whether each of several effects still shows when the others are in the model."""
     if len(case.terms) < 2:
         return True
-    quiet = replace(case.recording, channels=dict(case.recording.channels) | {
-        y.channel: v for y, v in zip(case.setup.model.outputs.values(), case.clean.T, strict=True)})
-    noise = _rms(_outputs(case.setup.model, case.recording) - case.clean)
+    quiet, noise = case.quiet, _rms(outputs_of(case.setup.model, case.recording) - case.clean)
     for left_out in case.terms:
         model, values = case.setup.model, dict(case.setup.parameters)
         for term in case.terms.keys() - {left_out}:
@@ -182,20 +186,20 @@ def _process_noise(setup: Setup, record: _Recorder, clean: np.ndarray, missed: f
     size = 1.0
     for _ in range(2):   # a second time because the loop need not be linear
         noise = {k: size * v for k, v in setup.torque_noise.items()}
-        size *= target / _rms(_outputs(record.truth, record(noise, 0.0)) - clean)
+        size *= target / _rms(outputs_of(record.truth, record(noise, 0.0)) - clean)
     return {k: float(size * v) for k, v in setup.torque_noise.items()}, float(target)
 
 
 def _reference(setup: Setup, recording: Recording, quiet: Recording, clean: np.ndarray) -> dict[str, dict[str, float]]:
     """Errors on both windows of the fitted model and of the truth, as ``rms_rad`` of the fit measure."""
     model = setup.model
-    train, later = (_episodes(setup, model, recording, w) for w in setup.windows)
-    start = _states(model, _episodes(setup, model, quiet, setup.windows[0]))
-    after = _states(model, _episodes(setup, model, quiet, setup.windows[1]))
+    train, later = (episodes_of(setup, model, recording, w) for w in setup.windows)
+    start = first_states(model, episodes_of(setup, model, quiet, setup.windows[0]))
+    after = first_states(model, episodes_of(setup, model, quiet, setup.windows[1]))
     fit = fit_free(model, train, setup.parameters, start)
     anew = fit_free(model, later, fit.values, after, free=()).rms(later)
     held_out = min(anew, _continued(setup, fit, recording)) if setup.segment is None else anew
-    noise = _outputs(model, recording) - clean
+    noise = outputs_of(model, recording) - clean
     rows = recording.time <= setup.fit + 1e-9
     settled = rows & (recording.time >= setup.settling)
     return {"baseline": {"train_rms_rad": fit.rms(train, setup.settling), "heldout_rms_rad": held_out},
@@ -205,5 +209,5 @@ def _reference(setup: Setup, recording: Recording, quiet: Recording, clean: np.n
 
 def _continued(setup: Setup, fit: FreeFit, recording: Recording) -> float:
     """Error on the held-out window of the fit run carried on."""
-    whole = _episodes(setup, setup.model, recording, (0.0, setup.fit + setup.held_out))
+    whole = episodes_of(setup, setup.model, recording, (0.0, setup.fit + setup.held_out))
     return simulate_free(setup.model, whole, fit.values, fit.initial).rms(whole, setup.fit)

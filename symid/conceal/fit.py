@@ -5,7 +5,7 @@ Kept apart from the diagnosis, so that the sealed figures do not come from what 
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,12 +36,14 @@ class FreeFit:
 
 
 def fit_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, float], initial: np.ndarray,
-             free: Sequence[str] | None = None) -> FreeFit:
+             free: Sequence[str] | None = None, white: Callable[[np.ndarray], np.ndarray] = lambda errors: errors,
+             most: int = 60) -> FreeFit:
     """Fit parameters (all, or those in `free`) and initial states to free simulations of `episodes`.
 
     Parameters
     ----------
     values, initial : where the search begins; (E, n) states.
+    white : filter of errors (N, m, ...) along time, whose output is made small. most : evaluations.
 
     Raises
     ------
@@ -62,11 +64,11 @@ def fit_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, flo
                 for e, x0 in zip(episodes, z[q:].reshape(E, n), strict=True)]
 
     def errors(z):
-        return np.concatenate([np.nan_to_num(t.y - e.recorded, nan=DIVERGED).ravel()
+        return np.concatenate([white(np.nan_to_num(t.y - e.recorded, nan=DIVERGED)).ravel()
                                for t, e in zip(run(z, False), episodes, strict=True)])
 
     def slopes(z):
-        blocks = [np.nan_to_num(t.dy.reshape(-1, q + n)) for t in run(z, True)]
+        blocks = [white(np.nan_to_num(t.dy)).reshape(-1, q + n) for t in run(z, True)]
         out, row = np.zeros((sum(map(len, blocks)), q + E * n)), 0
         for i, b in enumerate(blocks):
             out[row:row + len(b), :q] = b[:, :q]
@@ -76,7 +78,7 @@ def fit_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, flo
 
     if any(t.diverged for t in run(start, False)):
         raise SymidError(f"model '{model.name}' diverges where its fit begins")
-    z = least_squares(errors, start, slopes, bounds=(low, high), x_scale="jac", max_nfev=60, ftol=1e-7, xtol=1e-9, gtol=1e-12).x
+    z = least_squares(errors, start, slopes, bounds=(low, high), x_scale="jac", max_nfev=most, ftol=1e-7, xtol=1e-9, gtol=1e-12).x
     return FreeFit(dict(values) | dict(zip(names, map(float, z[:q]), strict=True)), z[q:].reshape(E, n),
                    tuple(t.y for t in run(z, False)))
 
