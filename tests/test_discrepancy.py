@@ -163,8 +163,14 @@ def test_a_suspect_of_the_user_takes_part():
     assert first.parameters["wave_m"][0] == pytest.approx(0.01, rel=0.1)
 
 
+def _displaced_damping(model, place, p):
+    port = model["cart"]
+    model.add_effort("cart", -p.size_Ns_m3 * port.position**2 * port.rate)
+
+
 def test_physics_of_no_list_is_unexplained_and_placed():
-    finding_ = finding(recorded(7, SINE.at("cart"), {"force_N": 1.0, "wave_m": 0.01}))
+    odd = Law("displaced_damping", "joint", (LawParameter("size_Ns_m3", "N*s/m^3"),), _displaced_damping)
+    finding_ = finding(recorded(7, odd.at("cart"), {"size_Ns_m3": 4000.0}))
     assert finding_.verdict == "unexplained" and finding_.effects[0].location == "cart"
 
 

@@ -26,10 +26,13 @@ ACCEPT = 10.0
 """A suspect is accepted when its score, the likelihood gain beyond BIC, exceeds this."""
 DOUBT = 10.0
 """A hypothesis must beat what established suspects reach by this much to make the finding unexplained."""
-REMAINDER = 7.0
+BEYOND = 25.0
+"""A hypothesis on top of an established suspect, or a third effect, is accepted only from this score on."""
+REMAINDER = 5.5
 """-log10 of the probability by chance from which a remainder counts as systematic."""
 EQUIVALENT = 12.0
-MOST_EFFECTS = 3
+MOST_EFFECTS = 6
+RIVALS = 5
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +108,7 @@ def _explain(base: Fit, data: Data, pool: list[Suspect], threads: int, progress)
         more = _extended(best, data, pool, threads, progress)
         if more is None:
             break
-        best = _reexamined(more, base, data, pool, threads, progress)
+        best = _reexamined(more, single, base, data)
     hypothesis = _preferred([Explanation((c.suspect,), c.fit, c.score) for c in single if not c.suspect.established])
     if hypothesis is not None and best.established and hypothesis.score > best.score + DOUBT:
         best = hypothesis
@@ -133,35 +136,33 @@ def _extended(best: Explanation, data: Data, pool, threads, progress) -> Explana
     """`best` with one more suspect, if one is accepted."""
     others = [s for s in pool if s.term not in {t.term for t in best.suspects}]
     found = explore(best.fit, data, others, effort=LIGHT, threads=threads, progress=progress)
-    more = [Explanation((*best.suspects, c.suspect), c.fit, best.score + c.score) for c in found if c.score > ACCEPT]
+    more = [Explanation((*best.suspects, c.suspect), c.fit, best.score + c.score) for c in found
+            if c.score > (ACCEPT if c.suspect.established and len(best.suspects) == 1 else BEYOND)]
     return _preferred(more)
 
 
-def _reexamined(both: Explanation, base: Fit, data: Data, pool, threads, progress) -> Explanation:
-    """Each suspect is taken out and every other tried in its place, once: greedy choices mislead."""
-    for old in both.suspects[:-1]:
-        kept = [s for s in both.suspects if s is not old]
-        without = _fit_with(kept, both.fit, base, data)
-        if without is None:
-            continue
-        rest = [s for s in pool if s.term not in {t.term for t in kept}]
-        found = explore(without.fit, data, rest, effort=LIGHT, threads=threads, progress=progress)
-        swapped = _preferred([Explanation((*kept, c.suspect), c.fit, without.score + c.score) for c in found])
-        if swapped is not None and swapped.score > both.score + 1.0 and (swapped.established or not both.established):
-            both = swapped
-        if without.score > both.score:
-            both = without
-    return both
+def _reexamined(both: Explanation, single: list[Candidate], base: Fit, data: Data) -> Explanation:
+    """The other good single suspects are tried in the place of the first: greedy choices mislead."""
+    first, kept = both.suspects[0], list(both.suspects[1:])
+    alone = _fit_with(kept, both.fit, base, data)
+    tried = [alone] if alone is not None else []
+    taken = {s.term for s in both.suspects}
+    for c in [c for c in single if c.suspect.term not in taken and c.suspect.established == first.established][:RIVALS]:
+        near = both.fit.values | {k: v for k, v in c.fit.values.items() if k not in both.fit.values}
+        other = _fit_with([c.suspect, *kept], both.fit, base, data, near)
+        tried += [other] if other is not None else []
+    best = max(tried, key=lambda e: e.score, default=both)
+    return best if best.score > both.score + 1.0 else both
 
 
-def _fit_with(suspects: list[Suspect], near: Fit, base: Fit, data: Data) -> Explanation | None:
+def _fit_with(suspects: list[Suspect], near: Fit, base: Fit, data: Data, values: dict | None = None) -> Explanation | None:
     """The base model with exactly these suspects, started from values that a larger model had."""
     model = base.model
     for s in suspects:
         model = model.with_term(s.term)
     sim = simulator(model)
     try:
-        fit = Fitter(model, data).fit({k: near.values[k] for k in sim.parameters}, extended(base.initial, sim), near.process)
+        fit = Fitter(model, data).fit({k: (values or near.values)[k] for k in sim.parameters}, extended(base.initial, sim), near.process)
     except SymidError:
         return None
     return Explanation(tuple(suspects), fit, fit.loglik2 - base.loglik2 - sum(price(s, data) for s in suspects))
@@ -171,7 +172,7 @@ def _fit_with(suspects: list[Suspect], near: Fit, base: Fit, data: Data) -> Expl
 def _judge(found: Explanation, ranking: list[Candidate], left: list[Test], base: Fit, data: Data):
     """Verdict, effects and equivalent candidates."""
     effects = tuple(_effect(s, found, base, data) for s in found.suspects)
-    rest = left[0] if left and left[0].surprise > REMAINDER else None
+    rest = _located(left) if left and left[0].surprise > REMAINDER else None
     first = found.suspects[0] if len(found.suspects) == 1 else None
     equivalent = tuple(c for c in ranking if first is not None and c.suspect.established and c.suspect.term != first.term
                        and c.score > found.score - EQUIVALENT)
@@ -186,6 +187,12 @@ def _judge(found: Explanation, ranking: list[Candidate], left: list[Test], base:
     if rest is not None:
         return "unexplained", (Effect("unknown", rest.place, {}, None, rest.gain, rest.what), *effects), equivalent
     return "missing_physics", effects, equivalent
+
+
+def _located(left: list[Test]) -> Test:
+    """The test that tells where a remainder acts: whiteness is a good alarm and a poor locator."""
+    places = [t for t in left if t.locates and t.surprise > 2.0]
+    return places[0] if places else left[0]
 
 
 def _moment(fit: Fit, data: Data, name: str, error: float) -> tuple[float, float]:

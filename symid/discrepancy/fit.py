@@ -21,6 +21,10 @@ from symid.simulation import Simulator, simulator
 
 TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
+LONGEST_STEP = 0.01
+"""The integrator takes no longer steps than this [s]."""
+PATIENCE = 8
+"""So often the damping grows tenfold before an iteration gives up."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,8 +38,7 @@ class Fit:
     process : (w,) standard deviations of the model's noises that the gain was made for.
     gain : (n, m) or None. surprise : per episode (N, m), recorded minus predicted.
     covariance : (m, m) of the surprises. loglik2 : twice the log-likelihood.
-    errors : parameter -> standard error, NaN where the data say nothing.
-    information : (q, q) of the shared unknowns `names` after the others were eliminated.
+    errors : parameter -> standard error, zero for what was held; empty where not asked for.
     """
 
     model: Model
@@ -55,6 +58,18 @@ class Fit:
         return simulator(self.model)
 
 
+@dataclass(eq=False)
+class _Point:
+    """One set of values on the way, with the gain that belongs to it and the path it was made for."""
+
+    p: np.ndarray
+    x0: np.ndarray
+    process: np.ndarray
+    gain: np.ndarray | None
+    path: np.ndarray
+    value: float
+
+
 class Fitter:
     """Fits of one model to one set of data.
 
@@ -71,7 +86,7 @@ class Fitter:
         self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
         self.driven = data.driven and bool(model.noises)
         self.step = data.episodes[0].step
-        self.substeps = max(1, int(np.ceil(self.step / 0.0101)))
+        self.substeps = max(1, int(np.ceil(self.step / (1.01 * LONGEST_STEP))))
 
     # ---- one evaluation --------------------------------------------------------------
     def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs"):
@@ -117,38 +132,44 @@ class Fitter:
     def fit(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray, iterations: int = 40,
             tolerance: float = TOLERANCE, errors: bool = True) -> Fit:
         """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if the start itself diverges."""
-        p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
-        x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
-        gain = self.gain(p, process, x0)
-        path = self.path(p, x0, gain)
-        gain = self.gain(p, process, path)
-        best, damping, quiet, k = self.evaluate(p, x0, gain), 1e-3, 0, 0
-        if not np.isfinite(best):
-            raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
+        at = self._begin(start, initial, process)
+        damping, converged, k = 1e-3, False, 0
         for k in range(1, iterations + 1):
-            system = self.normal(p, x0, gain, process, path)
+            system = self.normal(at.p, at.x0, at.gain, at.process, at.path)
             if system is None:
                 break
-            improved = False
-            for _ in range(8):
-                step = _solve(system, damping, self.bounds[self.index], p[self.index])
-                p1, x1, process1 = self._moved(p, x0, process, step)
-                gain1, value = self._tried(p1, x1, process1, path)
-                if value > best - 1e-9:
-                    improved = True
-                    break
-                damping = max(damping * 10, 1e-6)
-            if not improved:
+            new, step, damping = self._improved(at, system, damping)
+            if new is None:
                 # No step gains although little is left to gain: the gain's own change is not in the slopes.
-                quiet = float(step @ system[1]) < 1.0
+                converged = float(step @ system[1]) < 1.0
                 break
-            change, best = value - best, value
-            path = self.path(p1, x1, gain1)
-            p, x0, process, gain, damping = p1, x1, process1, gain1, damping * 0.1
-            quiet = quiet + 1 if change < tolerance else 0
-            if quiet >= 1:
+            change, at = new.value - at.value, new
+            at.path = self.path(at.p, at.x0, at.gain)
+            if change < tolerance:
+                converged = True
                 break
-        return self._result(p, x0, process, gain, path, k, bool(quiet), errors)
+        return self._result(at, k, converged, errors)
+
+    def _begin(self, start, initial, process) -> _Point:
+        p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
+        x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
+        path = self.path(p, x0, self.gain(p, process, x0))
+        gain = self.gain(p, process, path)
+        value = self.evaluate(p, x0, gain)
+        if not np.isfinite(value):
+            raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
+        return _Point(p, x0, process, gain, path, value)
+
+    def _improved(self, at: _Point, system, damping: float) -> tuple[_Point | None, np.ndarray, float]:
+        """A better point, the last step tried, and the damping to go on with."""
+        for _ in range(PATIENCE):
+            step = _solve(system, damping, self.bounds[self.index], at.p[self.index])
+            p, x0, process = self._moved(at.p, at.x0, at.process, step)
+            gain, value = self._tried(p, x0, process, at.path)
+            if value > at.value - 1e-9:
+                return _Point(p, x0, process, gain, at.path, value), step, 0.1 * damping
+            damping = max(damping * 10, 1e-6)
+        return None, step, damping
 
     def _tried(self, p, x0, process, path):
         """The gain and twice the log-likelihood at a trial point, -inf where it cannot be simulated."""
@@ -199,19 +220,20 @@ class Fitter:
                            [(a - b) / 0.1 for a, b in zip(self.surprises(other), surprise, strict=True)])
         return [np.stack([c[i] for c in columns], axis=2) for i in range(len(surprise))]
 
-    def _result(self, p, x0, process, gain, path, iterations, converged, errors_too) -> Fit:
-        system = self.normal(p, x0, gain, process, path) if errors_too else None
-        runs = self.run(p, x0, gain, sensitivities=False)
-        surprise = self.surprises(runs)
+    def _result(self, at: _Point, iterations: int, converged: bool, errors_too: bool) -> Fit:
+        system = self.normal(at.p, at.x0, at.gain, at.process, at.path) if errors_too else None
+        surprise = self.surprises(self.run(at.p, at.x0, at.gain, sensitivities=False))
         loglik2, cov = self.score(surprise)
-        errors = dict.fromkeys(self.sim.parameters, 0.0)
+        errors = {}
         if system is not None:
-            H, _, q = system
+            H, _, _ = system
             d = np.sqrt(np.maximum(np.diag(H), 1e-300))
             inverse = np.linalg.pinv(H / np.outer(d, d), rcond=1e-13) / np.outer(d, d)
+            errors = dict.fromkeys(self.sim.parameters, 0.0)
             errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0))) for i, k in enumerate(self.free)}
-        return Fit(self.model, dict(zip(self.sim.parameters, map(float, p), strict=True)), x0, process, gain,
-                   tuple(surprise), cov, float(loglik2), errors, iterations, converged)
+        values = dict(zip(self.sim.parameters, map(float, at.p), strict=True))
+        return Fit(self.model, values, at.x0, at.process, at.gain, tuple(surprise), cov, float(loglik2), errors,
+                   iterations, converged)
 
 
 def whitened(white: np.ndarray, a: np.ndarray) -> np.ndarray:

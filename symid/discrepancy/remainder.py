@@ -33,6 +33,7 @@ class Test:
     what: str
     gain: float
     size: int
+    locates: bool = True
 
     @property
     def surprise(self) -> float:
@@ -52,7 +53,7 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
             gain, _ = screen.score(columns)
             found.append(Test(term.location, what, gain, columns.shape[1]))
     found += [_whiteness(screen, fit, o, name) for o, name in enumerate(fit.model.outputs)]
-    return sorted(found, key=lambda t: -t.surprise)
+    return sorted(found, key=lambda t: -round(t.surprise, 1))
 
 
 def _flexible(fit: Fit, data: Data) -> list[tuple[Term, str]]:
@@ -105,4 +106,5 @@ def _whiteness(screen: Screen, fit: Fit, output: int, name: str) -> Test:
     r = total / power
     lags = np.arange(1, WHITENESS_LAGS + 1)
     statistic = count * (count + 2) * float(np.sum(r**2 / (count - lags)))
-    return Test(fit.model.outputs[name].at, "surprises that follow from earlier ones", statistic, WHITENESS_LAGS)
+    return Test(fit.model.outputs[name].at, "surprises that follow from earlier ones", statistic, WHITENESS_LAGS,
+                locates=False)
