@@ -1,0 +1,136 @@
+"""How well the data know each parameter: errors, bounds, what they cannot tell apart, likelihood profiles."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from symid.errors import ModelError
+from symid.identification import Identification, Solution
+from symid.model import nearest
+
+ALIKE = 0.95
+"""Share of a parameter's variance explained by others from which on the data hardly tell them apart."""
+
+
+@dataclass(frozen=True, eq=False)
+class Uncertainty:
+    """What the data say about the parameters of a solution.
+
+    Attributes
+    ----------
+    parameters : per parameter value, std_error, relative_error, explained (share of its variance
+        that goes along with the others, 1 - 1 / VIF) and at_bound.
+    combinations : directions in which the parameters may move together, the least known first:
+        growth (variance relative to that of independent parameters) and members (name -> step in
+        standard errors).
+    """
+
+    parameters: pd.DataFrame
+    combinations: tuple[tuple[float, dict[str, float]], ...]
+
+    @property
+    def at_bound(self) -> list[str]:
+        """Names of the parameters that sit at a bound: the data ask for more than was allowed."""
+        return list(self.parameters.index[self.parameters["at_bound"]])
+
+    @property
+    def confused(self) -> list[str]:
+        """Names of the parameters that the data hardly tell from a combination of others."""
+        return list(self.parameters.index[self.parameters["explained"] > ALIKE])
+
+    def __repr__(self) -> str:
+        lines = [self.parameters.to_string(float_format="%.4g")]
+        lines += [f"At a bound: {', '.join(self.at_bound)}."] if self.at_bound else []
+        for growth, members in self.combinations:
+            together = ", ".join(f"{name} {step:+.2f}" for name, step in members.items())
+            lines.append(f"Hardly told apart (variance x {growth:.0f}), in standard errors: {together}.")
+        return "\n".join(lines)
+
+
+def uncertainty(solution: Solution) -> Uncertainty:
+    """Judge a solution's parameters by their covariance (see `Solution.covariance`).
+
+    A combination is an eigenvector of the correlation matrix whose variance exceeds
+    1 / (1 - ALIKE) times the least one's and that of independent parameters by half (Belsley,
+    Kuh & Welsch 1980); members move by at least a fifth of a standard error.
+
+    Raises
+    ------
+    ModelError
+        If the problem was not solved.
+    """
+    if not solution.solved:
+        raise ModelError(f"uncertainty: the problem was not solved: {solution.message}")
+    table = solution.parameters[["value", "std_error", "at_bound"]].copy()
+    table["relative_error"] = table["std_error"] / table["value"].abs()
+    table["explained"] = np.nan
+    inner = list(table.index[~table["at_bound"]])
+    covariance = solution.covariance.loc[inner, inner].to_numpy()
+    error = np.sqrt(np.diag(covariance))
+    correlation = covariance / np.outer(error, error)
+    table.loc[inner, "explained"] = 1 - 1 / np.diag(np.linalg.pinv(correlation, hermitian=True))
+    return Uncertainty(table[["value", "std_error", "relative_error", "explained", "at_bound"]],
+                       tuple(_combinations(inner, correlation)))
+
+
+def _combinations(names: list[str], correlation: np.ndarray):
+    variances, directions = np.linalg.eigh(correlation)
+    for variance, direction in zip(variances[::-1], directions.T[::-1], strict=True):
+        if variance > 1.5 and variance > variances[0] / (1 - ALIKE):
+            step = direction * np.sign(direction[np.argmax(np.abs(direction))])
+            members = sorted(((n, float(s)) for n, s in zip(names, step, strict=True) if abs(s) >= 0.2), key=lambda m: -abs(m[1]))
+            yield float(variance), dict(members)
+
+
+def profile(solution: Solution, parameter: str, values: Sequence[float] | None = None) -> pd.DataFrame:
+    """Solve again with one parameter kept at each of several values: its likelihood profile.
+
+    Parameters
+    ----------
+    parameter : name of a free parameter.
+    values : SI; by default -3 to 3 standard errors around the optimum, within the bounds.
+
+    Returns
+    -------
+    DataFrame
+        By value: deviance, twice the loss of log-likelihood. The rise of the objective is scaled so
+        that its curvature at the optimum gives the standard error, since coloured residuals are
+        worth fewer samples than there are (composite likelihood; Pace, Salvan & Sartori 2011):
+        values with a deviance below 3.84 are the 95 % interval.
+
+    Raises
+    ------
+    ModelError
+        If there is no such parameter, it sits at a bound and no values were given, or a fit fails.
+    """
+    table, problem = solution.parameters, solution.problem
+    if parameter not in problem.model.parameters or parameter not in table.index:
+        raise ModelError(f"profile: the solution has no parameter '{parameter}' shared by all recordings; "
+                         f"{nearest(parameter, list(table.index))}")
+    row = table.loc[parameter]
+    if not np.isfinite(row.std_error):
+        raise ModelError(f"profile: '{parameter}' sits at its bound, {row.value:g}, and has no standard error to scale by")
+    if values is None:
+        values = np.clip(row.value + row.std_error * np.array([-3, -2, -1, 1, 2, 3]), row.lower, row.upper)
+    rise = {row.value: 0.0}
+    for value in values:
+        rise[float(value)] = _objective_with(problem, solution, parameter, float(value)) - solution.result.objective
+    x = np.array(sorted(rise))
+    y, far = np.array([rise[v] for v in x]), (x - row.value) / row.std_error
+    near = (np.abs(far) > 0) & (np.abs(far) <= max(1.5, np.abs(far[far != 0]).min()))
+    scale = np.sum(far[near] ** 2 * y[near]) / np.sum(far[near] ** 4)
+    return pd.DataFrame({"objective": y + solution.result.objective, "deviance": y / scale}, index=pd.Index(x, name=parameter))
+
+
+def _objective_with(problem: Identification, solution: Solution, parameter: str, value: float) -> float:
+    other = Identification(problem.model.fixed(**{parameter: value}), problem.recordings, problem.window, scheme=problem.scheme,
+                           episodes=problem.episodes, weights=problem.weights, per_recording=problem.per_recording,
+                           backend=problem.backend)
+    found = other.solve(start=solution)
+    if not found.solved:
+        raise ModelError(f"profile: with {parameter}={value:g} no solution was found: {found.message}")
+    return found.result.objective
