@@ -86,6 +86,13 @@ def test_the_report_says_it_all_without_a_file_beside_it(finding, tmp_path):
     assert diagnosis_html(finding, "My rig", {"recording": "rig.csv"}) == html
 
 
+def test_the_report_on_a_model_that_is_right_shows_no_improvement(tmp_path):
+    write_case(draw_case("rig", [], (1, 0)), tmp_path, "r01")
+    case = read_case(tmp_path / "cases" / "r01")
+    html = diagnosis_html(diagnose_case(case, suspects=few(case)[:1], threads=1))
+    assert "Verdict: adequate" in html and "What is missing" not in html and "improved, RMS" not in html
+
+
 def test_figures_show_the_numbers_of_the_finding(finding):
     scores = plots.plot_scores(finding)
     widths = [bar.get_width() for bar in scores.axes[0].patches]

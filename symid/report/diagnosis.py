@@ -38,14 +38,16 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
         parts += [heading("What is missing"), effects_table(d)]
     if d.equivalent:
         parts += [heading("What this recording cannot tell from it"), _equivalents(d)]
-    parts += [heading("Before and after"), _fits(d),
-              figure(plot_before_after(d), "Free simulations, where the improvement is largest; errors below each.")]
+    where = "where the improvement is largest" if d.effects else "at the beginning of each window"
+    parts += [heading("Before and after" if d.effects else "The fit"), _fits(d),
+              figure(plot_before_after(d), f"Free simulations, {where}; errors below each.")]
     parts += [heading("Where and when"), *_where(d)]
     parts += [figure(plot_spectra(d), "At which frequencies the free run is wrong.")]
     parts += [heading("Suspects"), paragraph("Every law was tried at every place where it could act, together with all unknowns of "
                                              "the model. Listed are those that were fitted completely, each alone.", "note")]
-    if d.ranking:
-        parts += [figure(plot_scores(d), "Dark blue: chosen. Light blue: explains the recording as well."), _ranking(d)]
+    if d.ranking and d.ranking[0].score > 0:
+        parts.append(figure(plot_scores(d), "Dark blue: chosen. Light blue: explains the recording as well."))
+    parts += [_ranking(d)]
     parts += [heading("What is left"), _remainder(d), heading("Parameters of the model"), _parameters(d)]
     if provenance:
         parts += [heading("Provenance"), facts(provenance)]
@@ -105,7 +107,8 @@ def _fits(d: Diagnosis) -> str:
         if f"baseline_{key}" in d.runs:
             before, after = (d.runs[f"{k}_{key}"].rms for k in ("baseline", "augmented"))
             rows.append([title, _short(degrees(before)), _short(degrees(after)), round(100 * (1 - after / before), 1)])
-    return table(["free simulation", "model as given, RMS [deg]", "improved, RMS [deg]", "error removed [%]"], rows)
+    head = ["free simulation", "model as given, RMS [deg]", "improved, RMS [deg]", "error removed [%]"]
+    return table(head, rows) if d.effects else table(head[:2], [row[:2] for row in rows])
 
 
 def _where(d: Diagnosis) -> list[str]:
