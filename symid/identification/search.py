@@ -9,7 +9,7 @@ follow all episodes it converges in a few iterations. Measured on the article's 
 case        other starts                      this start
 ==========  ================================  =====================================================
 PD, 3       random, default: not in 40 s      5 iterations, 1.086 deg
-FPD, 2-4    -                                 5 to 10 iterations, 0.957 deg
+FPD, 2-3    -                                 5 to 10 iterations, 0.957 deg
 NN, 1       regression, no ridge: 5 of 7      3 of 3 in 8 to 17 iterations, 0.310 to 0.323 deg
 NN, 8       regression: 1 of 2 in 60 s        5 of 7 in 5 to 39 iterations, best 0.327 deg, 15 to 30 s
 NN, 10      -                                 10 iterations, 0.328 deg, 71 s (one start)
