@@ -33,6 +33,8 @@ REMAINDER = 5.5
 EQUIVALENT = 12.0
 MOST_EFFECTS = 6
 RIVALS = 5
+BEAM = 3
+RIVAL_SHARE = 0.3
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,6 +110,8 @@ def _explain(base: Fit, data: Data, pool: list[Suspect], threads: int, progress)
         more = _extended(best, data, pool, threads, progress)
         if more is None:
             break
+        if len(best.suspects) == 1:
+            more = _beam(more, best, single, data, pool, threads, progress)
         best = _reexamined(more, single, base, data)
     hypothesis = _preferred([Explanation((c.suspect,), c.fit, c.score) for c in single if not c.suspect.established])
     if hypothesis is not None and best.established and hypothesis.score > best.score + DOUBT:
@@ -139,6 +143,17 @@ def _extended(best: Explanation, data: Data, pool, threads, progress) -> Explana
     more = [Explanation((*best.suspects, c.suspect), c.fit, best.score + c.score) for c in found
             if c.score > (ACCEPT if c.suspect.established and len(best.suspects) == 1 else BEYOND)]
     return _preferred(more)
+
+
+def _beam(pair: Explanation, best: Explanation, single: list[Candidate], data: Data, pool, threads, progress) -> Explanation:
+    """The best pair that begins with any of the good single suspects: the best single one may belong to none."""
+    rivals = [c for c in single if c.suspect.established and c.suspect != best.suspects[0]
+              and c.score > max(ACCEPT, RIVAL_SHARE * best.score)][:BEAM]
+    pairs = [pair]
+    for c in rivals:
+        progress(f"looking for what would complete {c.suspect.term}")
+        pairs.append(_extended(Explanation((c.suspect,), c.fit, c.score), data, pool, threads, progress))
+    return _preferred([p for p in pairs if p is not None])
 
 
 def _reexamined(both: Explanation, single: list[Candidate], base: Fit, data: Data) -> Explanation:
