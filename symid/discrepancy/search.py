@@ -77,6 +77,7 @@ def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, effort: Effort
         starts.sort(key=lambda s: -s[0].forecast)
         chosen = [s for i, s in enumerate(starts) if s[0].forecast > WORTH_REFITTING or i < ALWAYS_REFITTED]
         chosen = chosen[:effort.refitted]
+        chosen += [s for s in starts if s not in chosen and s[0].suspect.bypasses]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
         first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen) if c is not None]
         first.sort(key=lambda c: -c.score)

@@ -46,6 +46,12 @@ class Suspect:
         return next((q for q in self.law.parameters if q.key in SCANNED and (q.key != "frequency_Hz" or self.phase)), None)
 
     @property
+    def bypasses(self) -> bool:
+        """Whether a forecast at zero strength misses the law, so that it is always refitted: delays and lags."""
+        q = self.strength
+        return self.established and q is not None and q.unit == "s" and bool(q.starts)
+
+    @property
     def size(self) -> int:
         return len(self.law.parameters)
 
