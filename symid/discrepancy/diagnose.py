@@ -180,7 +180,7 @@ def _fit_with(suspects: list[Suspect], near: Fit, base: Fit, data: Data, values:
         fit = Fitter(model, data).fit({k: (values or near.values)[k] for k in sim.parameters}, extended(base.initial, sim), near.process)
     except SymidError:
         return None
-    return Explanation(tuple(suspects), fit, fit.loglik2 - base.loglik2 - sum(price(s, data) for s in suspects))
+    return Explanation(tuple(suspects), fit, fit.loglik2 - base.loglik2 - price(suspects, data, base, fit))
 
 
 # ---- judging ---------------------------------------------------------------------------------

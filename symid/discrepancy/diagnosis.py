@@ -81,8 +81,7 @@ class Diagnosis:
                          "time_window_s": None if e.window is None else list(e.window),
                          "parameters": {k: {"value": v, "std_error": s} for k, (v, s) in e.parameters.items()}}
                         for e in self.effects],
-            "ranking": [{"name": c.suspect.term.name, "location": c.suspect.term.location, "score": c.score}
-                        for c in self.ranking],
+            "ranking": self._ranking(),
             "equivalent": [{"name": c.suspect.term.name, "location": c.suspect.term.location,
                             "why": f"explains the recording almost as well (score {c.score:.1f})"} for c in self.equivalent],
             "fit": {"baseline": rms("baseline"), "augmented": rms("augmented")},
@@ -90,6 +89,13 @@ class Diagnosis:
                            "minus_log10_probability": min(t.surprise, 300.0)} for t in self.remainder[:3]],
             "words": self.words,
         }
+
+    def _ranking(self) -> list[dict]:
+        """The effects that were found, then the other suspects by score."""
+        found = [{"name": e.name, "location": e.location, "score": e.gain} for e in self.effects]
+        taken = {(e["name"], e["location"]) for e in found}
+        return found + [{"name": t.name, "location": t.location, "score": c.score} for c in self.ranking
+                        if ((t := c.suspect.term).name, t.location) not in taken]
 
     def to_json(self, path: str | Path) -> Path:
         """Write the answer; the file appears when it is whole."""

@@ -63,9 +63,10 @@ class Start:
     values: dict[str, float]
 
 
-def price(suspect: Suspect, data: Data) -> float:
-    """What the parameters of a suspect cost: log N each, twice for one that was scanned for."""
-    return log(data.samples) * (suspect.size + (suspect.scanned is not None))
+def price(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit) -> float:
+    """What suspects cost: log N for each parameter, twice for one that was scanned for, and for each new initial value."""
+    states = after.initial.size - before.initial.size
+    return log(data.samples) * (states + sum(s.size + (s.scanned is not None) for s in suspects))
 
 
 def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, effort: Effort = FULL, threads: int = 2,
@@ -129,7 +130,7 @@ def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Candidat
     except SymidError:
         return None
     gain = new.loglik2 - fit.loglik2
-    return Candidate(suspect, new, gain, gain - price(suspect, data), start.forecast)
+    return Candidate(suspect, new, gain, gain - price([suspect], data, fit, new), start.forecast)
 
 
 def _begin(fit: Fit, data: Data, starts: list[Start]) -> Candidate | None:
@@ -161,7 +162,7 @@ def _continued(fit: Fit, data: Data, begun: Candidate) -> Candidate:
     """The same candidate after more iterations, with standard errors."""
     new = Fitter(begun.fit.model, data).fit(begun.fit.values, begun.fit.initial, begun.fit.process, CONVERGING_ITERATIONS)
     gain = new.loglik2 - fit.loglik2
-    return Candidate(begun.suspect, new, gain, gain - price(begun.suspect, data), begun.forecast)
+    return Candidate(begun.suspect, new, gain, gain - price([begun.suspect], data, fit, new), begun.forecast)
 
 
 def _profiled(best: Candidate, data: Data) -> Start | None:
