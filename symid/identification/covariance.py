@@ -7,9 +7,11 @@ from scipy import sparse
 from scipy.sparse.linalg import splu
 
 from symid.ipopt_solver import SolverResult
+from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
 
+@one_blas_thread
 def parameter_covariance(t: Transcription, result: SolverResult, errors: list[np.ndarray],
                          output_slopes: list[np.ndarray]) -> np.ndarray:
     """(free parameters, free parameters) covariance in SI units; NaN for parameters at a bound.

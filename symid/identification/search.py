@@ -34,6 +34,7 @@ from symid.identification.starts import equation_error, random_start
 from symid.ipopt_solver import solve_nlp
 from symid.nlp import soften
 from symid.simulation import Trajectory, simulator
+from symid.threads import one_blas_thread
 from symid.transcription import Episodes, Transcription
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ NEAR = 0.05         # the regression begins within this part of the bounds
 FEW, MANY = 25, 250  # evaluations of the first and of the last shooting
 
 
+@one_blas_thread
 def search_start(problem: Identification, seed: int, number: int) -> np.ndarray:
     """A free vector whose episodes are simulations that follow the recording, where one is found.
 

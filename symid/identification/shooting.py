@@ -95,7 +95,7 @@ class _Shooting:
 
     def fit(self, z: np.ndarray) -> OptimizeResult:
         return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
-                             max_nfev=MAX_EVALUATIONS, ftol=1e-6)
+                             max_nfev=MAX_EVALUATIONS, ftol=1e-3)
 
 
 def _noise(t: Transcription) -> list[dict[str, np.ndarray]]:

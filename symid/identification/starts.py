@@ -11,6 +11,7 @@ from symid.errors import SolveError
 from symid.identification.bounds import guesses, parameter_bounds
 from symid.identification.shooting import shoot
 from symid.model import nearest
+from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ LAGS = np.arange(0.02, 0.5, 0.04)
 """Values [s] among which the regression looks for unknown lags."""
 
 
+@one_blas_thread
 def default_start(t: Transcription) -> np.ndarray:
     """A start made from the recording: regression on its equations, then output error by simulation.
 
