@@ -63,7 +63,7 @@ def few() -> list[Suspect]:
 
 
 def finding(recording, suspects=None):
-    return diagnose(cart(), recording, fit_window=(0.0, 40.0), held_out_window=(40.0, 60.0), sensor_noise=SENSOR,
+    return diagnose(cart(), recording, fit_window=(0.0, 40.0), held_out=(40.0, 60.0), sensor_noise=SENSOR,
                     suspects=suspects or few())
 
 

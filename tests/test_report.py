@@ -162,4 +162,5 @@ def test_drawing_is_the_only_thing_fetched_by_name_from_a_higher_floor():
     package = Path(si.__file__).parent
     named = {(str(p.relative_to(package)), m) for p in package.rglob("*.py")
              for m in re.findall(r'import_module\("(symid\.[\w.]+)"', p.read_text())}
-    assert named == {("identification/solution.py", "symid.plots"), ("__init__.py", "symid.mechanics")}
+    assert named == {("identification/solution.py", "symid.plots"), ("discrepancy/diagnosis.py", "symid.report"),
+                     ("__init__.py", "symid.mechanics")}

@@ -73,7 +73,7 @@ def _of_recording(path: Path, arguments: argparse.Namespace):
         raise DiagnosisError(f"--sensor-noise {arguments.sensor_noise:g} is not possible; give the rms in rad, more than 0")
     model = build_model(arguments.body, arguments.controller)
     return diagnose(model, read_recording(path), fit_window=tuple(arguments.window),
-                    held_out_window=tuple(arguments.held_out) if arguments.held_out else None,
+                    held_out=tuple(arguments.held_out) if arguments.held_out else None,
                     sensor_noise=arguments.sensor_noise, threads=arguments.threads, progress=_tell)
 
 

@@ -73,7 +73,7 @@ def read_case(directory: str | Path) -> Case:
 
 def diagnose_case(case: Case, **options) -> Diagnosis:
     """`diagnose` with everything that the case says."""
-    return diagnose(case.model, case.recording, fit_window=case.fit_window, held_out_window=case.held_out_window,
+    return diagnose(case.model, case.recording, fit_window=case.fit_window, held_out=case.held_out_window,
                     sensor_noise=case.sensor_noise, episode_length=case.episode_length, driven=case.driven,
                     settling=case.settling, **options)
 

@@ -17,10 +17,12 @@ from symid.discrepancy.screen import extended
 from symid.discrepancy.search import LIGHT, Candidate, explore, moment_profile, price
 from symid.discrepancy.suspects import Suspect, established_suspects
 from symid.discrepancy.words import sentence, words
-from symid.errors import SymidError
+from symid.errors import DiagnosisError, SymidError
+from symid.identification import Solution
 from symid.model import Model
 from symid.recording import Recording
 from symid.simulation import simulator
+from symid.threads import one_blas_thread
 
 ACCEPT = 10.0
 """A suspect is accepted when its score, the likelihood gain beyond BIC, exceeds this."""
@@ -50,8 +52,9 @@ class Explanation:
         return all(s.established for s in self.suspects)
 
 
-def diagnose(model: Model, recording: Recording, *, fit_window: tuple[float, float] | str,
-             held_out_window: tuple[float, float] | str | None = None, sensor_noise: float | Mapping[str, float] | None = None,
+@one_blas_thread
+def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
+             fit_window: tuple[float, float] | str | None = None, held_out: tuple[float, float] | str | None = None, sensor_noise: float | Mapping[str, float] | None = None,
              episode_length: float | None = None, driven: bool = True, settling: float = 0.0,
              start: Mapping[str, float] | None = None, suspects: Sequence[Suspect] | None = None,
              threads: int = 2, progress: Callable[[str], None] = lambda text: None) -> Diagnosis:
@@ -59,7 +62,9 @@ def diagnose(model: Model, recording: Recording, *, fit_window: tuple[float, flo
 
     Parameters
     ----------
-    fit_window, held_out_window : start and end [s], or the label of a split of the recording, whose
+    subject, recording : a model and what it is compared with; or a Solution of one recording, which
+        brings its model, recording, window and values.
+    fit_window, held_out : start and end [s], or the label of a split of the recording, whose
         segments have each an initial state of their own; the held-out one is used once, at the end.
     sensor_noise : standard deviation of the sensors, one or by channel; from the recording if left out.
     episode_length : seconds of one piece with an initial state of its own; None for one piece.
@@ -72,6 +77,11 @@ def diagnose(model: Model, recording: Recording, *, fit_window: tuple[float, flo
     ------
     DiagnosisError : a window is empty, a channel is missing, or the model cannot be fitted at all.
     """
+    if isinstance(subject, Solution):
+        recording, fit_window, start = _of_solution(subject, recording, fit_window, start)
+    model = subject.model if isinstance(subject, Solution) else subject
+    if recording is None or fit_window is None:
+        raise DiagnosisError("diagnose: a model alone is not enough; give the recording and fit_window=(t0, t1)")
     noise = _noise(model, recording, sensor_noise)
     data = Data(episodes_of(model, recording, fit_window, episode_length), noise, driven)
     base = fit_baseline(model, data, dict(start or {}))
@@ -83,11 +93,21 @@ def diagnose(model: Model, recording: Recording, *, fit_window: tuple[float, flo
     progress("tested for a remainder")
     verdict, effects, equivalent = _judge(found, ranking, left, base, data)
     runs = {"baseline_train": free_run(base, data, settling), "augmented_train": free_run(found.fit, data, settling)}
-    if held_out_window is not None:
-        later = data.with_episodes(episodes_of(model, recording, held_out_window, episode_length))
+    if held_out is not None:
+        later = data.with_episodes(episodes_of(model, recording, held_out, episode_length))
         runs |= {"baseline_heldout": free_run(base, later), "augmented_heldout": free_run(found.fit, later)}
     text = words(verdict, effects, equivalent, left, runs)
     return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text)
+
+
+def _of_solution(solution: Solution, recording, fit_window, start):
+    """Recording, window and values that a solution brings where they are not given."""
+    problem = solution.problem
+    if len(problem.recordings) > 1:
+        raise DiagnosisError(f"diagnose: the solution has {len(problem.recordings)} recordings; diagnose one of them: "
+                             "diagnose(solution.model, recording, fit_window=..., start=solution.values)")
+    recording = problem.recordings[0] if recording is None else recording
+    return recording, fit_window or problem.windows[0] or recording.interval, solution.values | dict(start or {})
 
 
 def _noise(model: Model, recording: Recording, given) -> np.ndarray:

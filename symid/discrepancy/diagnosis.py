@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
 
 from symid.discrepancy.fit import Fit
@@ -96,6 +97,11 @@ class Diagnosis:
         taken = {(e["name"], e["location"]) for e in found}
         return found + [{"name": t.name, "location": t.location, "score": c.score} for c in self.ranking
                         if ((t := c.suspect.term).name, t.location) not in taken]
+
+    def report(self, path: str | Path) -> Path:
+        """Write a self-contained HTML report with figures."""
+        # Reports stand on the roof, and a diagnosis must not need them: fetched by name when asked for.
+        return import_module("symid.report").write_diagnosis_report(self, path, f"Diagnosis of {self.baseline.model.name}")
 
     def to_json(self, path: str | Path) -> Path:
         """Write the answer; the file appears when it is whole."""

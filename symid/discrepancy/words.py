@@ -28,8 +28,9 @@ def quantity(value: float, error: float, unit: str) -> str:
         value, error, unit = 1e3 * value, 1e3 * error, "ms"
     elif unit == "rad" and abs(value) < 0.2:
         value, error, unit = degrees(value), degrees(error), "deg"
-    if 0 < abs(value) < 1e-2 and unit not in ("ms", "deg"):
-        return f"{value:.3g}" + (f" ± {error:.1g}" if error > 0 else "") + f" {unit}".rstrip()
+    elif 0 < abs(value) < 1e-2 and unit[:1] in ("N", "m"):
+        factor, prefix = (1e3, "m") if abs(value) > 1e-3 else (1e6, "µ")
+        value, error, unit = factor * value, factor * error, prefix + unit
     digits = 2 if not error > 0 else max(0, 1 - floor(log10(error)) if error < 10 else 0)
     shown = f"{value:.{min(digits, 9)}f}" + (f" ± {error:.{min(digits, 9)}f}" if error > 0 else "")
     return f"{shown} {unit}".strip()
