@@ -7,7 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 import sympy as sm
+from conftest import pendulum, pendulum_recording
 
+import symid as si
 from symid.discrepancy import Suspect, diagnose, established_suspects, read_case
 from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.data import Data, episodes_between
@@ -235,3 +237,16 @@ def test_practice_cases(case, name):
         pytest.skip(f"no practice cases at {folder.parent}")
     from symid.discrepancy import diagnose_case
     assert diagnose_case(read_case(folder)).effects[0].name == name
+
+
+def test_a_solution_brings_its_model_recording_window_and_values():
+    solution = si.Identification(pendulum(), pendulum_recording(noise=0.01), window=(0, 4)).solve()
+    finding = diagnose(solution, held_out=(4, 6), sensor_noise=0.01, driven=False, suspects=[])
+    assert finding.verdict == "adequate"
+    assert finding.values["damping"] == pytest.approx(solution.values["damping"], abs=0.02)
+    assert finding.runs["augmented_heldout"].rms == pytest.approx(0.01, rel=0.4)
+
+
+def test_a_model_alone_is_not_enough():
+    with pytest.raises(DiagnosisError, match="give the recording"):
+        diagnose(pendulum())
