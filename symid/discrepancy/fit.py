@@ -199,13 +199,15 @@ class Fitter:
         q, n, w, E = len(self.free), x0.shape[1], noise[0].shape[2], len(runs)
         size = q + w + E * n
         H, g = np.zeros((size, size)), np.zeros(size)
-        for i, (t, s, extra) in enumerate(zip(runs, surprise, noise, strict=True)):
-            J = whitened(white, np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2))
-            r = (s @ white.T).reshape(-1)
-            where = np.r_[0:q + w, q + w + i * n:q + w + (i + 1) * n]
-            H[np.ix_(where, where)] += J.T @ J
-            g[where] += J.T @ r
-        return H, g, q
+        with np.errstate(over="ignore", invalid="ignore"):
+            for i, (t, s, extra) in enumerate(zip(runs, surprise, noise, strict=True)):
+                J = whitened(white, np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2))
+                r = (s @ white.T).reshape(-1)
+                where = np.r_[0:q + w, q + w + i * n:q + w + (i + 1) * n]
+                H[np.ix_(where, where)] += J.T @ J
+                g[where] += J.T @ r
+        # Sensitivities of an unstable predictor overflow before the run itself does.
+        return (H, g, q) if np.isfinite(H).all() and np.isfinite(g).all() else None
 
     def _noise_columns(self, p, x0, process, path, surprise):
         """Change of the surprises per unit of log noise, by differences through the gain."""
