@@ -25,6 +25,8 @@ LONGEST_STEP = 0.01
 """The integrator takes no longer steps than this [s]."""
 PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
+REACH = 0.03
+"""The motion at the start of an episode is continued backwards for so long [s], for signals that are late."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,11 +97,24 @@ class Fitter:
         for e, start in zip(self.data.episodes, x0, strict=True):
             t = self.sim.simulate(p, start, e.time, e.inputs, substeps=self.substeps, gain=gain, recorded=e.recorded,
                                   sensitivity=self.free if sensitivities else (), keep=keep,
-                                  initial_sensitivity=self.sim.states if sensitivities else ())
+                                  initial_sensitivity=self.sim.states if sensitivities else (),
+                                  history=self._history(p, start, e))
             if t.diverged:
                 return None
             out.append(t)
         return out
+
+    def _history(self, p, start, episode):
+        """States just before an episode of a motion without random forces, where something reads them late."""
+        if self.driven or not self.model.delays:
+            return None
+        head = episode.head(3)
+        x = self.sim.simulate(p, start, head.time, head.inputs, substeps=self.substeps, keep="states").x
+        if not np.isfinite(x).all():
+            return None
+        ago = np.linspace(-REACH, 0.0, 7)[:, None]
+        slope, bend = (4 * x[1] - 3 * x[0] - x[2]) / (2 * self.step), (x[2] - 2 * x[1] + x[0]) / self.step**2
+        return episode.time[0] + ago[:, 0], x[0] + ago * slope + ago**2 / 2 * bend
 
     def surprises(self, runs) -> list[np.ndarray]:
         return [e.recorded - t.y for e, t in zip(self.data.episodes, runs, strict=True)]
