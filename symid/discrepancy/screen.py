@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.signal import fftconvolve
 
+from symid.discrepancy.comb import comb
 from symid.discrepancy.data import Data
 from symid.discrepancy.fit import Fit, Fitter, whitened
 from symid.discrepancy.suspects import HIGHEST_FREQUENCY, Suspect
@@ -50,12 +53,16 @@ class Screen:
         c, *_ = np.linalg.lstsq(a.T @ a, a.T @ self.rest, rcond=1e-8)
         return float(c @ (a.T @ self.rest)), c / scale
 
-    def response(self, suspect: Suspect, sim: Simulator, values: dict[str, float]) -> np.ndarray | None:
-        """(N m, q) change of the predictions per unit of what can be switched off, at `values`."""
-        p = self.fit.values | suspect.named(values)
+    def response(self, suspect: Suspect, sim: Simulator, values: dict[str, float],
+                 each: Sequence[dict[str, float]] | None = None) -> np.ndarray | None:
+        """(N m, q) change of the predictions per unit of what can be switched off, at `values`, `each` of one episode."""
         names = [suspect.term.parameter_name(q.key) for q in suspect.law.parameters if q.null is not None]
         out = []
-        for e, x0 in zip(self.data.episodes, extended(self.fit.initial, sim), strict=True):
+        for e, x0, own in zip(self.data.episodes, extended(self.fit.initial, sim), each or [{}] * len(self.data.episodes), strict=True):
+            if not suspect.touches(values, e):
+                out.append(np.zeros((e.recorded.size, len(names))))
+                continue
+            p = self.fit.values | suspect.named(values | own)
             t = sim.simulate(p, x0, e.time, e.inputs, substeps=self.substeps, gain=padded(self.fit.gain, sim),
                              recorded=e.recorded, sensitivity=names, keep="outputs")
             if t.diverged:
@@ -71,6 +78,8 @@ class Screen:
             grid = slide(self, suspect, sim)
         elif self.data.driven and suspect.scanned.key == "frequency_Hz":
             grid = sweep(self, suspect, sim)
+        elif suspect.scanned.key == "frequency_Hz":
+            grid = comb(self, suspect, sim, HIGHEST_FREQUENCY)
         else:
             grid = suspect.grid(self.data)
         for values in grid:

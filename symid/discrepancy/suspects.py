@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from symid.discrepancy.data import Data
+from symid.discrepancy.data import Data, Episode
 from symid.mechanics import CANONICAL, LIBRARY, suspects
 from symid.mechanics.unknown_laws import ELASTIC_MOUNT
 from symid.model import Law, LawParameter, Model, Term
@@ -66,6 +66,13 @@ class Suspect:
             null = [] if q.null is None else [q.null]
             choices.append(null if q is self.strength and off else list(q.starts) or null or [q.typical])
         return [dict(zip([q.key for q in self.law.parameters], c, strict=True)) for c in product(*choices)]
+
+    def touches(self, values: dict[str, float], episode: Episode) -> bool:
+        """Whether the law with these values acts at all in an episode: a push lasts from start to end."""
+        if not {"start_s", "duration_s"} <= values.keys():
+            return True
+        start = values["start_s"]
+        return start < episode.time[-1] and start + values["duration_s"] > episode.time[0]
 
     @property
     def phase(self) -> str | None:
