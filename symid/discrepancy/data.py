@@ -4,12 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from symid.errors import DiagnosisError
 from symid.model import Model
 from symid.recording import Recording
+
+
+FEWEST = 8
+"""Samples of the shortest episode."""
+LONGER = 1.5
+"""A segment is cut only where it is so many times longer than wished."""
+SWINGS = 5
+"""Swings of one piece of a motion that nothing drives: a few show losses, many bury the parameters in chaos."""
+MOST_SAMPLES = 20000
+"""More samples than this tell a fit of free motion nothing new."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,7 +44,12 @@ class Episode:
 
     def head(self, n: int) -> Episode:
         """The first `n` samples."""
-        return Episode(self.time[:n], self.recorded[:n], {k: v[:n] for k, v in self.inputs.items()})
+        return self.part(slice(n))
+
+    def part(self, rows: slice) -> Episode:
+        """Some of the samples."""
+        keep = np.ascontiguousarray
+        return Episode(keep(self.time[rows]), keep(self.recorded[rows]), {k: keep(v[rows]) for k, v in self.inputs.items()})
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,16 +78,61 @@ class Data:
     def with_episodes(self, episodes) -> Data:
         return Data(tuple(episodes), self.sensor_noise, self.driven)
 
+    def halves(self) -> tuple[Data, Data]:
+        """The first and the second half: of the episodes, or of the only one."""
+        if len(self.episodes) == 1:
+            e, n = self.episodes[0], len(self.episodes[0].time) // 2
+            return self.with_episodes([e.part(slice(n))]), self.with_episodes([e.part(slice(n, None))])
+        n = len(self.episodes) // 2
+        return self.with_episodes(self.episodes[:n]), self.with_episodes(self.episodes[n:])
+
+    def thinned(self) -> Data:
+        """Every so-many-th sample where free motion has more samples than a fit needs; sensors keep 40 a swing."""
+        most = int(min(0.025 * swing(e) / e.step for e in self.episodes))
+        every = min(self.samples // MOST_SAMPLES, most)
+        if self.driven or every < 2:
+            return self
+        return self.with_episodes(e.part(slice(None, None, every)) for e in self.episodes)
+
 
 def episodes_of(model: Model, recording: Recording, part: tuple[float, float] | str,
                 length: float | None = None) -> tuple[Episode, ...]:
-    """The episodes of a window (see `episodes_between`), or the segments with a split label."""
-    if not isinstance(part, str):
+    """The episodes of a window, or of the segments with a split label, none longer than about `length` seconds.
+
+    Raises
+    ------
+    DiagnosisError : a channel that the model needs is missing, or the part holds too few samples.
+    RecordingError : no segment has this label.
+    """
+    if isinstance(part, str):
+        pieces = [(s, s.interval) for s in recording.segments(part)]
+    elif len(recording.runs) == 1:
         return episodes_between(model, recording.time, dict(recording.channels), part, length)
+    else:
+        pieces = [(s, (max(s.interval[0], part[0]), min(s.interval[1], part[1]))) for s in _in_order(recording)]
+        pieces = [(s, w) for s, w in pieces if _count(s.time, w) >= FEWEST]
     found = []
-    for s in recording.segments(part):
-        found += episodes_between(model, s.time, dict(s.channels), s.interval)
+    for s, window in pieces:
+        whole = length is None or window[1] - window[0] < LONGER * length
+        found += episodes_between(model, s.time, dict(s.channels), window, None if whole else length)
+    if not found:
+        raise DiagnosisError(f"no segment of {recording.name} has {FEWEST} samples between {part[0]:g} s and {part[1]:g} s; "
+                             f"it runs from {recording.interval[0]:g} s to {recording.interval[1]:g} s")
     return tuple(found)
+
+
+def _in_order(recording: Recording) -> list[Recording]:
+    """The segments, whose times must not begin anew where a window of time is to mean something."""
+    segments = recording.segments()
+    if any(b.time[0] <= a.time[-1] for a, b in pairwise(segments)):
+        labels = [] if recording.split is None else sorted(set(recording.split.tolist()))
+        choice = f"give a label of its column split instead: {', '.join(labels)}" if labels else "add a column split with labels such as fit and held_out"
+        raise DiagnosisError(f"{recording.name}: time begins anew in each segment, so a window of time means nothing; {choice}")
+    return segments
+
+
+def _count(time: np.ndarray, window: tuple[float, float]) -> int:
+    return int(np.sum((time >= window[0]) & (time <= window[1])))
 
 
 def episodes_between(model: Model, time: np.ndarray, channels: Mapping[str, np.ndarray], window: tuple[float, float],
@@ -93,11 +154,23 @@ def episodes_between(model: Model, time: np.ndarray, channels: Mapping[str, np.n
     found = []
     for a, b in zip(edges[:-1], edges[1:], strict=True):
         rows = (time >= a - half) & (time < b - half)
-        if rows.sum() >= 8:
+        if rows.sum() >= FEWEST:
             recorded = np.column_stack([channels[y.channel][rows] for y in model.outputs.values()])
             found.append(Episode(time[rows], np.ascontiguousarray(recorded),
                                  {k: np.ascontiguousarray(channels[u.channel][rows]) for k, u in model.inputs.items()}))
     if not found:
-        raise DiagnosisError(f"the window {t0:g} s to {t1:g} s holds fewer than 8 samples of the recording, which runs "
+        raise DiagnosisError(f"the window {t0:g} s to {t1:g} s holds fewer than {FEWEST} samples of the recording, which runs "
                              f"from {time[0]:g} s to {time[-1]:g} s")
     return tuple(found)
+
+
+def swing(episode: Episode) -> float:
+    """Seconds of one swing of the output that swings fastest, from how often it crosses its mean."""
+    centred = episode.recorded - episode.recorded.mean(axis=0)
+    crossings = np.max(np.sum(centred[1:] * centred[:-1] < 0, axis=0))
+    return 2 * float(episode.time[-1] - episode.time[0]) / max(int(crossings), 1)
+
+
+def piece_length(episodes: tuple[Episode, ...]) -> float:
+    """Seconds of a few swings, of which free motion is fitted in one piece."""
+    return SWINGS * float(np.median([swing(e) for e in episodes]))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.data import Data, episodes_of
 from symid.discrepancy.diagnosis import Diagnosis, Effect
 from symid.discrepancy.fit import Fit, Fitter
+from symid.discrepancy.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.freerun import FreeRun, free_run
 from symid.discrepancy.remainder import Test, remainder
 from symid.discrepancy.screen import extended
@@ -87,10 +89,13 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     base = fit_baseline(model, data, dict(start or {}))
     progress(f"the model as given is fitted ({base.iterations} iterations)")
     pool = list(established_suspects(model) if suspects is None else suspects)
-    found, ranking = _explain(base, data, pool, threads, progress)
+    anything = cache(lambda: _anything(base, data))
+    found, ranking = _explain(base, data, pool, anything, threads, progress)
     found = _polished(found, data)
     left = remainder(found.fit, data)
     progress("tested for a remainder")
+    if (len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER) and _beaten(found, anything()):
+        found, left = anything(), remainder(anything().fit, data)
     verdict, effects, equivalent = _judge(found, ranking, left, base, data)
     runs = {"baseline_train": free_run(base, data, settling), "augmented_train": free_run(found.fit, data, settling)}
     if held_out is not None:
@@ -117,7 +122,7 @@ def _noise(model: Model, recording: Recording, given) -> np.ndarray:
 
 
 # ---- explaining ------------------------------------------------------------------------------
-def _explain(base: Fit, data: Data, pool: list[Suspect], threads: int, progress) -> tuple[Explanation, list[Candidate]]:
+def _explain(base: Fit, data: Data, pool: list[Suspect], anything: Callable[[], Explanation], threads: int, progress) -> tuple[Explanation, list[Candidate]]:
     """The best explanation by one or several suspects, and the ranking of single ones."""
     single = explore(base, data, pool, threads=threads, progress=progress)
     best = Explanation((), base, 0.0)
@@ -126,6 +131,8 @@ def _explain(base: Fit, data: Data, pool: list[Suspect], threads: int, progress)
         return best, single
     best = alone
     while len(best.suspects) < MOST_EFFECTS:
+        if len(best.suspects) > 1 and (not best.established or _beaten(best, anything())):
+            break
         progress(f"found {', '.join(str(s.term) for s in best.suspects)}; looking for more")
         more = _extended(best, data, pool, threads, progress)
         if more is None:
@@ -137,6 +144,17 @@ def _explain(base: Fit, data: Data, pool: list[Suspect], threads: int, progress)
     if hypothesis is not None and best.established and hypothesis.score > best.score + DOUBT:
         best = hypothesis
     return best, single
+
+
+def _anything(base: Fit, data: Data) -> Explanation:
+    """The best flexible law at one place: whatever acts there, named or not."""
+    best = flexible_fits(base, data, flexible_terms(base, data))[0]
+    return Explanation((best.suspect,), best.fit, best.score)
+
+
+def _beaten(found: Explanation, anything: Explanation) -> bool:
+    """Whether a flexible law at one place explains more than all that has a name: what acts there is in no list."""
+    return anything.score > max(found.score, 0.0) + DOUBT
 
 
 def _polished(found: Explanation, data: Data) -> Explanation:
@@ -242,7 +260,7 @@ def _moment(fit: Fit, data: Data, name: str, error: float) -> tuple[float, float
 def _effect(suspect: Suspect, found: Explanation, base: Fit, data: Data) -> Effect:
     fit, term = found.fit, suspect.term
     parameters = {q.key: (fit.values[term.parameter_name(q.key)], fit.errors[term.parameter_name(q.key)])
-                  for q in suspect.law.parameters}
+                  for q in suspect.law.parameters if term.parameter_name(q.key) in fit.errors}
     window = None
     if "start_s" in parameters:
         begin = parameters["start_s"][0]

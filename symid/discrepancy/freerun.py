@@ -13,12 +13,22 @@ from symid.errors import SymidError
 
 @dataclass(frozen=True, eq=False)
 class FreeRun:
-    """Time, recorded and simulated outputs of a window; `rms` over all outputs, without `settling` seconds."""
+    """Time, recorded and simulated outputs of a window; `rms` over all outputs, without `settling` seconds.
+
+    `lengths` are the samples of each episode, which begins with a state of its own.
+    """
 
     time: np.ndarray
     recorded: np.ndarray
     simulated: np.ndarray
     rms: float
+    lengths: tuple[int, ...]
+
+    def of_episodes(self) -> list[tuple[float, float]]:
+        """Start [s] and rms of each episode."""
+        ends = np.cumsum(self.lengths)
+        return [(float(self.time[a]), float(np.sqrt(np.mean((self.simulated - self.recorded)[a:b] ** 2))))
+                for a, b in zip([0, *ends[:-1]], ends, strict=True)]
 
 
 def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
@@ -32,8 +42,9 @@ def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
     time = np.concatenate([e.time for e in data.episodes])
     recorded = np.vstack([e.recorded for e in data.episodes])
     simulated = min(runs, key=lambda y: float(np.sum((y - recorded) ** 2))) if runs else np.full_like(recorded, np.nan)
-    use = time >= time[0] + settling
-    return FreeRun(time, recorded, simulated, float(np.sqrt(np.mean((simulated - recorded)[use] ** 2))))
+    use = np.arange(len(time)) >= int(settling / data.episodes[0].step + 0.5)
+    return FreeRun(time, recorded, simulated, float(np.sqrt(np.mean((simulated - recorded)[use] ** 2))),
+                   tuple(len(e.time) for e in data.episodes))
 
 
 def _run(fitter: Fitter, fit: Fit, x0: np.ndarray) -> np.ndarray | None:

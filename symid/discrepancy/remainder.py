@@ -9,14 +9,18 @@ from scipy.stats import chi2
 
 from symid.discrepancy.data import Data
 from symid.discrepancy.fit import Fit
+from symid.discrepancy.flexible import flexible_terms
 from symid.discrepancy.screen import Screen, extended, padded
 from symid.errors import SymidError
-from symid.mechanics.unknown_laws import unknown_force, unknown_sensor
-from symid.model import Model, Term
+from symid.model import Term
 from symid.simulation import Simulator, simulator
 
 WHITENESS_LAGS = 25
 """So many lags of the surprises' correlation enter the test of whiteness."""
+
+_WHAT = {"unknown_force": "a force that depends on position, speed, the past or time",
+         "unknown_sensor_error": "a distortion of what the sensor shows",
+         "unknown_input_error": "an excitation other than the recorded one"}
 
 
 @dataclass(frozen=True)
@@ -43,43 +47,17 @@ class Test:
 def remainder(fit: Fit, data: Data) -> list[Test]:
     """All tests, the most surprising first."""
     screen, found = Screen(fit, data), []
-    for term, what in _flexible(fit, data):
+    for term in flexible_terms(fit, data):
         try:
             sim = simulator(fit.model.with_term(term))
         except SymidError:
             continue
         columns = _columns(screen, sim, term)
         if columns is not None:
-            gain, _ = screen.score(columns)
-            found.append(Test(term.location, what, gain, columns.shape[1]))
+            gain, coefficients = screen.score(columns)
+            found.append(Test(term.location, _WHAT[term.name], gain, int(np.count_nonzero(coefficients))))
     found += [_whiteness(screen, fit, o, name) for o, name in enumerate(fit.model.outputs)]
     return sorted(found, key=lambda t: -round(t.surprise, 1))
-
-
-def _flexible(fit: Fit, data: Data) -> list[tuple[Term, str]]:
-    """Flexible terms at every port and sensor, scaled by the motion of the fit."""
-    sim, model = simulator(fit.model), fit.model
-    runs = [sim.simulate(fit.values, x0, e.time, e.inputs, gain=fit.gain, recorded=e.recorded)
-            for e, x0 in zip(data.episodes, fit.initial, strict=True)]
-    path, terms = np.vstack([t.x for t in runs]), []
-    for role in ("joint", "link"):
-        ports = [p for p in model.ports.values() if p.role == role]
-        scales = {p.at: (_rms(model, p.position, path), _rms(model, p.rate, path)) for p in ports}
-        law = unknown_force(role, scales, data.span)
-        terms += [(law.at(p.at), "a force that depends on position, speed, the past or time") for p in ports]
-    sensors = [y for y in model.outputs.values() if y.role == "sensor"]
-    scale = {y.at: float(np.sqrt(np.mean(np.vstack([e.recorded for e in data.episodes])[:, i] ** 2)))
-             for i, y in enumerate(model.outputs.values())}
-    law = unknown_sensor(scale)
-    return terms + [(law.at(y.at), "a distortion of what the sensor shows") for y in sensors]
-
-
-def _rms(model: Model, expr, path: np.ndarray) -> float:
-    """Root mean square of a linear expression of the states along a path."""
-    total = np.zeros(len(path))
-    for i, s in enumerate(model.states.values()):
-        total += float(expr.coeff(s.symbol)) * path[:, i]
-    return float(np.sqrt(np.mean(total**2))) or 1.0
 
 
 def _columns(screen: Screen, sim: Simulator, term: Term) -> np.ndarray | None:

@@ -134,13 +134,16 @@ def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Candidat
 
 
 def _begin(fit: Fit, data: Data, starts: list[Start]) -> Candidate | None:
-    """A few iterations from the best start, and from the others where it does not keep its promise."""
-    best = None
-    for start in starts:
+    """A few iterations from the best start, and from the others where it does not keep its promise.
+
+    A law that a slope at zero does not see also begins at one finite size.
+    """
+    best, least = None, 2 if starts[0].suspect.bypasses else 1
+    for tried, start in enumerate(starts, 1):
         new = _refit(fit, data, start, FIRST_ITERATIONS)
         if new is not None and (best is None or new.gain > best.gain):
             best = new
-        if best is not None and best.gain > 0.5 * start.forecast:
+        if best is not None and best.gain > 0.5 * start.forecast and tried >= least:
             break
     return best
 

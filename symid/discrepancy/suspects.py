@@ -47,9 +47,9 @@ class Suspect:
 
     @property
     def bypasses(self) -> bool:
-        """Whether a forecast at zero strength misses the law, so that it is always refitted: delays and lags."""
+        """Whether a forecast at zero strength misses the law, so that it is always refitted: delays, lags and integrals."""
         q = self.strength
-        return self.established and q is not None and q.unit == "s" and bool(q.starts)
+        return self.established and q is not None and q.null == 0 and bool(q.starts) and self.scanned is None
 
     @property
     def size(self) -> int:

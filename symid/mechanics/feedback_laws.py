@@ -129,7 +129,7 @@ FEEDBACK_LAWS: tuple[Law, ...] = (
         (LawParameter("width_rad", "rad", (1e-4, 0.2), None, (0.004, 0.01, 0.02, 0.04), 0.01),), _dead_zone,
         "The feedback does not notice errors of the {place} below about {width_rad}", "Fitzpatrick & McCloskey 1994"),
     Law("integral_feedback", ("feedback_error", "feedback_torque"),
-        (LawParameter("gain_Nm_rad_s", "N*m/(rad*s)", (-inf, inf), typical=20.0),), _integral,
+        (LawParameter("gain_Nm_rad_s", "N*m/(rad*s)", (-inf, inf), 0.0, (20.0, 80.0), 20.0),), _integral,
         "The feedback at the {place} also acts on the accumulated error, {gain_Nm_rad_s}", "Peterka 2002"),
     Law("acceleration_feedback", ("feedback_torque", "joint"),
         (LawParameter("gain_kg_m2", "N*m*s^2/rad", (-50.0, 200.0), typical=5.0),), _acceleration,

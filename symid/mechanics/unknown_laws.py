@@ -13,6 +13,8 @@ import sympy as sm
 from symid.mechanics.laws import port_at
 from symid.model import Equation, Law, LawParameter, Model, State
 
+WAVE = 1.0
+"""A distortion of a sensor is built of waves of this many radians per rms of what it shows, and its multiples."""
 MEMORY_TIMES = (0.05, 0.2, 0.8)
 """Time constants [s] of the filtered positions that let a flexible force remember."""
 
@@ -33,26 +35,47 @@ def unknown_force(role: str, scales: Mapping[str, tuple[float, float]], span: tu
         port = port_at(model, role, place)
         x, v = port.position / scales[place][0], port.rate / scales[place][1]
         t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
-        shapes = [x**2, x**3, x**4, v * sm.Abs(v), v**3, v**2, x * sm.Abs(v), x**2 * v, sm.tanh(3 * v), sm.tanh(10 * v),
-                  x * t, v * t]
+        shapes = [x, x**2, x**3, x**4, x**5, v, v * sm.Abs(v), v**3, v**2, x * sm.Abs(v), x**2 * v, sm.tanh(3 * v),
+                  sm.tanh(10 * v), t, x * t, v * t]
         for i, tau in enumerate(MEMORY_TIMES):
             name = f"unknown_{place}_memory{i}"
             setattr(model, name, State(unit="1", role="memory", at=place))
             setattr(model, f"{name}_equation", Equation(tau * model[name].dot - x + model[name]))
             shapes.append(model[name].symbol)
         model.add_effort(port.name, sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
-    return Law("unknown_force", role, _parameters(12 + len(MEMORY_TIMES)), build,
+    return Law("unknown_force", role, _parameters(16 + len(MEMORY_TIMES)), build,
                "Something acts on the {place} that no known law describes")
 
 
-def unknown_sensor(scales: Mapping[str, float]) -> Law:
-    """A sensor whose error is a polynomial of what it shows."""
+def unknown_sensor(scales: Mapping[str, float], span: tuple[float, float]) -> Law:
+    """A sensor whose error depends on what it shows, how fast that changes, and time."""
     def build(model: Model, place: str, p) -> None:
         for sensor in model.find("sensor", place):
             y = sensor.expr / scales[place]
-            model.redefine(sensor.name, sensor.expr + scales[place] * (p.c0 * y**2 + p.c1 * y**3 + p.c2 * sm.Abs(y)))
-    return Law("unknown_sensor_error", "sensor", _parameters(3), build,
+            t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
+            waves = [f(k * WAVE * y) for k in (1, 2, 3, 4) for f in (sm.sin, sm.cos)]
+            rate = sum(sm.diff(y, s.symbol) * s.dot for s in model.states.values())
+            shapes = [y, *waves, t, y * t, rate]
+            model.redefine(sensor.name, sensor.expr + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
+    return Law("unknown_sensor_error", "sensor", _parameters(12), build,
                "What the sensor {place} shows is distorted in a way that no known law describes")
+
+
+def unknown_input(scales: Mapping[str, float], span: tuple[float, float]) -> Law:
+    """An excitation whose error depends on what was recorded, now and before, and on time."""
+    def build(model: Model, place: str, p) -> None:
+        for u in model.find("excitation", place):
+            present = u.symbol / scales[place]
+            t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
+            names = [f"unknown_{place}_memory{i}" for i in range(len(MEMORY_TIMES))]
+            for name in names:
+                setattr(model, name, State(unit="1", role="memory", at=place))
+            shapes = [present, present**2, present**3, present * sm.Abs(present), t * present, *(model[n].symbol for n in names)]
+            model.substitute({u.symbol: u.symbol + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes))})
+            for name, tau in zip(names, MEMORY_TIMES, strict=True):
+                setattr(model, f"{name}_equation", Equation(tau * model[name].dot - present + model[name]))
+    return Law("unknown_input_error", "excitation", _parameters(5 + len(MEMORY_TIMES)), build,
+               "What drives the {place} differs from what was recorded in a way that no known law describes")
 
 
 def _conjugate_rate(model: Model, equation: str) -> sm.Expr | None:
