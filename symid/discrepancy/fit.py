@@ -145,9 +145,12 @@ class Fitter:
 
     # ---- the iteration ---------------------------------------------------------------
     def fit(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray, iterations: int = 40,
-            tolerance: float = TOLERANCE, errors: bool = True) -> Fit:
-        """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if the start itself diverges."""
-        at = self._begin(start, initial, process)
+            tolerance: float = TOLERANCE, errors: bool = True, gain: np.ndarray | None = None) -> Fit:
+        """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if the start itself diverges.
+
+        `gain` is one that is known to hold the start together, of an earlier fit that ended there.
+        """
+        at = self._begin(start, initial, process, gain)
         damping, converged, k = 1e-3, False, 0
         for k in range(1, iterations + 1):
             system = self.normal(at.p, at.x0, at.gain, at.process, at.path)
@@ -165,12 +168,18 @@ class Fitter:
                 break
         return self._result(at, k, converged, errors)
 
-    def _begin(self, start, initial, process) -> _Point:
+    def again(self, fit: Fit, iterations: int = 40) -> Fit:
+        """A fit that goes on from where `fit` of the same model ended."""
+        return self.fit(fit.values, fit.initial, fit.process, iterations, gain=fit.gain)
+
+    def _begin(self, start, initial, process, known) -> _Point:
         p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
         x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
-        path = self.path(p, x0, self.gain(p, process, x0))
+        path = self.path(p, x0, self.gain(p, process, x0) if known is None else known)
         gain = self.gain(p, process, path)
         value = self.evaluate(p, x0, gain)
+        if not np.isfinite(value) and known is not None:
+            gain, value = known, self.evaluate(p, x0, known)
         if not np.isfinite(value):
             raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
         return _Point(p, x0, process, gain, path, value)

@@ -163,7 +163,7 @@ def _converge(fit: Fit, data: Data, first: Candidate, others: list[Start]) -> Ca
 
 def _continued(fit: Fit, data: Data, begun: Candidate) -> Candidate:
     """The same candidate after more iterations, with standard errors."""
-    new = Fitter(begun.fit.model, data).fit(begun.fit.values, begun.fit.initial, begun.fit.process, CONVERGING_ITERATIONS)
+    new = Fitter(begun.fit.model, data).again(begun.fit, CONVERGING_ITERATIONS)
     gain = new.loglik2 - fit.loglik2
     return Candidate(begun.suspect, new, gain, gain - price([begun.suspect], data, fit, new), begun.forecast)
 
