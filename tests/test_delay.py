@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import symid as si
-from symid.identification.starts import default_start
 from symid.mechanics import FullStatePD
 from symid.simulation import simulator
 from symid.synthetic import BODY, standing_recording
@@ -31,7 +30,7 @@ def problem(model, delay: float, seed: int, duration: float = 31.0, **noise) -> 
 @pytest.mark.parametrize("delay", DELAYS)
 def test_start_is_close_to_the_true_delay(model, delay):
     p = problem(model, delay, seed=1)
-    lag = p.transcription.layout.parameters(default_start(p.transcription))[list(model.parameters).index("feedback_delay")]
+    lag = p.transcription.layout.parameters(p.start())[list(model.parameters).index("feedback_delay")]
     assert lag == pytest.approx(delay, abs=0.015)
 
 
@@ -39,7 +38,7 @@ def test_start_of_a_loop_without_delay_is_without_delay(model):
     quick = GAINS | {"kp_aa": 380.0, "kd_aa": 72.0, "kp_ah": 330.0, "kd_ah": 42.0, "kp_ha": -40.0, "kp_hh": 290.0,
                      "kd_ha": 18.0, "kd_hh": 21.0, "feedback_delay": 0.0}
     p = si.Identification(model, standing_recording(model, quick, seed=1, duration=21, torque_noise=0.5), (1, 21))
-    lag = p.transcription.layout.parameters(default_start(p.transcription))[list(model.parameters).index("feedback_delay")]
+    lag = p.transcription.layout.parameters(p.start())[list(model.parameters).index("feedback_delay")]
     assert lag < 0.01
 
 

@@ -83,3 +83,34 @@ def test_a_solve_is_given_up_where_multipliers_explode(problem):
     z = problem.start("random")
     assert problem.solve_from(z, dual_limit=1e-12).status_name == "User_Requested_Stop"
     assert problem.solve_from(z).solved
+
+
+def _standing(shared, episodes: int) -> Identification:
+    from symid import mechanics
+    from symid.recording import read_recording
+    folder = shared / "recordings" / "standing_subject05"
+    model = mechanics.DoubleLinkPendulum.from_json(folder / "body.json").with_feedback(mechanics.PD())
+    return Identification(model, read_recording(folder / "recording_50hz.csv"), (160, 190),
+                          episodes=Episodes(episodes, torque=0.25, seed=1))
+
+
+def test_two_episodes_let_an_unstable_loop_win_and_three_do_not(shared):
+    """The article's table 3: the soft start meets the unstable loop, the searched one the stable loop."""
+    two = _standing(shared, 2)
+    soft, searched = (two.solve_from(two.start(kind), max_iterations=100) for kind in ("soft", "search"))
+    assert soft.solved and searched.solved
+    assert soft.objective < 0.95 * searched.objective
+    assert two.transcription.layout.parameters(soft.z)[0] < 880 < two.transcription.layout.parameters(searched.z)[0]
+
+
+def test_default_start_of_several_episodes_is_searched_where_no_simulation_follows(shared):
+    three = _standing(shared, 3)
+    result = three.solve_from(three.start(), max_iterations=100)
+    assert result.solved and result.iterations < 15
+
+
+def test_many_starts_of_several_episodes_are_searched_for(problem):
+    from symid.identification.study import start_kinds
+    assert start_kinds(problem, 3) == ["search"] * 3
+    assert start_kinds(replace(problem, episodes=Episodes()), 2) == ["random"] * 2
+    assert start_kinds(problem, 1, "soft") == ["soft"]

@@ -37,7 +37,7 @@ def test_cases_are_chosen_by_name_or_controller():
 def test_gains_of_the_article_are_parameters_of_the_models(shared):
     body, recording = _material(shared)
     for case in CASES.values():
-        one = problem(case, body, recording, seed=3)
+        one = problem(case, body, recording, draw=3)
         assert set(case.gains) <= set(one.model.parameters)
         assert one.episodes.count == case.episodes and (case.episodes == 1 or one.episodes.seed == 3)
 
@@ -64,11 +64,12 @@ def test_every_number_stands_beside_the_articles(shared):
     case = CASES["PD-3"]
     model = problem(case, *_material(shared)).model
     best = _Best(model, {k: mean + 2 * spread for k, (mean, spread) in case.gains.items()})
-    starts = pd.DataFrame({"solved": [True, False, True], "rms_deg": [1.1, np.nan, 1.2]})
+    starts = pd.DataFrame({"solved": [True, False, True], "rms_deg": [1.1, np.nan, 1.2]} | {k: [v, v, 2 * v] for k, v in best.values.items()})
     table = comparison(Reproduction((Finding(case, 4, starts, best, _Stability()),), {}))
     assert np.allclose(table["deviation"].dropna(), (table["here"] - table["article"]).dropna())
     gains = table[table["quantity"].isin(case.gains)]
     assert np.allclose(gains["deviation"] / gains["spread"], 2) and set(gains["where"]) == {"table 1"}
+    assert np.allclose(gains["mean"], gains["here"]) and np.allclose(gains["sd"], 0)    # the third start is no good one
     here = table.set_index("quantity")["here"]
     assert here["solved starts"] == pytest.approx(200 / 3) and here["median rms of the solved starts"] == pytest.approx(1.15)
     assert set(table["noise_seed"]) == {4} and "table 3" in set(table["where"])

@@ -15,7 +15,7 @@ from symid.errors import TranscriptionError
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution, StartRow
-from symid.identification.search import search_start
+from symid.identification.search import can_search, search_start, soft_start
 from symid.identification.starts import default_start, given_start, random_start
 from symid.identification.study import Solve, Study, start_kinds
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
@@ -23,6 +23,9 @@ from symid.model import Model
 from symid.nlp import NonlinearProgram, with_ridge
 from symid.recording import Recording
 from symid.transcription import Episodes, Midpoint, Scheme, Transcription, measure, transcribe
+
+DELAY_OPTIONS = {"mumps_pivot_order": 2}
+"""Late signals are tied to a window of nodes: an eighth of the time with MUMPS's ordering AMF."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,19 +109,22 @@ class Identification:
               number: int = 0) -> np.ndarray:
         """A free vector to start from.
 
-        kind : "default" (made from the recording), "random" (recorded motion, parameters uniform
+        kind : "default" (made from the recording; for several episodes that no simulation follows,
+            searched as below), "random" (recorded motion, parameters uniform
             within their bounds), "search" (random, then searched until simulations follow the
-            recording: for several episodes), parameter values by name, a Solution of a similar problem, or a
-            free vector as it is.
+            recording: for several episodes), "soft" (random, then identified with process noise that
+            is estimated, too), parameter values by name, a Solution of a similar problem, or a free
+            vector as it is.
         """
         if isinstance(kind, np.ndarray):
             return kind
         if kind == "default":
-            return default_start(self.transcription)
+            z, simulated = default_start(self.transcription)
+            return z if simulated or not can_search(self) else search_start(self, seed, number)
         if kind == "random":
             return random_start(self.transcription, seed, number)
-        if isinstance(kind, str) and kind == "search":
-            return search_start(self, seed, number)
+        if isinstance(kind, str) and kind in ("search", "soft"):
+            return {"search": search_start, "soft": soft_start}[kind](self, seed, number)
         return given_start(self.transcription, kind)
 
     def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
@@ -136,6 +142,9 @@ class Identification:
             lead to an unstable loop the multipliers grow without end, and each factorisation takes
             longer than all before it.
         """
+        if self.model.delays:
+            solver["options"] = DELAY_OPTIONS | (solver.get("options") or {})
+
         def watch(iteration: Iteration) -> bool | None:
             told = None if on_iteration is None else on_iteration(iteration)
             return told is not False and iteration.dual_infeasibility <= dual_limit
@@ -150,7 +159,8 @@ class Identification:
 
         Parameters
         ----------
-        starts : 1 for the start that `start` describes; more for that many random starts.
+        starts : 1 for the start that `start` describes; more for that many random starts, with
+            several episodes each searched until simulations follow the recording.
         start : see `start()`; used where `starts` is 1.
         seed : of the random starts; start number k does not depend on how many there are.
         executor : any concurrent.futures executor, or a `distributed.Client`, as for `Study.run`;
@@ -172,7 +182,7 @@ class Identification:
         """
         self.transcription  # noqa: B018 - a problem that cannot be transcribed is refused before any start
         study = Study({f"start {k + 1}": Solve(self, kind, k, seed, solver)
-                       for k, kind in enumerate(start_kinds(starts, start))}, store)
+                       for k, kind in enumerate(start_kinds(self, starts, start))}, store)
         on_finished = None if on_start is None else lambda finished: on_start(finished.row)
         if executor is None:
             return study.run_here(on_finished, on_iteration).best()

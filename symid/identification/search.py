@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
 SOFT = (1e-4, 1e-3, 1e-2)
 """Prices of estimated process noise, one solve after the other, relative to the scaled equations."""
+HARD = 1e-1     # the last price where all episodes are solved so
 SPREADS = (0.3, 0.3, 0.2, 0.2, 0.1, 0.1, 0.05, 0.05)
 """Relative mutation in each generation."""
 CHILDREN, PARENTS, SHOTS = 150, 10, 3
@@ -49,6 +50,11 @@ ENOUGH = 0.7        # of the recorded variance: as many loops as are shot err by
 FLOOR = 0.005       # least mutation, relative to the bounds
 NEAR = 0.05         # the regression begins within this part of the bounds
 FEW, MANY = 25, 250  # evaluations of the first and of the last shooting
+
+
+def can_search(problem: Identification) -> bool:
+    """Whether `search_start` simulates `problem`: several episodes, no delays, all parameters shared."""
+    return problem.episodes.count > 1 and not problem.model.delays and not problem.per_recording
 
 
 @one_blas_thread
@@ -76,7 +82,7 @@ def search_start(problem: Identification, seed: int, number: int) -> np.ndarray:
     """
     t = problem.transcription
     single = replace(problem, episodes=Episodes())
-    z = _softly(single, seed, number)
+    z = _softly(single, _regressed(single, seed, number), SOFT)
     parameters = single.transcription.layout.parameters(z)
     if len(t.recording_of) == len(t.measured):
         return z
@@ -90,12 +96,31 @@ def search_start(problem: Identification, seed: int, number: int) -> np.ndarray:
     return t.start(parameters) if any(r.diverged for r in runs) else t.start(parameters, [r.x for r in runs])
 
 
-def _softly(problem: Identification, seed: int, number: int) -> np.ndarray:
-    """The free vector of one episode with estimated process noise."""
+@one_blas_thread
+def soft_start(problem: Identification, seed: int, number: int) -> np.ndarray:
+    """A free vector of all episodes, each with process noise that is estimated besides its fixed one.
+
+    No step of it asks for a stable loop: with M episodes the parameters have to meet M - 1
+    conditions for each unstable mode, and two episodes can be followed by an unstable loop, which
+    `search_start` never meets. seed, number : as there.
+    """
     t = problem.transcription
-    z = t.start(equation_error(t, NEAR * t.layout.parameters(random_start(t, seed, number)))[0])
+    single = replace(problem, episodes=Episodes())
+    z = _softly(single, _regressed(single, seed, number), SOFT[:1])
+    return _softly(problem, t.start(single.transcription.layout.parameters(z)), (*SOFT, HARD))
+
+
+def _regressed(problem: Identification, seed: int, number: int) -> np.ndarray:
+    """The recorded motion with the parameters of a regression from a random point."""
+    t = problem.transcription
+    return t.start(equation_error(t, NEAR * t.layout.parameters(random_start(t, seed, number)))[0])
+
+
+def _softly(problem: Identification, z: np.ndarray, prices: tuple[float, ...]) -> np.ndarray:
+    """The free vector with estimated process noise, from `z`, at one price after the other."""
+    t = problem.transcription
     rows = _noisy_rows(t)
-    for price in SOFT if len(rows) else ():
+    for price in prices if len(rows) else ():
         result = solve_nlp(soften(problem.nonlinear_program(z), rows, price), max_iterations=100)
         z = np.clip(result.z[:t.layout.size], t.program.lower, t.program.upper)
     return z

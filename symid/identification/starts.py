@@ -37,15 +37,15 @@ LAGS = np.arange(0.02, 0.5, 0.04)
 
 
 @one_blas_thread
-def default_start(t: Transcription) -> np.ndarray:
+def default_start(t: Transcription) -> tuple[np.ndarray, bool]:
     """A start made from the recording: regression on its equations, then output error by simulation.
 
     Where the loop that the regression finds cannot be simulated, the recorded motion with the
-    regressed parameters is the start.
+    regressed parameters is the start. Also whether it could.
     """
     candidates = _equation_error_of_lags(t)
     shot = shoot(t, candidates)
-    return t.start(candidates[0]) if shot is None else t.start(*shot)
+    return (t.start(candidates[0]), False) if shot is None else (t.start(*shot), True)
 
 
 def _equation_error_of_lags(t: Transcription) -> list[np.ndarray]:

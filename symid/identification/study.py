@@ -18,6 +18,7 @@ from symid.errors import SolveError
 from symid.identification.dispatch import in_turn, on_executor
 from symid.identification.identity import digest
 from symid.identification.pool import Cluster, LocalPool
+from symid.identification.search import can_search
 from symid.identification.solution import Solution, StartRow, build_solution
 from symid.identification.store import StudyDirectory
 from symid.identification.worker import Outcome
@@ -125,7 +126,7 @@ class Study:
                                  f"{', '.join(labels)}")
             named = dict(zip(labels, words, strict=True))
             solves |= {"/".join(map(str, (*words, number))): Solve(problem, start, number, seed, options, named)
-                       for number, start in enumerate(start_kinds(starts))}
+                       for number, start in enumerate(start_kinds(problem, starts))}
         return cls(solves, store)
 
     def run(self, executor: Executor | None = None, *, jobs: int | None = None,
@@ -188,11 +189,11 @@ class Study:
         return f"<Study of {len(self.solves)} solves>"
 
 
-def start_kinds(starts: int, start="default") -> list:
-    """`start` alone, or (several starts) as many random ones."""
+def start_kinds(problem: Identification, starts: int, start="default") -> list:
+    """`start` alone, or (several starts) as many random ones, searched for where there are several episodes."""
     if starts < 1 or int(starts) != starts:
         raise SolveError(f"starts={starts}: give a whole number of at least 1")
-    return [start] if starts == 1 else ["random"] * int(starts)
+    return [start] if starts == 1 else ["search" if can_search(problem) else "random"] * int(starts)
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,18 +12,25 @@ NOTES = (
     ("activation of the network", "slope 1.7 below zero as printed, 0.3 in the result files", "that of the files"),
     ("initial state", "free for each episode in the text, shared by all in the result files", "free, shared"),
     ("pi", "3.1416 in the authors' files", "as exact as the computer has it"),
-    ("starts of noisy episodes", "random within the bounds", "random, then searched until simulations follow"),
+    ("draws of noise", "not said; tables 1 and 2 spread as draws do, not as starts of one draw", "one for each start"),
+    ("starts of noisy episodes", "random within the bounds", "random, then searched until simulations follow; "
+     "with two episodes every second one with estimated process noise, so that unstable loops are met"),
     ("weights of the network", "within 5 of fitted ones", f"within 20, ridge {NETWORK_RIDGE:g} on (w/20)^2"),
 )
 
 
-def comparison(reproduction: Reproduction) -> pd.DataFrame:
-    """One row per number: table or figure, case, noise seed, quantity, article, here, deviation, spread.
+GOOD = 1.01
+"""A start is a good one up to this multiple of the least RMS."""
 
-    `spread` is the article's standard deviation over its starts where it has one.
+
+def comparison(reproduction: Reproduction) -> pd.DataFrame:
+    """One row per number: table or figure, case, noise seed, quantity, article, here, deviation, spread, mean, sd.
+
+    `here` is of the best start; `spread` is the article's standard deviation over its good starts where it
+    has one, `mean` and `sd` are those of the good starts here (`GOOD`).
     """
     rows = [row for finding in reproduction.findings for row in _rows(finding)]
-    columns = ["where", "case", "noise_seed", "quantity", "unit", "article", "here", "deviation", "spread"]
+    columns = ["where", "case", "noise_seed", "quantity", "unit", "article", "here", "deviation", "spread", "mean", "sd"]
     return pd.DataFrame(rows, columns=columns)
 
 
@@ -33,15 +40,18 @@ def _rows(f: Finding) -> list[tuple]:
     stable_in = {"PD": "table 3", "FPD": "table 4"}.get(case.controller, "figure 2")
     solved = f.starts[f.starts["solved"]]
 
-    def row(where, quantity, unit, article, here, spread=np.nan):
-        return (where, case.name, f.seed, quantity, unit, article, here, here - article, spread)
+    good = solved[solved["rms_deg"] <= GOOD * solved["rms_deg"].min()]
+
+    def row(where, quantity, unit, article, here, spread=np.nan, many=()):
+        return (where, case.name, f.seed, quantity, unit, article, here, here - article, spread, *(many or (np.nan, np.nan)))
 
     rows = [row(gains_in, "rms of the best start", "deg", case.rms_deg[0], f.best.fit["rms_deg"]["all"]),
             row(gains_in, "median rms of the solved starts", "deg", float(np.median(case.rms_deg)),
                 float(solved["rms_deg"].median())),
             row("text", "solved starts", "%", np.nan, 100 * float(f.starts["solved"].mean()))]
     units = f.best.model.parameters
-    rows += [row(gains_in, name, units[name].unit, mean, f.best.values[name], spread)
+    rows += [row(gains_in, name, units[name].unit, mean, f.best.values[name], spread,
+                 (good[name].mean(), good[name].std(ddof=0)))
              for name, (mean, spread) in case.gains.items()]
     rows += [row(stable_in, "stable by eigenvalues", "%", case.eigenvalue_percent, f.stability.eigenvalue_percent),
              row(stable_in, "stable by simulation", "%", case.forward_percent, f.stability.forward_percent)]
