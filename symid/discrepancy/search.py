@@ -20,6 +20,8 @@ WORTH_REFITTING = 8.0
 """A suspect with a smaller forecast gain than this is refitted only if it is among the best few."""
 ALWAYS_REFITTED = 6
 FIRST_ITERATIONS = 6
+NEAR, NEAR_SHARE = 50.0, 0.1
+"""Suspects whose first score is so near the best, in units and as a share of it, are converged however many they are."""
 MOMENTS = 0.3
 """Spacing [s] of the moments at which a lasting change is tried."""
 
@@ -84,7 +86,11 @@ def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, effort: Effort
         first.sort(key=lambda c: -c.score)
         others = {s[0].suspect: s[1:3] for s in chosen}
         found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), first[:effort.converged]))
-    return sorted(found + first[effort.converged:], key=lambda c: -c.score)
+        rest = first[effort.converged:]
+        near = max((c.score for c in found), default=0.0) * (1 - NEAR_SHARE) - NEAR
+        close = [c for c in rest if c.score > max(near, 0.0) and not c.fit.converged]
+        found += list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), close))
+    return sorted(found + [c for c in rest if c not in close], key=lambda c: -c.score)
 
 
 def _starts(fit: Fit, data: Data, screen: Screen, suspect: Suspect) -> list[Start]:
