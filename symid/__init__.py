@@ -14,7 +14,7 @@ _WHERE = {
     "symid.recording": ("Recording", "read_recording"),
     "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
     "symid.analysis": ("Stability", "stability", "stability_of"),
-    "symid.discrepancy": ("Diagnosis", "diagnose", "diagnose_case", "read_case"),
+    "symid.discrepancy": ("Diagnosis", "diagnose", "diagnose_case", "read_case", "rig_case"),
     "symid.identification": ("Cluster", "Identification", "LocalPool", "Solution", "Solve", "Study"),
 }
 _MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}

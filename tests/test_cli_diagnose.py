@@ -51,7 +51,7 @@ def test_a_case_directory_ends_in_words_json_report_and_prediction(folder, tmp_p
     arguments = [a if a.startswith("--") else str(tmp_path / a) for a in arguments]
     assert main(["diagnose", str(folder / "cases" / "r01"), "--threads", "1", *arguments]) == 0
     out, err = capsys.readouterr()
-    assert "link1" in out and "held-out" in out
+    assert "sensor of link 1 is off by" in out and "held-out" in out
     assert "fitted" in err and "fitted" not in out
     answer = json.loads((tmp_path / "r01.json").read_text())
     assert answer["verdict"] == "missing_physics"

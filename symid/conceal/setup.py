@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.errors import SymidError
-from symid.mechanics import PD, BenchDoublePendulum, DoubleLinkPendulum, FullStatePD
+from symid.mechanics import model_of
 from symid.model import Model
 
 SYSTEMS = ("standing", "rig")
@@ -22,7 +22,6 @@ FPD_GAINS = {"kp_aa": 450.0, "kp_ah": 320.0, "kd_aa": 56.0, "kd_ah": 50.0, "kp_h
 """Full-state gains of a standing person (Wang & van den Bogert 2020, table 2, rounded)."""
 PD_GAINS = {"kp_ankle": (850.0, 1800.0), "kd_ankle": (120.0, 340.0), "kp_hip": (300.0, 550.0), "kd_hip": (22.0, 62.0)}
 GAIN_SPREAD, REFERENCE_SPREAD = 0.18, 0.004
-CONTROLLERS = {"PD": PD, "FPD": FullStatePD}
 SETTLING, SEGMENT = 3.0, 4.0
 """Seconds that the fit measure leaves out (standing); seconds of a piece with its own start (rig)."""
 JITTER = (2e-4, 1e-3)
@@ -163,7 +162,8 @@ def setup_from_facts(facts: Mapping, rng: np.random.Generator) -> Setup:
     missing = [k for k in needed if k not in facts]
     if missing:
         raise SymidError(f"the case to be imitated has no '{missing[0]}'")
-    model, own = makers[facts["system"]](facts, rng)
+    model = model_of(facts)
+    own = makers[facts["system"]](facts, model, rng)
     (t0, t1), (t2, t3) = facts["fit_window_s"], facts["heldout_window_s"]
     if t0 != 0 or t2 != t1 or not 0 < t1 < t3:
         raise SymidError(f"the windows {facts['fit_window_s']} and {facts['heldout_window_s']} must follow one another from 0 s")
@@ -174,12 +174,8 @@ def setup_from_facts(facts: Mapping, rng: np.random.Generator) -> Setup:
                  facts=dict(facts), **own)
 
 
-def _standing(facts: Mapping, rng: np.random.Generator) -> tuple[Model, dict]:
-    b, controller = facts["body"], facts["baseline"].get("controller")
-    if controller not in CONTROLLERS:
-        raise SymidError(f"the case to be imitated has the controller '{controller}'; known: {', '.join(CONTROLLERS)}")
-    person = DoubleLinkPendulum(b["l_L_m"], b["d_L_m"], b["d_T_m"], b["m_L_kg"], b["m_T_kg"], b["I_L_kg_m2"], b["I_T_kg_m2"],
-                                facts.get("gravity_m_s2", 9.81))
+def _standing(facts: Mapping, model: Model, rng: np.random.Generator) -> dict:
+    b, controller = facts["body"], facts["baseline"]["controller"]
     # Gravity's torque per angle sets how stiff a person has to be.
     size = (b["m_L_kg"] * b["d_L_m"] + b["m_T_kg"] * (b["l_L_m"] + b["d_T_m"])) / (22.5 * 0.47 + 48.5 * 1.17)
     if controller == "FPD":
@@ -188,20 +184,18 @@ def _standing(facts: Mapping, rng: np.random.Generator) -> tuple[Model, dict]:
         gains = {k: size * rng.uniform(*v) for k, v in PD_GAINS.items()}
     references = {k: rng.normal(0, REFERENCE_SPREAD) for k in ("ref_ankle", "ref_hip")}
     parameters = {k: float(v) for k, v in (gains | references).items()}
-    model = person.with_feedback(CONTROLLERS[controller]())
     hip = float(rng.uniform(0.4, 1.0))
-    return model, {"parameters": parameters, "torque_noise": dict(zip(model.noises, (1.0, hip), strict=True)), "sway": None,
-                   "warm_up": 20.0, "settling": SETTLING, "limits": {"ankle": 0.35, "hip": 0.7},
-                   "hidden": {"structure": controller, "gains": parameters}}
+    return {"parameters": parameters, "torque_noise": dict(zip(model.noises, (1.0, hip), strict=True)), "sway": None,
+            "warm_up": 20.0, "settling": SETTLING, "limits": {"ankle": 0.35, "hip": 0.7},
+            "hidden": {"structure": controller, "gains": parameters}}
 
 
-def _rig(facts: Mapping, rng: np.random.Generator) -> tuple[Model, dict]:
-    joints = tuple(t.partition(":")[2] for t in facts["baseline"].get("terms", ()) if t.startswith("viscous_friction:"))
-    model = BenchDoublePendulum.from_parameters(facts["parameters"]).plant(friction=joints)
+def _rig(facts: Mapping, model: Model, rng: np.random.Generator) -> dict:
     usual = {"joint1": (1e-4, 3e-4), "joint2": (5e-6, 2.5e-5)}
-    parameters = {f"viscous_friction_{j}_coefficient_Nms_rad": float(np.exp(rng.uniform(*np.log(usual[j])))) for j in joints}
+    parameters = {f"viscous_friction_{t.location}_coefficient_Nms_rad": float(np.exp(rng.uniform(*np.log(usual[t.location]))))
+                  for t in model.terms}
     angles = [float(rng.choice([-1, 1]) * rng.uniform(0.3, 1.1)) for _ in range(2)]
-    return model, {"parameters": parameters, "initial_state": dict(zip(("link1_angle", "link2_angle"), angles, strict=True)),
-                   "resolution": facts.get("encoder_step_rad", 0.0), "segment": facts.get("segment_s", SEGMENT),
-                   "limits": {"link1": 2.5, "link2": 2.5},
-                   "hidden": {"baseline_parameters": parameters, "initial_angles_rad": angles}}
+    return {"parameters": parameters, "initial_state": dict(zip(("link1_angle", "link2_angle"), angles, strict=True)),
+            "resolution": facts.get("encoder_step_rad", 0.0), "segment": facts.get("segment_s", SEGMENT),
+            "limits": {"link1": 2.5, "link2": 2.5},
+            "hidden": {"baseline_parameters": parameters, "initial_angles_rad": angles}}

@@ -19,7 +19,7 @@ LONGER = 1.5
 """A segment is cut only where it is so many times longer than wished."""
 SWINGS = 5
 """Swings of one piece of a motion that nothing drives: a few show losses, many bury the parameters in chaos."""
-MOST_SAMPLES = 20000
+MOST_SAMPLES = 8000
 """More samples than this tell a fit of free motion nothing new."""
 
 

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 import numpy as np
 
+from symid.discrepancy.audit import audit
 from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.data import Data, episodes_of
 from symid.discrepancy.diagnosis import Diagnosis, Effect
 from symid.discrepancy.fit import Fit, Fitter
 from symid.discrepancy.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.freerun import FreeRun, free_run
+from symid.discrepancy.halves import survivals
 from symid.discrepancy.remainder import Test, remainder
+from symid.discrepancy.robust import with_robust_errors
 from symid.discrepancy.screen import extended
 from symid.discrepancy.search import LIGHT, Candidate, explore, moment_profile, price
 from symid.discrepancy.suspects import Suspect, established_suspects
-from symid.discrepancy.words import sentence, words
+from symid.discrepancy.words import Story, sentence, words
 from symid.errors import DiagnosisError, SymidError
 from symid.identification import Solution
 from symid.model import Model
@@ -68,7 +71,8 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
         brings its model, recording, window and values.
     fit_window, held_out : start and end [s], or the label of a split of the recording, whose
         segments have each an initial state of their own; the held-out one is used once, at the end.
-    sensor_noise : standard deviation of the sensors, one or by channel; from the recording if left out.
+    sensor_noise : standard deviation of the sensors, one or by channel; if left out what the recording
+        states, or else what its highest frequencies show.
     episode_length : seconds of one piece with an initial state of its own; None for one piece.
     driven : whether random forces act at the model's noises besides the recorded inputs.
     settling : seconds that the fit measure leaves out at the start of the fit window.
@@ -84,8 +88,9 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     model = subject.model if isinstance(subject, Solution) else subject
     if recording is None or fit_window is None:
         raise DiagnosisError("diagnose: a model alone is not enough; give the recording and fit_window=(t0, t1)")
-    noise = _noise(model, recording, sensor_noise)
-    data = Data(episodes_of(model, recording, fit_window, episode_length), noise, driven)
+    episodes = episodes_of(model, recording, fit_window, episode_length)
+    checked = audit(model, recording, episodes, sensor_noise)
+    data = Data(episodes, checked.noise, driven).thinned()
     base = fit_baseline(model, data, dict(start or {}))
     progress(f"the model as given is fitted ({base.iterations} iterations)")
     pool = list(established_suspects(model) if suspects is None else suspects)
@@ -96,13 +101,18 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     progress("tested for a remainder")
     if (len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER) and _beaten(found, anything()):
         found, left = anything(), remainder(anything().fit, data)
+    white = all(t.locates or t.surprise <= REMAINDER for t in left)
+    if not white:
+        found = replace(found, fit=with_robust_errors(found.fit, data))
     verdict, effects, equivalent = _judge(found, ranking, left, base, data)
+    survived = survivals(found.suspects, found.fit, base, data, white)
     runs = {"baseline_train": free_run(base, data, settling), "augmented_train": free_run(found.fit, data, settling)}
     if held_out is not None:
-        later = data.with_episodes(episodes_of(model, recording, held_out, episode_length))
+        # Segments that were set apart are judged whole.
+        later = data.with_episodes(episodes_of(model, recording, held_out, None if isinstance(held_out, str) else episode_length))
         runs |= {"baseline_heldout": free_run(base, later), "augmented_heldout": free_run(found.fit, later)}
-    text = words(verdict, effects, equivalent, left, runs)
-    return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text)
+    text = words(Story(verdict, effects, equivalent, ranking, left, runs, checked, survived, white, base.gain is not None))
+    return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text, checked, survived)
 
 
 def _of_solution(solution: Solution, recording, fit_window, start):
@@ -113,12 +123,6 @@ def _of_solution(solution: Solution, recording, fit_window, start):
                              "diagnose(solution.model, recording, fit_window=..., start=solution.values)")
     recording = problem.recordings[0] if recording is None else recording
     return recording, fit_window or problem.windows[0] or recording.interval, solution.values | dict(start or {})
-
-
-def _noise(model: Model, recording: Recording, given) -> np.ndarray:
-    table = given if isinstance(given, Mapping) else (recording.noise if given is None else {})
-    return np.array([float(table.get(y.channel, given if isinstance(given, (int, float)) else 1e-3))
-                     for y in model.outputs.values()])
 
 
 # ---- explaining ------------------------------------------------------------------------------
@@ -161,7 +165,7 @@ def _polished(found: Explanation, data: Data) -> Explanation:
     """The same explanation fitted until nothing moves."""
     if not found.suspects:
         return found
-    fit = Fitter(found.fit.model, data).fit(found.fit.values, found.fit.initial, found.fit.process)
+    fit = Fitter(found.fit.model, data).again(found.fit)
     return Explanation(found.suspects, fit, found.score + fit.loglik2 - found.fit.loglik2)
 
 

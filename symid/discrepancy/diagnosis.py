@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib import import_module
+from math import isfinite
 from pathlib import Path
 
+from symid.discrepancy.audit import Audit
 from symid.discrepancy.fit import Fit
 from symid.discrepancy.freerun import FreeRun
+from symid.discrepancy.halves import Survival
 from symid.discrepancy.remainder import Test
 from symid.discrepancy.search import Candidate
 from symid.files import write_atomically
@@ -48,6 +51,7 @@ class Diagnosis:
     baseline, final : fits before and after. improved : the model with the found terms.
     runs : free simulations by ``baseline_train``, ``baseline_heldout``, ``augmented_train``, ``augmented_heldout``.
     remainder : tests for something left over. words : the finding in sentences.
+    audit : noise of the sensors, and whether the recording was filtered. halves : each effect on two halves.
     """
 
     verdict: str
@@ -59,7 +63,8 @@ class Diagnosis:
     runs: dict[str, FreeRun]
     remainder: tuple[Test, ...]
     words: str
-    evidence: dict = field(default_factory=dict)
+    audit: Audit
+    halves: tuple[Survival, ...] = ()
 
     @property
     def improved(self) -> Model:
@@ -73,23 +78,45 @@ class Diagnosis:
     def answer(self) -> dict:
         """The finding as plain numbers and text, in the answer format."""
         def rms(when: str) -> dict:
-            return {f"{part}_rms_rad": self.runs[f"{when}_{part}"].rms for part in ("train", "heldout")
-                    if f"{when}_{part}" in self.runs}
+            runs = {part: self.runs[f"{when}_{part}"] for part in ("train", "heldout") if f"{when}_{part}" in self.runs}
+            pieces = {f"{part}_rms_rad_of_segments": [r for _, r in run.of_episodes()] for part, run in runs.items() if len(run.lengths) > 1}
+            return {f"{part}_rms_rad": run.rms for part, run in runs.items()} | pieces
         return {
             "format": FORMAT,
             "verdict": self.verdict,
             "effects": [{"name": e.name, "location": e.location,
                          "time_window_s": None if e.window is None else list(e.window),
-                         "parameters": {k: {"value": v, "std_error": s} for k, (v, s) in e.parameters.items()}}
+                         "parameters": {k: _value(*v) for k, v in e.parameters.items()}}
                         for e in self.effects],
             "ranking": self._ranking(),
             "equivalent": [{"name": c.suspect.term.name, "location": c.suspect.term.location,
                             "why": f"explains the recording almost as well (score {c.score:.1f})"} for c in self.equivalent],
+            "confirmed": self.confirmed,
             "fit": {"baseline": rms("baseline"), "augmented": rms("augmented")},
+            "halves": [self._half(s) for s in self.halves],
+            "recording": self._recording(),
             "remainder": [{"location": t.place, "what": t.what, "gain": t.gain, "degrees_of_freedom": t.size,
                            "minus_log10_probability": min(t.surprise, 300.0)} for t in self.remainder[:3]],
             "words": self.words,
         }
+
+    @property
+    def confirmed(self) -> bool | None:
+        """Whether the held-out window is simulated better with what was found; None where there is neither."""
+        if not self.effects or "augmented_heldout" not in self.runs or self.final is self.baseline:
+            return None
+        return self.runs["augmented_heldout"].rms < self.runs["baseline_heldout"].rms
+
+    @staticmethod
+    def _half(s: Survival) -> dict:
+        return {"name": s.name, "location": s.location, "survives": not s.reason, "reason": s.reason or None,
+                "halves": [{"span_s": list(h.span), "score": h.score if isfinite(h.score) else None,
+                            "parameters": {k: _value(*v) for k, v in h.parameters.items()}} for h in s.halves]}
+
+    def _recording(self) -> dict:
+        names = [y.channel for y in self.improved.outputs.values()]
+        return {"sensor_noise": dict(zip(names, map(float, self.audit.noise), strict=True)), "sensor_noise_stated": self.audit.stated,
+                "filtered_above_Hz": {k: f for k, f in zip(names, map(float, self.audit.cutoff), strict=True) if isfinite(f)}}
 
     def _ranking(self) -> list[dict]:
         """The effects that were found, then the other suspects by score."""
@@ -126,3 +153,7 @@ class Diagnosis:
         rows = "".join(f"<tr><td>{e.name}</td><td>{e.location}</td><td>" + ", ".join(
             f"{k} = {v:.4g} &plusmn; {s:.2g}" for k, (v, s) in e.parameters.items()) + "</td></tr>" for e in self.effects)
         return f"<h4>{self.verdict}</h4><p>{self.words}</p><table>{rows}</table>"
+
+
+def _value(value: float, error: float) -> dict[str, float | None]:
+    return {"value": value, "std_error": error if isfinite(error) else None}

@@ -3,9 +3,11 @@
 from symid.mechanics.bench import BenchDoublePendulum
 from symid.mechanics.chain import Chain, ChainLink
 from symid.mechanics.delayed import DelayedFullState
+from symid.mechanics.facts import model_of
 from symid.mechanics.feedback import PD, Feedback, FullStatePD
 from symid.mechanics.lagrange import lagrange_residuals
 from symid.mechanics.neural import NeuralNetwork
+from symid.mechanics.rig import rig_model
 from symid.mechanics.standing import DoubleLinkPendulum
 from symid.mechanics.terms import CANONICAL, LIBRARY, suspects
 from symid.mechanics.wrap import from_kane, from_lagrange, from_system
@@ -13,5 +15,5 @@ from symid.mechanics.wrap import from_kane, from_lagrange, from_system
 __all__ = [
     "CANONICAL", "LIBRARY", "PD", "BenchDoublePendulum", "Chain", "ChainLink", "DelayedFullState",
     "DoubleLinkPendulum", "Feedback", "FullStatePD", "NeuralNetwork", "from_kane", "from_lagrange", "from_system",
-    "lagrange_residuals", "suspects",
+    "lagrange_residuals", "model_of", "rig_model", "suspects",
 ]

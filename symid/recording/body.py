@@ -40,7 +40,8 @@ def read_body(
         doubled, without a unit, of the wrong dimension, or whose value cannot be used.
     """
     if not isinstance(source, Mapping):
-        name, source = str(source), _load(Path(source))
+        name = str(source)
+    source = load_table(source)
     problems: list[str] = []
     found: dict[str, float] = {}
     for key, value in source.items():
@@ -59,7 +60,11 @@ def read_body(
     return {quantity: found[quantity] for quantity in required}
 
 
-def _load(path: Path) -> dict[str, object]:
+def load_table(source: str | os.PathLike | Mapping[str, object]) -> Mapping[str, object]:
+    """The JSON object in a file, without a look at its keys; a mapping is given back as it is."""
+    if isinstance(source, Mapping):
+        return source
+    path = Path(source)
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:

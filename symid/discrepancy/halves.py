@@ -1,0 +1,115 @@
+"""Does a finding survive on each half of the recording alone?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import hypot
+
+import numpy as np
+
+from symid.discrepancy.data import Data
+from symid.discrepancy.fit import Fit, Fitter
+from symid.discrepancy.robust import with_robust_errors
+from symid.discrepancy.search import price
+from symid.discrepancy.suspects import Suspect
+from symid.errors import SymidError
+
+APART = 3.0
+"""Values from two halves that differ by more than so many of their standard errors contradict each other."""
+ITERATIONS = 15
+
+
+@dataclass(frozen=True)
+class Half:
+    """One effect on one half of the fit window.
+
+    Attributes
+    ----------
+    span : start and end [s]. score : likelihood gain that is lost without the effect, less its price.
+    parameters : key -> (value, standard error), SI.
+    """
+
+    span: tuple[float, float]
+    score: float
+    parameters: dict[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Survival:
+    """One effect on both halves. `reason` is empty where it survives."""
+
+    name: str
+    location: str
+    halves: tuple[Half, Half]
+    reason: str = ""
+
+
+def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool) -> tuple[Survival, ...]:
+    """Every lasting effect refitted on two disjoint halves, each compared with the model that lacks only it.
+
+    Effects that last for a time only, or begin at one, are left out: a half need not contain them.
+
+    Parameters
+    ----------
+    white : whether surprises are white, so that plain standard errors are believed.
+    """
+    lasting = [s for s in suspects if s.scanned is None or s.scanned.key == "frequency_Hz"]
+    if not lasting or not fit.errors:
+        return ()
+    states, found = _states(fit, data), []
+    for half, initial in zip(data.halves(), states, strict=True):
+        found.append(_on_half(lasting, list(suspects), replace(fit, initial=initial), base, half, white))
+        if found[-1] is None:
+            return ()
+    return tuple(Survival(s.term.name, s.term.location, pair, _reason(pair)) for s, pair in zip(lasting, zip(*found, strict=True), strict=True))
+
+
+def _states(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
+    """Where the initial states of the halves are looked for."""
+    if len(data.episodes) > 1:
+        n = len(data.episodes) // 2
+        return fit.initial[:n], fit.initial[n:]
+    fitter = Fitter(fit.model, data)
+    p = np.array([fit.values[k] for k in fitter.sim.parameters])
+    run, = fitter.run(p, fit.initial, fit.gain, sensitivities=False, keep="states")
+    return fit.initial, run.x[[len(run.x) // 2]]
+
+
+def _on_half(lasting: list[Suspect], suspects: list[Suspect], near: Fit, base: Fit, data: Data, white: bool) -> list[Half] | None:
+    """The lasting effects on one half, or None where the found model cannot be fitted to it."""
+    whole = _refit(suspects, near, base, data)
+    if whole is None:
+        return None
+    trusted, halves = whole if white else with_robust_errors(whole, data), []
+    for s in lasting:
+        less = _refit([t for t in suspects if t is not s], near, base, data)
+        score = np.inf if less is None else whole.loglik2 - less.loglik2 - price([s], data, less, whole)
+        names = {q.key: s.term.parameter_name(q.key) for q in s.law.parameters}
+        halves.append(Half(data.span, float(score), {key: (trusted.values[k], trusted.errors[k]) for key, k in names.items()}))
+    return halves
+
+
+def _refit(suspects: list[Suspect], near: Fit, base: Fit, data: Data) -> Fit | None:
+    """The base model with these suspects, from the values and states of a fit that has them all."""
+    model = base.model
+    for s in suspects:
+        model = model.with_term(s.term)
+    fitter = Fitter(model, data)
+    columns = [near.simulator.states.index(k) for k in fitter.sim.states]
+    try:
+        return fitter.fit({k: near.values[k] for k in fitter.sim.parameters}, near.initial[:, columns], near.process, ITERATIONS)
+    except SymidError:
+        return None
+
+
+def _reason(halves: tuple[Half, Half]) -> str:
+    """Why an effect does not survive, or nothing."""
+    for half, which in zip(halves, ("first", "second"), strict=True):
+        if half.score <= 0:
+            return f"the {which} half alone does not ask for it"
+    for key in halves[0].parameters:
+        (a, s), (b, r) = (h.parameters[key] for h in halves)
+        if abs(a - b) > APART * hypot(s, r):
+            return f"its {key.rsplit('_', 1)[0] if '_' in key else key} differs between the halves by {abs(a - b) / max(hypot(s, r), 1e-300):.0f} standard errors"
+    return ""

@@ -1,0 +1,59 @@
+"""The model that the facts of a case describe: a standing person, or a rig on a bench."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+
+from symid.errors import ModelError
+from symid.mechanics.feedback import PD, FullStatePD
+from symid.mechanics.rig import rig_model
+from symid.mechanics.standing import DoubleLinkPendulum
+from symid.model import Model
+
+CONTROLLERS = {"PD": PD, "FPD": FullStatePD}
+_BODY = {"leg_length": "l_L_m", "leg_com": "d_L_m", "trunk_com": "d_T_m", "leg_mass": "m_L_kg",
+         "trunk_mass": "m_T_kg", "leg_inertia": "I_L_kg_m2", "trunk_inertia": "I_T_kg_m2"}
+
+
+def model_of(facts: Mapping, channels: Iterable[str] = ()) -> Model:
+    """The model of a case from what its user knows, the content of a ``case.json``.
+
+    Parameters
+    ----------
+    facts : with ``system`` ("standing" or "rig"), its ``body`` or ``parameters``, and ``baseline``:
+        a standing person's ``controller``, a rig's ``terms`` (none: conservative).
+    channels : of the recording, see `rig_model`.
+
+    Raises
+    ------
+    ModelError : naming what is missing or unknown. RecordingError : about a rig's parameters.
+    """
+    readers = {"standing": _standing, "rig": _rig}
+    if facts.get("system") not in readers:
+        raise ModelError(f"system is '{facts.get('system')}'; known: {', '.join(readers)}")
+    return readers[facts["system"]](facts, channels)
+
+
+def _table(facts: Mapping, key: str) -> Mapping:
+    if not isinstance(facts.get(key), Mapping):
+        raise ModelError(f"the key '{key}' is missing" if key not in facts else f"'{key}' is no table of names and numbers")
+    return facts[key]
+
+
+def _standing(facts: Mapping, channels: Iterable[str]) -> Model:
+    body, controller = _table(facts, "body"), _table(facts, "baseline").get("controller")
+    missing = [k for k in _BODY.values() if k not in body]
+    if missing:
+        raise ModelError(f"body has no '{missing[0]}'")
+    if controller not in CONTROLLERS:
+        raise ModelError(f"baseline controller is '{controller}'; known: {', '.join(CONTROLLERS)}")
+    person = DoubleLinkPendulum(**{k: body[v] for k, v in _BODY.items()}, gravity=facts.get("gravity_m_s2", 9.81))
+    return person.with_feedback(CONTROLLERS[controller]())
+
+
+def _rig(facts: Mapping, channels: Iterable[str]) -> Model:
+    terms = _table(facts, "baseline").get("terms", ()) if "baseline" in facts else ()
+    odd = [t for t in terms if t != "conservative" and not t.startswith("viscous_friction:")]
+    if odd:
+        raise ModelError(f"baseline has the term '{odd[0]}'; known: conservative, viscous_friction:<joint>")
+    return rig_model(_table(facts, "parameters"), channels, [t.partition(":")[2] for t in terms if ":" in t])

@@ -1,0 +1,86 @@
+"""Bench rigs: hanging chains of links from a table of parameters, as their recording drives them."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+
+from symid.errors import ModelError, RecordingError
+from symid.mechanics.chain import Chain, ChainLink
+from symid.mechanics.terms import LIBRARY
+from symid.model import Input, Model
+from symid.recording import read_body
+from symid.recording.body import load_table
+
+BASES = ("base", "cart", "pivot", "platform", "mount")
+"""Names by which a recording may call what the first joint is fixed to."""
+_QUANTITIES = {"m": "kg", "a": "m", "I": "kg*m^2", "L": "m"}
+_LONG = {"mass": "m", "com": "a", "inertia": "I", "length": "L"}
+_FIELDS = {"m": "mass", "a": "com", "I": "inertia", "L": "length"}
+_COUNT = {1: "pendulum", 2: "double pendulum", 3: "triple pendulum"}
+
+
+def rig_model(parameters: Mapping[str, object] | str | os.PathLike, channels: Iterable[str] = (),
+              friction: Iterable[str] = ()) -> Model:
+    """A chain of links that hangs from a mount, as its parameters and its recording say.
+
+    Parameters
+    ----------
+    parameters : JSON file or its content, flat or under the key ``parameters``: masses ``m1_kg``,
+        joint to centre of mass ``a1_m``, inertias about the centres of mass ``I1_kg_m2``, joint
+        to joint ``L1_m`` for all links but the last, and ``g_m_s2`` (9.81 if left out); or
+        ``link1_mass_kg``, ``link1_com_m``, ``link1_inertia_kg_m2``, ``link1_length_m``,
+        ``gravity_m_s2``. Other keys, such as friction that somebody published, are left out.
+    channels : of the recording. Angles called ``joint1_angle`` are relative to the link before,
+        ``link1_angle`` from the downward vertical. An acceleration of what carries the chain
+        (``cart_acceleration``; see `BASES`) drives it, and so do torques (``joint1_torque``).
+    friction : joints that the model gives an unknown viscous friction.
+
+    Raises
+    ------
+    RecordingError : listing every key that is missing or has no usable value.
+    ModelError : `friction` names a joint that the rig does not have.
+    """
+    name = "rig" if isinstance(parameters, Mapping) else str(parameters)
+    content = load_table(parameters)
+    content = content.get("parameters", content)
+    if not isinstance(content, Mapping):
+        raise RecordingError(f"{name}: 'parameters' must be an object such as {{\"m1_kg\": 0.09}}")
+    table = {_short(k): v for k, v in content.items()}
+    count = max([int(n) for k in table for n in re.findall(r"^[maIL](\d+)_", k)], default=0)
+    if count == 0:
+        raise RecordingError(f"{name}: no link has a mass; give m1_kg, a1_m and I1_kg_m2 for one link, and m2_kg ... for more")
+    needed = {f"{q}{i}": unit for i in range(1, count + 1) for q, unit in _QUANTITIES.items() if q != "L" or i < count}
+    gravity = {"g": "m/s^2"} if any(k.startswith("g_") for k in table) else {}
+    own = {k: v for k, v in table.items() if k.split("_")[0] in needed | gravity}
+    values = {"g": 9.81} | read_body(own, needed | gravity, name)
+    links = tuple(ChainLink(f"link{i}", constants=tuple((_FIELDS[q], f"{q}{i}") for q in _QUANTITIES),
+                            **{_FIELDS[q]: values.get(f"{q}{i}") for q in _QUANTITIES}) for i in range(1, count + 1))
+    return _driven(Chain(links, gravity=values["g"], name=f"{_COUNT.get(count, f'chain of {count} links')} on a bench"),
+                   set(channels), tuple(friction))
+
+
+def _short(key: str) -> str:
+    """``link1_mass_kg`` as ``m1_kg``, ``gravity_m_s2`` as ``g_m_s2``, ``m_kg`` of a single link as ``m1_kg``."""
+    key = re.sub(r"^link(\d+)_(mass|com|inertia|length)_", lambda k: f"{_LONG[k[2]]}{k[1]}_", key)
+    key = re.sub(r"^gravity_", "g_", key)
+    return re.sub(r"^([maI])_(?=kg|m)", r"\g<1>1_", key)
+
+
+def _driven(chain: Chain, channels: set[str], friction: tuple[str, ...]) -> Model:
+    """The model of a chain with the inputs that the recording has."""
+    absolute = not any(f"{j}_angle" in channels for j in chain.joints)
+    base = next((f"{b}_acceleration" for b in BASES if f"{b}_acceleration" in channels), "")
+    model = replace(chain, absolute=absolute, base_channel=base).plant()
+    for joint in chain.joints:
+        if (torque := f"{joint}_torque") in channels:
+            setattr(model, torque, Input(unit="N*m", channel=torque, role="excitation", at="input",
+                                         meaning=f"recorded torque of a drive at the {joint}"))
+            model.add_effort(joint, model[torque].symbol)
+    for joint in friction:
+        if joint not in chain.joints:
+            raise ModelError(f"friction at '{joint}': the {chain.name} has no such joint; it has {', '.join(chain.joints)}")
+        model = model.with_term(LIBRARY["viscous_friction"].at(joint))
+    return model
