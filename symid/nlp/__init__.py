@@ -4,6 +4,7 @@ Knows no time, no mechanics and no solver; NumPy and SciPy alone.
 """
 
 from symid.nlp.derivatives import DerivativeReport, check_derivatives
+from symid.nlp.hurwitz import with_hurwitz
 from symid.nlp.optimality import OptimalityReport, check_optimality
 from symid.nlp.program import NonlinearProgram
 from symid.nlp.ridge import with_ridge
@@ -16,5 +17,6 @@ __all__ = [
     "check_derivatives",
     "check_optimality",
     "soften",
+    "with_hurwitz",
     "with_ridge",
 ]
