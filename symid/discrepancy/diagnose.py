@@ -10,6 +10,7 @@ import numpy as np
 
 from symid.discrepancy.audit import audit
 from symid.discrepancy.baseline import fit_baseline
+from symid.discrepancy.bias import unbiased
 from symid.discrepancy.data import Data, episodes_of
 from symid.discrepancy.diagnosis import Diagnosis, Effect
 from symid.discrepancy.fit import Fit, Fitter
@@ -104,6 +105,9 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     white = all(t.locates or t.surprise <= REMAINDER for t in left)
     if not white:
         found = replace(found, fit=with_robust_errors(found.fit, data))
+    elif found.established:
+        names = [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters]
+        found = replace(found, fit=unbiased(found.fit, data, names, threads))
     verdict, effects, equivalent = _judge(found, ranking, left, base, data)
     survived = survivals(found.suspects, found.fit, base, data, white)
     runs = {"baseline_train": free_run(base, data, settling), "augmented_train": free_run(found.fit, data, settling)}
