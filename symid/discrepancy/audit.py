@@ -21,6 +21,8 @@ ROUNDING = 1e-5
 """A floor this small beside the motion is the rounding of a file and no sensor."""
 NOTHING = 1e-3
 """Above the cutoff lies less than this part of the motion."""
+MOST_LEVELS = 0.5
+"""More different values than this part of the samples are no steps of an encoder."""
 UNKNOWN = 1e-3
 """Noise of a sensor of which nothing can be known; the fit finds what matters, its ratio to the process noise."""
 
@@ -33,11 +35,13 @@ class Audit:
     ----------
     noise : (m,) standard deviation of the sensor [SI]. stated : whether that was given.
     cutoff : (m,) above this frequency the signal is empty, so it was low-pass filtered [Hz]; NaN where not.
+    rounding : (m,) step of the encoder [SI], 0 where values are not rounded visibly.
     """
 
     noise: np.ndarray
     stated: bool
     cutoff: np.ndarray
+    rounding: np.ndarray
 
     @property
     def filtered(self) -> bool:
@@ -49,11 +53,12 @@ def audit(model: Model, recording: Recording, episodes: tuple[Episode, ...], giv
     table = given if isinstance(given, Mapping) else recording.noise if given is None else {}
     names = [y.channel for y in model.outputs.values()]
     cutoff = np.array([_cutoff([e.recorded[:, i] for e in episodes], episodes[0].step) for i in range(len(names))])
+    rounding = np.array([_step(np.concatenate([e.recorded[:, i] for e in episodes])) for i in range(len(names))])
     if isinstance(given, (int, float)):
-        return Audit(np.full(len(names), float(given)), True, cutoff)
+        return Audit(np.full(len(names), float(given)), True, cutoff, rounding)
     noise = [float(table[c]) if c in table else white_noise([e.recorded[:, i] for e in episodes]) if np.isnan(cutoff[i]) else UNKNOWN
              for i, c in enumerate(names)]
-    return Audit(np.array(noise), all(c in table for c in names), cutoff)
+    return Audit(np.array(noise), all(c in table for c in names), cutoff, rounding)
 
 
 def white_noise(pieces: list[np.ndarray]) -> float:
@@ -64,6 +69,17 @@ def white_noise(pieces: list[np.ndarray]) -> float:
     differences = [np.diff(x, ORDER) for x in pieces if len(x) > ORDER]
     power = np.mean(np.concatenate(differences) ** 2) / comb(2 * ORDER, ORDER)
     return float(np.sqrt(max(power, 1e-18 + 1e-12 * np.mean(np.concatenate(pieces) ** 2))))
+
+
+def _step(x: np.ndarray) -> float:
+    """The step of which all values are multiples (but for one offset), 0 where most values differ from each other."""
+    levels = np.unique(np.round(x, 8))
+    if not 3 <= len(levels) <= MOST_LEVELS * len(x):
+        return 0.0
+    gaps = np.diff(levels)
+    step = float(np.median(gaps[gaps < 1.5 * gaps.min()]))
+    counts = gaps / step
+    return step if np.all(np.abs(counts - np.round(counts)) < 0.1) else 0.0
 
 
 def _cutoff(pieces: list[np.ndarray], step: float) -> float:

@@ -61,11 +61,13 @@ class Data:
     episodes : each with an initial state of its own.
     sensor_noise : (m,) stated standard deviation of each output's sensor, SI.
     driven : whether random forces act at the model's noises (then samples correct the state).
+    rounding : (m,) step of each output's encoder, 0 for none, SI.
     """
 
     episodes: tuple[Episode, ...]
     sensor_noise: np.ndarray
     driven: bool
+    rounding: np.ndarray | float = 0.0
 
     @property
     def samples(self) -> int:
@@ -76,7 +78,7 @@ class Data:
         return min(float(e.time[0]) for e in self.episodes), max(float(e.time[-1]) for e in self.episodes)
 
     def with_episodes(self, episodes) -> Data:
-        return Data(tuple(episodes), self.sensor_noise, self.driven)
+        return Data(tuple(episodes), self.sensor_noise, self.driven, self.rounding)
 
     def halves(self) -> tuple[Data, Data]:
         """The first and the second half: of the episodes, or of the only one."""

@@ -39,6 +39,8 @@ BEYOND = 25.0
 REMAINDER = 5.5
 """-log10 of the probability by chance from which a remainder counts as systematic."""
 EQUIVALENT = 12.0
+FAR = 5.0
+"""Errors so many times the sensors' noise are not explained by whatever acts at one place alone."""
 MOST_EFFECTS = 6
 RIVALS = 5
 BEAM = 3
@@ -91,7 +93,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
         raise DiagnosisError("diagnose: a model alone is not enough; give the recording and fit_window=(t0, t1)")
     episodes = episodes_of(model, recording, fit_window, episode_length)
     checked = audit(model, recording, episodes, sensor_noise)
-    data = Data(episodes, checked.noise, driven).thinned()
+    data = Data(episodes, checked.noise, driven, checked.rounding).thinned()
     base = fit_baseline(model, data, dict(start or {}))
     progress(f"the model as given is fitted ({base.iterations} iterations)")
     pool = list(established_suspects(model) if suspects is None else suspects)
@@ -100,10 +102,13 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     found = _polished(found, data)
     left = remainder(found.fit, data)
     progress("tested for a remainder")
-    if (len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER) and _beaten(found, anything()):
+    if (len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER) and _beaten(found, anything(), data):
         found, left = anything(), remainder(anything().fit, data)
     white = all(t.locates or t.surprise <= REMAINDER for t in left)
     if not white:
+        steady = _steady(found, base, data)
+        if steady is not None:
+            found, left = steady, remainder(steady.fit, data)
         found = replace(found, fit=with_robust_errors(found.fit, data))
     elif found.established:
         names = [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters]
@@ -139,7 +144,7 @@ def _explain(base: Fit, data: Data, pool: list[Suspect], anything: Callable[[], 
         return best, single
     best = alone
     while len(best.suspects) < MOST_EFFECTS:
-        if len(best.suspects) > 1 and (not best.established or _beaten(best, anything())):
+        if len(best.suspects) > 1 and (not best.established and _enough(best, data) or _beaten(best, anything(), data)):
             break
         progress(f"found {', '.join(str(s.term) for s in best.suspects)}; looking for more")
         more = _extended(best, data, pool, threads, progress)
@@ -160,9 +165,15 @@ def _anything(base: Fit, data: Data) -> Explanation:
     return Explanation((best.suspect,), best.fit, best.score)
 
 
-def _beaten(found: Explanation, anything: Explanation) -> bool:
+def _beaten(found: Explanation, anything: Explanation, data: Data) -> bool:
     """Whether a flexible law at one place explains more than all that has a name: what acts there is in no list."""
-    return anything.score > max(found.score, 0.0) + DOUBT
+    return _enough(anything, data) and anything.score > max(found.score, 0.0) + DOUBT
+
+
+def _enough(found: Explanation, data: Data) -> bool:
+    """Whether what it leaves of a free motion is not far above the sensors' noise: else more than one thing is missing."""
+    rms = np.sqrt(np.mean(np.vstack(found.fit.surprise) ** 2, axis=0))
+    return found.fit.gain is not None or bool(np.all(rms < FAR * data.sensor_noise))
 
 
 def _polished(found: Explanation, data: Data) -> Explanation:
@@ -171,6 +182,16 @@ def _polished(found: Explanation, data: Data) -> Explanation:
         return found
     fit = Fitter(found.fit.model, data).again(found.fit)
     return Explanation(found.suspects, fit, found.score + fit.loglik2 - found.fit.loglik2)
+
+
+def _steady(found: Explanation, base: Fit, data: Data) -> Explanation | None:
+    """The explanation without oscillations that one half of the data contradicts: what is no sine keeps no frequency."""
+    fickle = {(v.name, v.location) for v in survivals([s for s in found.suspects if s.phase], found.fit, base, data, white=False, others=found.suspects) if v.reason}
+    kept = [s for s in found.suspects if (s.term.name, s.term.location) not in fickle]
+    if not kept or len(kept) == len(found.suspects):
+        return None
+    less = _fit_with(kept, found.fit, base, data)
+    return None if less is None else _polished(less, data)
 
 
 def _preferred(found: list[Explanation]) -> Explanation | None:

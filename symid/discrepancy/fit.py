@@ -21,8 +21,8 @@ from symid.simulation import Simulator, simulator
 
 TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
-LONGEST_STEP = 0.01
-"""The integrator takes no longer steps than this [s]."""
+LONGEST_STEP = {True: 0.01, False: 0.005}
+"""The integrator takes no longer steps than this [s], with random forces and without: free motion shows dry friction's corners."""
 PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
 REACH = 0.03
@@ -88,7 +88,7 @@ class Fitter:
         self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
         self.driven = data.driven and bool(model.noises)
         self.step = data.episodes[0].step
-        self.substeps = max(1, int(np.ceil(self.step / (1.01 * LONGEST_STEP))))
+        self.substeps = max(1, int(np.ceil(self.step / (1.01 * LONGEST_STEP[self.driven]))))
 
     # ---- one evaluation --------------------------------------------------------------
     def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs"):
@@ -124,7 +124,8 @@ class Fitter:
         every = np.vstack(surprise)
         cov = every.T @ every / len(every)
         if not self.driven:
-            cov = np.diag(np.diag(cov))
+            # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
+            cov = np.diag(np.diag(cov) + (1e-6 * self.data.sensor_noise) ** 2)
         sign, logdet = np.linalg.slogdet(cov / np.outer(self.data.sensor_noise, self.data.sensor_noise))
         return (-len(every) * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), cov
 

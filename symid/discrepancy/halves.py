@@ -45,21 +45,21 @@ class Survival:
     reason: str = ""
 
 
-def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool) -> tuple[Survival, ...]:
-    """Every lasting effect refitted on two disjoint halves, each compared with the model that lacks only it.
+def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool, others: Sequence[Suspect] = ()) -> tuple[Survival, ...]:
+    """Every lasting effect of `suspects` refitted on two disjoint halves, each compared with the model that lacks only it.
 
     Effects that last for a time only, or begin at one, are left out: a half need not contain them.
 
     Parameters
     ----------
-    white : whether surprises are white, so that plain standard errors are believed.
+    others : all suspects in `fit`, where those asked for are not all. white : whether surprises are white, so that plain standard errors are believed.
     """
     lasting = [s for s in suspects if s.scanned is None or s.scanned.key == "frequency_Hz"]
     if not lasting or not fit.errors:
         return ()
     states, found = _states(fit, data), []
     for half, initial in zip(data.halves(), states, strict=True):
-        found.append(_on_half(lasting, list(suspects), replace(fit, initial=initial), base, half, white))
+        found.append(_on_half(lasting, list(others or suspects), replace(fit, initial=initial), base, half, white))
         if found[-1] is None:
             return ()
     return tuple(Survival(s.term.name, s.term.location, pair, _reason(pair)) for s, pair in zip(lasting, zip(*found, strict=True), strict=True))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,10 @@ from symid.errors import SymidError
 from symid.model import Term
 from symid.simulation import Simulator, simulator
 
+ROUNDINGS = 12
+"""So often the rounding of encoders is simulated."""
+WHITENING = 0.6
+"""Noise of this part of an encoder's step makes its rounding errors random (Widrow 1961)."""
 WHITENESS_LAGS = 25
 """So many lags of the surprises' correlation enter the test of whiteness."""
 
@@ -47,6 +52,8 @@ class Test:
 def remainder(fit: Fit, data: Data) -> list[Test]:
     """All tests, the most surprising first."""
     screen, found = Screen(fit, data), []
+    rounded = _rounded(fit, data)
+    nulls = [screen.project(np.concatenate([screen.whiten(s[:, :, None])[:, 0] for s in null])) for null in rounded]
     for term in flexible_terms(fit, data):
         try:
             sim = simulator(fit.model.with_term(term))
@@ -55,8 +62,11 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
         columns = _columns(screen, sim, term)
         if columns is not None:
             gain, coefficients = screen.score(columns)
-            found.append(Test(term.location, _WHAT[term.name], gain, int(np.count_nonzero(coefficients))))
-    found += [_whiteness(screen, fit, o, name) for o, name in enumerate(fit.model.outputs)]
+            size = int(np.count_nonzero(coefficients))
+            found.append(Test(term.location, _WHAT[term.name], gain / _excess([screen.score(columns, r)[0] for r in nulls], size), size))
+    for o, y in enumerate(fit.model.outputs.values()):
+        statistic = _ljung_box(screen, fit.surprise, o) / _excess([_ljung_box(screen, r, o) for r in rounded], WHITENESS_LAGS)
+        found.append(Test(y.at, "surprises that follow from earlier ones", statistic, WHITENESS_LAGS, locates=False))
     return sorted(found, key=lambda t: -round(t.surprise, 1))
 
 
@@ -72,17 +82,44 @@ def _columns(screen: Screen, sim: Simulator, term: Term) -> np.ndarray | None:
     return np.vstack(out)
 
 
-def _whiteness(screen: Screen, fit: Fit, output: int, name: str) -> Test:
+def _ljung_box(screen: Screen, surprise: Sequence[np.ndarray], output: int) -> float:
     """Ljung-Box (1978) statistic of one output's surprises over all episodes."""
     total, count = np.zeros(WHITENESS_LAGS), 0
     power = 0.0
-    for s in fit.surprise:
+    for s in surprise:
         e = (s @ screen.white.T)[:, output]
         count += len(e)
         power += e @ e
         total += [e[k:] @ e[:-k] for k in range(1, WHITENESS_LAGS + 1)]
     r = total / power
     lags = np.arange(1, WHITENESS_LAGS + 1)
-    statistic = count * (count + 2) * float(np.sum(r**2 / (count - lags)))
-    return Test(fit.model.outputs[name].at, "surprises that follow from earlier ones", statistic, WHITENESS_LAGS,
-                locates=False)
+    return count * (count + 2) * float(np.sum(r**2 / (count - lags)))
+
+
+# ---- what rounding does to the tests -----------------------------------------------------------
+def _rounded(fit: Fit, data: Data) -> list[list[np.ndarray]]:
+    """Surprises of encoders that show the fitted motion and nothing else; none where steps are small beside the noise.
+
+    Where an encoder hardly trembles, its rounding errors follow each other in slow motion.
+    """
+    step = data.rounding
+    if fit.gain is not None or not np.any(step):
+        return []
+    tremble = np.sqrt(np.maximum(np.diag(fit.covariance) - step**2 / 12, 0.0))
+    if np.all(tremble > WHITENING * step):
+        return []
+    found = []
+    for seed in range(ROUNDINGS):
+        rng, safe, null = np.random.default_rng(seed), np.where(step > 0, step, 1.0), []
+        offset = rng.uniform(0, 1, len(step)) * step
+        for e, s in zip(data.episodes, fit.surprise, strict=True):
+            shown = e.recorded - s + offset
+            noisy = shown + tremble * rng.standard_normal(s.shape)
+            null.append(np.where(step > 0, np.round(noisy / safe) * safe, noisy) - shown)
+        found.append(null)
+    return found
+
+
+def _excess(nulls: list[float], size: int) -> float:
+    """How many times larger than by chance a statistic is because of rounding alone."""
+    return max(1.0, float(np.mean(nulls)) / max(size, 1)) if nulls else 1.0

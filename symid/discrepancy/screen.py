@@ -44,14 +44,15 @@ class Screen:
     def project(self, a: np.ndarray) -> np.ndarray:
         return a - self.own @ (self.own.T @ a)
 
-    def score(self, columns: np.ndarray) -> tuple[float, np.ndarray]:
-        """Gain of twice the log-likelihood forecast for (N m, q) columns, and their coefficients."""
+    def score(self, columns: np.ndarray, rest: np.ndarray | None = None) -> tuple[float, np.ndarray]:
+        """Gain of twice the log-likelihood forecast for (N m, q) columns, and their coefficients; of other surprises if given."""
+        rest = self.rest if rest is None else rest
         a = self.project(columns)
         kept = (a**2).sum(0) > 1e-8 * (columns**2).sum(0)
         scale = np.sqrt((a**2).sum(0)) + 1e-300
         a = np.where(kept, a / scale, 0.0)
-        c, *_ = np.linalg.lstsq(a.T @ a, a.T @ self.rest, rcond=1e-8)
-        return float(c @ (a.T @ self.rest)), c / scale
+        c, *_ = np.linalg.lstsq(a.T @ a, a.T @ rest, rcond=1e-8)
+        return float(c @ (a.T @ rest)), c / scale
 
     def response(self, suspect: Suspect, sim: Simulator, values: dict[str, float],
                  each: Sequence[dict[str, float]] | None = None) -> np.ndarray | None:

@@ -162,7 +162,7 @@ def _halves(s: Story) -> list[str]:
     out = []
     if kept:
         out.append(f"{'It' if one else _capital(_listed(kept))} {'survives' if one or len(kept) == 1 else 'survive'} on both halves "
-                   "of the fit window, each fitted alone.")
+                   "of the fit window, taken alone.")
     out += [f"{'It' if one else _capital(law_name(v.name, v.location))} does not survive on two halves of the fit window: {v.reason}."
             for v in s.survived if v.reason]
     return out
