@@ -36,7 +36,7 @@ DOUBT = 10.0
 """A hypothesis must beat what established suspects reach by this much to make the finding unexplained."""
 BEYOND = 25.0
 """A hypothesis on top of an established suspect, or a third effect, is accepted only from this score on."""
-REMAINDER = 5.5
+REMAINDER = 4.5
 """-log10 of the probability by chance from which a remainder counts as systematic."""
 EQUIVALENT = 12.0
 FAR = 5.0
