@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass
+from html import escape
 from importlib import import_module
 from math import isfinite
 from pathlib import Path
@@ -150,9 +151,14 @@ class Diagnosis:
         return f"<Diagnosis: {self.verdict}{': ' * bool(found)}{found}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><td>{e.name}</td><td>{e.location}</td><td>" + ", ".join(
-            f"{k} = {v:.4g} &plusmn; {s:.2g}" for k, (v, s) in e.parameters.items()) + "</td></tr>" for e in self.effects)
-        return f"<h4>{self.verdict}</h4><p>{self.words}</p><table>{rows}</table>"
+        cell = "style='text-align:left;padding:2px 14px 2px 0'"
+        rows = [["effect", "place", "value, SI (± standard error)"]] if self.effects else []
+        rows += [[e.name.replace("_", " "), e.location, ", ".join(f"{k} = {v:.4g} ± {s:.2g}" for k, (v, s) in e.parameters.items()) or e.sentence]
+                 for e in self.effects]
+        table = "".join("<tr>" + "".join(f"<{kind} {cell}>{escape(x)}</{kind}>" for x in row) + "</tr>"
+                        for row, kind in zip(rows, ["th"] + ["td"] * len(rows), strict=False))
+        verdict = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}[self.verdict]
+        return (f"<div style='max-width:46em'><p><b>{verdict}</b> &middot; {escape(self.baseline.model.name)}</p>" + "".join(f"<p>{escape(line)}</p>" for line in self.words.split("\n")) + (f"<table>{table}</table>" if rows else "") + "</div>")
 
 
 def _value(value: float, error: float) -> dict[str, float | None]:

@@ -18,6 +18,7 @@ from symid.errors import SymidError
 APART = 3.0
 """Values from two halves that differ by more than so many of their standard errors contradict each other."""
 ITERATIONS = 15
+_UNITS = ("Nm", "Nms", "N", "rad", "rad2", "rad3", "s", "s2", "Hz", "kg", "m", "m2")
 
 
 @dataclass(frozen=True)
@@ -111,5 +112,12 @@ def _reason(halves: tuple[Half, Half]) -> str:
     for key in halves[0].parameters:
         (a, s), (b, r) = (h.parameters[key] for h in halves)
         if abs(a - b) > APART * hypot(s, r):
-            return f"its {key.rsplit('_', 1)[0] if '_' in key else key} differs between the halves by {abs(a - b) / max(hypot(s, r), 1e-300):.0f} standard errors"
+            return f"its {_said(key)} differs between the halves by {abs(a - b) / hypot(s, r):.0f} standard errors"
     return ""
+
+
+def _said(key: str) -> str:
+    """A parameter's key without its unit: "time constant" of ``time_constant_s``."""
+    words = key.split("_")
+    kept = [w for w in words if w not in _UNITS]
+    return " ".join(kept if kept else words)

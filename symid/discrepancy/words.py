@@ -98,9 +98,9 @@ class Story:
 
 
 def words(story: Story) -> str:
-    """Everything that a reader should know, most important first."""
-    parts = (_finding(story), _losses(story), _alike(story), _proof(story), _halves(story), _rest(story), _caveats(story))
-    return " ".join(text for part in parts for text in part)
+    """Everything that a reader should know, most important first, one line a paragraph."""
+    parts = (_finding(story), _losses(story) + _alike(story), _proof(story) + _rest(story), _halves(story), _caveats(story))
+    return "\n".join(" ".join(part) for part in parts if part)
 
 
 def _finding(s: Story) -> list[str]:

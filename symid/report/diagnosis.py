@@ -33,7 +33,8 @@ def write_diagnosis_report(diagnosis: Diagnosis, path: str | Path, name: str = "
 def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: dict[str, object] | None = None) -> str:
     """The same as text."""
     d = diagnosis
-    parts = [paragraph(d.words, "lead"), paragraph(f"Verdict: {VERDICTS[d.verdict].lower()} ({MEANING[d.verdict]}).", "note")]
+    first, *more = d.words.split("\n")
+    parts = [paragraph(first, "lead"), *map(paragraph, more), paragraph(f"Verdict: {VERDICTS[d.verdict].lower()} ({MEANING[d.verdict]}).", "note")]
     if d.effects:
         parts += [heading("What is missing"), effects_table(d)]
     if d.equivalent:
@@ -55,13 +56,14 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
 
 
 def effects_table(d: Diagnosis) -> str:
-    """What was found: law, place, parameters with standard errors, when, and how much it gains."""
+    """What was found: law, place, when, whether each half of the window asks for it, parameters with standard errors."""
+    kept = {(s.name, s.location): "no" if s.reason else "yes" for s in d.halves}
     rows = []
     for e in d.effects:
         values = "; ".join(f"{k} = {_with_error(v, s)}" for k, (v, s) in e.parameters.items())
         when = "always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s"
-        rows.append([_plain(e.name), e.location, when, float(e.gain), values or e.sentence])
-    return table(["effect", "place", "when", "gain", "parameters (SI)"], rows)
+        rows.append([_plain(e.name), e.location, when, kept.get((e.name, e.location), ""), values or e.sentence])
+    return table(["effect", "place", "when", "on both halves", "parameters (SI)"], rows)
 
 
 def _with_error(value: float, error: float) -> str:
@@ -107,6 +109,11 @@ def _fits(d: Diagnosis) -> str:
         if f"baseline_{key}" in d.runs:
             before, after = (d.runs[f"{k}_{key}"].rms for k in ("baseline", "augmented"))
             rows.append([title, _short(degrees(before)), _short(degrees(after)), round(100 * (1 - after / before), 1)])
+    later = d.runs.get("augmented_heldout")
+    if later is not None and len(later.lengths) > 1:
+        before = d.runs["baseline_heldout"].of_episodes()
+        rows += [[f"  held out, segment from {t:.1f} s", _short(degrees(b)), _short(degrees(a)), round(100 * (1 - a / b), 1)]
+                 for (t, b), (_, a) in zip(before, later.of_episodes(), strict=True)][:MOST]
     head = ["free simulation", "model as given, RMS [deg]", "improved, RMS [deg]", "error removed [%]"]
     return table(head, rows) if d.effects else table(head[:2], [row[:2] for row in rows])
 
@@ -118,6 +125,8 @@ def _where(d: Diagnosis) -> list[str]:
     after = latent_torques(d.final, d.runs["augmented_train"]) if d.effects else ()
     caption = ("The force that would have to be added at each place to make the free run follow the recording, with two standard "
                "errors; it holds what random forces contribute as well.")
+    if d.baseline.gain is None:
+        caption += " It rests on one mean linearisation, so where the motion is large it is a rough picture."
     return [figure(plot_latent(before, after), caption)]
 
 
@@ -129,7 +138,7 @@ def _ranking(d: Diagnosis) -> str:
 
 def _remainder(d: Diagnosis) -> str:
     rows = [[t.place, t.what, float(t.gain), t.size, _odds(t.surprise)] for t in d.remainder[:5]]
-    return table(["place", "test for", "statistic", "degrees of freedom", "by chance once in"], rows) if rows else paragraph("Not tested.")
+    return table(["place", "test for", "statistic", "degrees of freedom", "by chance 1 in"], rows) if rows else paragraph("Not tested.")
 
 
 def _odds(surprise: float) -> str:

@@ -19,9 +19,10 @@ h2 { font-size: 1.15rem; margin: 2.4rem 0 .6rem; border-bottom: 1px solid #ddd; 
 p.lead { font-size: 1.08rem; margin: .4rem 0; } p.bad { color: #c0392b; font-weight: 600; } p.note, figcaption { color: #666; }
 table { border-collapse: collapse; margin: .6rem 0; font: 13.5px/1.45 "Source Sans 3", system-ui, "DejaVu Sans", sans-serif; }
 th, td { text-align: left; padding: .22rem .9rem .22rem 0; vertical-align: top; white-space: nowrap; }
+th { white-space: normal; }
 td:last-child { white-space: normal; overflow-wrap: break-word; }
 th { border-bottom: 1.5px solid #222; font-weight: 600; } td { border-bottom: 1px solid #eee; }
-td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+td.n, th.n { text-align: right; font-variant-numeric: tabular-nums; } td.n { white-space: nowrap; }
 tr.mark td { color: #c0392b; } code { font-size: .92em; }
 figure { margin: 1rem 0; } figure img { width: 100%; height: auto; } figcaption { font-size: .9rem; }
 .scroll { overflow-x: auto; }

@@ -1,0 +1,161 @@
+"""What a recording is trusted for: its noise, its filtering, its rounding; errors and effects that do not believe in white noise."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import pendulum
+from scipy.signal import butter, filtfilt
+
+from symid.discrepancy.audit import audit, white_noise
+from symid.discrepancy.baseline import fit_baseline
+from symid.discrepancy.data import Data, Episode
+from symid.discrepancy.halves import Half, _reason, _said, survivals
+from symid.discrepancy.robust import with_robust_errors
+from symid.discrepancy.suspects import Suspect
+from symid.discrepancy.words import law_name, place_name, quantity, sentence
+from symid.mechanics import LIBRARY, rig_model
+from symid.recording import Recording
+from symid.simulation import simulator
+
+TIME = np.arange(0, 60, 0.01)
+MOTION = np.sin(2 * np.pi * 0.7 * TIME) + 0.3 * np.sin(2 * np.pi * 1.9 * TIME + 1)
+SINGLE = {"m1_kg": 0.12, "a1_m": 0.15, "I1_kg_m2": 9e-4}
+
+
+def audited(angle, given=None, noise=None):
+    model = rig_model(SINGLE)
+    r = Recording("r", TIME, {"link1_angle": angle}, {"link1_angle": "rad"}, noise=noise or {})
+    return audit(model, r, (Episode(TIME, angle[:, None], {}),), given)
+
+
+def test_noise_is_told_from_the_highest_frequencies():
+    a = audited(MOTION + 2e-3 * np.random.default_rng(1).standard_normal(len(TIME)))
+    assert a.noise[0] == pytest.approx(2e-3, rel=0.05) and not a.stated and not a.filtered and a.rounding[0] == 0
+
+
+def test_noise_that_is_stated_is_taken():
+    assert audited(MOTION, 3e-4).noise[0] == 3e-4 and audited(MOTION, 3e-4).stated
+    assert audited(MOTION, noise={"link1_angle": 5e-4}).noise[0] == 5e-4
+
+
+def test_rounding_is_seen_with_its_step():
+    step = 2 * np.pi / 4096
+    a = audited(np.round((MOTION + 0.2) / step) * step)
+    assert a.rounding[0] == pytest.approx(step, rel=1e-4) and a.noise[0] == pytest.approx(step / 12**0.5, rel=0.3)
+
+
+@pytest.mark.parametrize("cutoff", [5.0, 8.0])
+def test_a_recording_that_was_filtered_is_found_out(cutoff):
+    b, c = butter(2, cutoff / 50)
+    noisy = MOTION + 5e-2 * np.random.default_rng(2).standard_normal(len(TIME))
+    a = audited(filtfilt(b, c, noisy))
+    assert a.filtered and cutoff < a.cutoff[0] < 6 * cutoff
+
+
+def test_white_noise_of_pieces():
+    rng = np.random.default_rng(3)
+    assert white_noise([rng.standard_normal(500) for _ in range(8)]) == pytest.approx(1.0, rel=0.1)
+
+
+# ---- errors ----------------------------------------------------------------------------------
+def fits(colour: float, seeds=range(24)):
+    """Estimates of the pendulum's damping with plain and robust errors, sensor noise with memory `colour`."""
+    model, time, out = pendulum(), np.arange(0, 30, 0.02), []
+    drive = 1.5 * np.sin(2.1 * time) + np.cos(0.7 * time)
+    y = simulator(model).simulate({"damping": 0.4}, np.array([0.3, 0.0]), time, {"drive": drive}, substeps=2).y
+    for seed in seeds:
+        e = np.random.default_rng(seed).standard_normal(len(time))
+        for k in range(1, len(e)):
+            e[k] += colour * e[k - 1]
+        data = Data((Episode(time, y + 0.01 * e[:, None], {"drive": drive}),), np.array([0.01]), driven=False)
+        fit = fit_baseline(model, data, {"damping": 0.4})
+        out.append((fit.values["damping"], fit.errors["damping"], with_robust_errors(fit, data).errors["damping"]))
+    return np.array(out).T
+
+
+def test_errors_from_blocks_hold_where_noise_has_a_memory():
+    value, plain, robust = fits(0.9)
+    spread = 1.48 * np.median(np.abs(value - np.median(value)))
+    assert np.median(plain) < 0.5 * spread                   # what white noise would promise
+    assert 0.5 * spread < np.median(robust) < 1.6 * spread
+
+
+def test_errors_from_blocks_are_no_smaller_and_alike_where_noise_is_white():
+    value, plain, robust = fits(0.0)
+    assert np.all(robust >= plain) and robust.mean() < 1.35 * plain.mean()
+    assert plain.mean() == pytest.approx(value.std(ddof=1), rel=0.4)
+
+
+# ---- halves ----------------------------------------------------------------------------------
+def swings(torque_of_half, episodes=6):
+    """A pendulum in pieces whose dry friction may differ between the halves."""
+    term, model = LIBRARY["coulomb_friction"].at("joint1"), rig_model(SINGLE)
+    sim, rng, found = simulator(model.with_term(term)), np.random.default_rng(1), []
+    time = np.arange(0, 4, 0.01)
+    for k in range(episodes):
+        torque = torque_of_half[2 * k // episodes]
+        y = sim.simulate({term.parameter_name("torque_Nm"): torque}, np.array([0.9 - 0.05 * k, 0.0]), time, substeps=2).y
+        found.append(Episode(time + 4 * k, y + 5e-4 * rng.standard_normal(y.shape), {}))
+    data = Data(tuple(found), np.array([5e-4]), driven=False)
+    base, whole = fit_baseline(model, data), fit_baseline(model.with_term(term), data)
+    return survivals([Suspect(term)], whole, base, data, white=True)
+
+
+def test_an_effect_that_acts_all_the_time_survives_on_both_halves():
+    (found,) = swings((1e-3, 1e-3))
+    assert found.reason == "" and [h.span for h in found.halves] == [pytest.approx((0.0, 11.99)), pytest.approx((12.0, 23.99))]
+    for half in found.halves:
+        value, error = half.parameters["torque_Nm"]
+        assert abs(value - 1e-3) < 4 * error and half.score > 100
+
+
+def test_an_effect_that_changes_does_not_survive_and_the_words_say_why():
+    (found,) = swings((1e-3, 1.3e-3))
+    assert found.reason.startswith("its torque differs between the halves by")
+    (found,) = swings((1e-3, 0.0))
+    assert found.reason == "the second half alone does not ask for it"
+
+
+def test_one_recording_is_cut_in_its_middle():
+    e = Episode(TIME, MOTION[:, None], {"drive": MOTION})
+    a, b = Data((e,), np.ones(1), True).halves()
+    assert len(a.episodes[0].time) + len(b.episodes[0].time) == len(TIME) and b.span[0] == pytest.approx(30.0)
+    assert list(b.episodes[0].inputs["drive"]) == list(MOTION[3000:])
+
+
+def test_reasons_name_the_quantity_without_its_unit():
+    one = Half((0, 1), 5.0, {"time_constant_s": (0.1, 0.001)})
+    assert "its time constant differs" in _reason((one, replace(one, parameters={"time_constant_s": (0.2, 0.001)})))
+    assert [_said(k) for k in ("coefficient_Nm_s2_rad2", "delay_s", "k_Nm_rad")] == ["coefficient", "delay", "k"]
+
+
+# ---- words -----------------------------------------------------------------------------------
+@pytest.mark.parametrize(("location", "said"), [
+    ("joint1", "joint 1"), ("sensor:link2", "the sensor of link 2"), ("ankle", "the ankle"), ("sensor:hip", "the sensor of the hip"),
+    ("global", "the whole system"), ("base", "the base"),
+])
+def test_places_are_said_as_a_person_would(location, said):
+    assert place_name(location) == said
+
+
+@pytest.mark.parametrize(("law", "place", "values", "said"), [
+    ("coulomb_friction", "joint2", {"torque_Nm": (5.2e-4, 1e-5)}, "Joint 2 is held back by a dry friction of 520 ± 10 µN m whatever its speed"),
+    ("sensor_offset", "sensor:link1", {"offset_rad": (0.01, 0.001)}, "The sensor of link 1 is off by 0.573 ± 0.057 deg"),
+    ("integral_feedback", "ankle", {"gain_Nm_rad_s": (20.0, 2.0)}, "The feedback at the ankle also acts on the accumulated error, 20.0 ± 2.0 N m/(rad s)"),
+])
+def test_sentences(law, place, values, said):
+    assert sentence(Suspect(LIBRARY[law].at(place)), values) == said
+
+
+@pytest.mark.parametrize("name", LIBRARY)
+def test_every_sentence_reads_well_at_every_kind_of_place(name):
+    law = LIBRARY[name]
+    for place in ("joint1", "ankle", "sensor:link1"):
+        text = sentence(Suspect(law.at(place)), {q.key: (0.5, 0.01) for q in law.parameters})
+        assert text[:1].isupper() and "{" not in text and "he joint 1" not in text and "the the" not in text.lower(), text
+
+
+def test_a_value_that_is_not_determined_says_so():
+    assert quantity(1e-6, 1e280, "N*m") == "1 µN m (hardly determined)"
+    assert law_name("gravity_tilt", "global") == "gravity tilt" and law_name("viscous_friction", "hip") == "viscous friction at the hip"
