@@ -38,6 +38,8 @@ BEYOND = 25.0
 """A hypothesis on top of an established suspect, or a third effect, is accepted only from this score on."""
 REMAINDER = 4.5
 """-log10 of the probability by chance from which a remainder counts as systematic."""
+QUIET = 1.5
+"""Below this nothing is left that another pair of suspects could explain better."""
 EQUIVALENT = 12.0
 FAR = 5.0
 """Errors so many times the sensors' noise are not explained by whatever acts at one place alone."""
@@ -150,7 +152,7 @@ def _explain(base: Fit, data: Data, pool: list[Suspect], anything: Callable[[], 
         more = _extended(best, data, pool, threads, progress)
         if more is None:
             break
-        if len(best.suspects) == 1:
+        if len(best.suspects) == 1 and remainder(more.fit, data)[0].surprise > QUIET:
             more = _beam(more, best, single, data, pool, threads, progress)
         best = _reexamined(more, single, base, data)
     hypothesis = _preferred([Explanation((c.suspect,), c.fit, c.score) for c in single if not c.suspect.established])
