@@ -43,7 +43,8 @@ QUIET = 1.5
 EQUIVALENT = 12.0
 FAR = 5.0
 """Errors so many times the sensors' noise are not explained by whatever acts at one place alone."""
-MOST_EFFECTS = 6
+MOST_EFFECTS = {True: 3, False: 6}
+"""So many effects are looked for, with random forces and without. Three beside random forces are more likely one of no list."""
 RIVALS = 5
 BEAM = 3
 RIVAL_SHARE = 0.3
@@ -115,7 +116,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     elif found.established:
         names = [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters]
         found = replace(found, fit=unbiased(found.fit, data, names, threads))
-    verdict, effects, equivalent = _judge(found, ranking, left, base, data)
+    verdict, effects, equivalent = _judge(found, ranking, left, base, data, anything)
     survived = survivals(found.suspects, found.fit, base, data, white)
     runs = {"baseline_train": free_run(base, data, settling), "augmented_train": free_run(found.fit, data, settling)}
     if held_out is not None:
@@ -145,7 +146,7 @@ def _explain(base: Fit, data: Data, pool: list[Suspect], anything: Callable[[], 
     if alone is None or alone.score < ACCEPT:
         return best, single
     best = alone
-    while len(best.suspects) < MOST_EFFECTS:
+    while len(best.suspects) < MOST_EFFECTS[base.gain is not None]:
         if len(best.suspects) > 1 and (not best.established and _enough(best, data) or _beaten(best, anything(), data)):
             break
         progress(f"found {', '.join(str(s.term) for s in best.suspects)}; looking for more")
@@ -253,7 +254,7 @@ def _fit_with(suspects: list[Suspect], near: Fit, base: Fit, data: Data, values:
 
 
 # ---- judging ---------------------------------------------------------------------------------
-def _judge(found: Explanation, ranking: list[Candidate], left: list[Test], base: Fit, data: Data):
+def _judge(found: Explanation, ranking: list[Candidate], left: list[Test], base: Fit, data: Data, anything: Callable[[], Explanation]):
     """Verdict, effects and equivalent candidates."""
     effects = tuple(_effect(s, found, base, data) for s in found.suspects)
     rest = _located(left) if left and left[0].surprise > REMAINDER else None
@@ -268,8 +269,10 @@ def _judge(found: Explanation, ranking: list[Candidate], left: list[Test], base:
         odd = next(s for s in found.suspects if not s.established)
         effects = tuple(sorted(effects, key=lambda e: (e.name, e.location) != (odd.term.name, odd.term.location)))
         return "unexplained", effects, ()
-    if rest is not None:
-        return "unexplained", (Effect("unknown", rest.place, {}, None, rest.gain, rest.what), *effects), equivalent
+    if rest is not None or base.gain is not None and len(effects) == MOST_EFFECTS[True]:
+        what = rest.what if rest else "what only three of the known effects together imitate"
+        place = anything().suspects[0].term.location
+        return "unexplained", (Effect("unknown", place, {}, None, rest.gain if rest else found.score, what), *effects), equivalent
     return "missing_physics", effects, equivalent
 
 
