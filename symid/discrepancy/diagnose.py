@@ -153,9 +153,10 @@ def _explain(base: Fit, data: Data, pool: list[Suspect], anything: Callable[[], 
         more = _extended(best, data, pool, threads, progress)
         if more is None:
             break
-        if len(best.suspects) == 1 and remainder(more.fit, data)[0].surprise > QUIET:
-            more = _beam(more, best, single, data, pool, threads, progress)
-        best = _reexamined(more, single, base, data)
+        more = _reexamined(more, single, base, data)
+        if len(best.suspects) == 1 and not _beaten(more, anything(), data) and remainder(more.fit, data)[0].surprise > QUIET:
+            more = _reexamined(_beam(more, best, single, data, pool, threads, progress), single, base, data)
+        best = more
     hypothesis = _preferred([Explanation((c.suspect,), c.fit, c.score) for c in single if not c.suspect.established])
     if hypothesis is not None and best.established and hypothesis.score > best.score + DOUBT:
         best = hypothesis

@@ -23,6 +23,25 @@ def _parameters(count: int) -> tuple[LawParameter, ...]:
     return tuple(LawParameter(f"c{i}", "1") for i in range(count))
 
 
+def _memory_states(model: Model, place: str) -> list[State]:
+    where = "".join(c if c.isalnum() else "_" for c in place)
+    for i in range(len(MEMORY_TIMES)):
+        setattr(model, f"unknown_{where}_memory{i}", State(unit="1", role="memory", at=place))
+    return [model[f"unknown_{where}_memory{i}"] for i in range(len(MEMORY_TIMES))]
+
+
+def _filter(model: Model, states: list[State], signal: sm.Expr) -> None:
+    for z, tau in zip(states, MEMORY_TIMES, strict=True):
+        setattr(model, f"{z.name}_equation", Equation(tau * z.dot - signal + z.symbol))
+
+
+def _memories(model: Model, place: str, signal: sm.Expr) -> list[sm.Symbol]:
+    """What `signal` was, through a filter of each of the `MEMORY_TIMES`."""
+    states = _memory_states(model, place)
+    _filter(model, states, signal)
+    return [z.symbol for z in states]
+
+
 def unknown_force(role: str, scales: Mapping[str, tuple[float, float]], span: tuple[float, float]) -> Law:
     """A force at a port: polynomials of position and rate, friction, memory and drift.
 
@@ -37,27 +56,23 @@ def unknown_force(role: str, scales: Mapping[str, tuple[float, float]], span: tu
         t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
         shapes = [x, x**2, x**3, x**4, x**5, v, v * sm.Abs(v), v**3, v**2, x * sm.Abs(v), x**2 * v, sm.tanh(3 * v),
                   sm.tanh(10 * v), t, x * t, v * t]
-        for i, tau in enumerate(MEMORY_TIMES):
-            name = f"unknown_{place}_memory{i}"
-            setattr(model, name, State(unit="1", role="memory", at=place))
-            setattr(model, f"{name}_equation", Equation(tau * model[name].dot - x + model[name]))
-            shapes.append(model[name].symbol)
+        shapes += _memories(model, place, x)
         model.add_effort(port.name, sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
     return Law("unknown_force", role, _parameters(16 + len(MEMORY_TIMES)), build,
                "Something acts on the {place} that no known law describes")
 
 
 def unknown_sensor(scales: Mapping[str, float], span: tuple[float, float]) -> Law:
-    """A sensor whose error depends on what it shows, how fast that changes, and time."""
+    """A sensor whose error depends on what it shows, now and before, how fast that changes, and time."""
     def build(model: Model, place: str, p) -> None:
         for sensor in model.find("sensor", place):
             y = sensor.expr / scales[place]
             t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
             waves = [f(k * WAVE * y) for k in (1, 2, 3, 4) for f in (sm.sin, sm.cos)]
             rate = sum(sm.diff(y, s.symbol) * s.dot for s in model.states.values())
-            shapes = [y, *waves, t, y * t, rate]
+            shapes = [y, *waves, t, y * t, rate, *_memories(model, place, y)]
             model.redefine(sensor.name, sensor.expr + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
-    return Law("unknown_sensor_error", "sensor", _parameters(12), build,
+    return Law("unknown_sensor_error", "sensor", _parameters(12 + len(MEMORY_TIMES)), build,
                "What the sensor {place} shows is distorted in a way that no known law describes")
 
 
@@ -67,13 +82,10 @@ def unknown_input(scales: Mapping[str, float], span: tuple[float, float]) -> Law
         for u in model.find("excitation", place):
             present = u.symbol / scales[place]
             t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
-            names = [f"unknown_{place}_memory{i}" for i in range(len(MEMORY_TIMES))]
-            for name in names:
-                setattr(model, name, State(unit="1", role="memory", at=place))
-            shapes = [present, present**2, present**3, present * sm.Abs(present), t * present, *(model[n].symbol for n in names)]
+            before = _memory_states(model, place)
+            shapes = [present, present**2, present**3, present * sm.Abs(present), t * present, *(z.symbol for z in before)]
             model.substitute({u.symbol: u.symbol + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes))})
-            for name, tau in zip(names, MEMORY_TIMES, strict=True):
-                setattr(model, f"{name}_equation", Equation(tau * model[name].dot - present + model[name]))
+            _filter(model, before, present)
     return Law("unknown_input_error", "excitation", _parameters(5 + len(MEMORY_TIMES)), build,
                "What drives the {place} differs from what was recorded in a way that no known law describes")
 
