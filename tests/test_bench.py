@@ -5,15 +5,18 @@ from dataclasses import replace
 from importlib import import_module
 
 import numpy as np
+import pandas as pd
 import pytest
 
-from symid.bench.measure import measure_load
+from symid.bench.formulations import FORMULATIONS
+from symid.bench.growth import exponents, growth_table, measure_load
 from symid.bench.peers import TORQUE, for_peers
 from symid.bench.runs import run_fresh
-from symid.bench.table import load_table, ratio, table
+from symid.bench.table import ratio, table
 from symid.bench.task import Task
 from symid.cli.main import main
 from symid.errors import SymidError
+from symid.plots.bench import plot_formulations
 from symid.synthetic import write_standing
 
 
@@ -75,11 +78,47 @@ def test_casadi_finds_the_same_optimum(tiny, setup):
     assert peer["rms"] == pytest.approx(own["rms"], rel=1e-4)
 
 
-def test_long_recordings(tiny, monkeypatch, run_here):
-    monkeypatch.setattr("symid.bench.measure.LOAD", (1, 2))
-    rows = measure_load(tiny)
-    assert [row["windows"] for row in rows] == [1, 2]
-    assert len(load_table(rows).splitlines()) == 3
+def test_growth_of_the_cost_is_measured_and_drawn(monkeypatch, tmp_path, capsys, run_here):
+    for name, value in {"SECONDS": (4, 8), "EPISODES": (1, 2), "EPISODE_SECONDS": 4, "RUNS": 1}.items():
+        monkeypatch.setattr(f"symid.bench.growth.{name}", value)
+    monkeypatch.setattr("symid.bench.growth.run_fresh", import_module("symid.bench.measure").run_fresh)
+    assert main(["bench", "--growth", str(tmp_path / "growth.png"), "--json", str(tmp_path / "growth.json")]) == 0
+    found = json.loads((tmp_path / "growth.json").read_text())
+    assert [(r["nodes"], r["episodes"]) for by in ("nodes", "episodes") for r in found[by]] == [(201, 1), (401, 1), (201, 1), (402, 2)]
+    assert (tmp_path / "growth.png").read_bytes().startswith(b"\x89PNG")
+    assert capsys.readouterr().out.count("n log n would be") == 2
+
+
+def test_exponents_are_those_of_the_law():
+    runs = [{"nodes": n, "total": 3 * n**1.5, "solve": n**1.5, "iterations": n**0.5} for n in (100, 1000, 10000)]
+    found = exponents(runs, "nodes")
+    assert found["total"] == pytest.approx(1.5) and found["iteration"] == pytest.approx(1.0)
+    assert 1.1 < found["n log n"] < 1.2
+    assert "NOT MET" in growth_table({"nodes": [r | {"memory_mb": 1.0} for r in runs]})
+
+
+def test_long_recordings(monkeypatch, run_here):
+    monkeypatch.setattr("symid.bench.growth.LOAD", (4, 8))
+    monkeypatch.setattr("symid.bench.growth.run_fresh", import_module("symid.bench.measure").run_fresh)
+    assert [r["nodes"] for r in measure_load()["nodes"]] == [201, 401]
+
+
+def test_measurements_of_their_own_are_not_mixed(capsys):
+    assert main(["bench", "--load", "--formulations", "2"]) == 2
+    assert "--load and --formulations are measurements of their own" in capsys.readouterr().err
+
+
+def test_formulations_head_to_head(monkeypatch, tmp_path, capsys):
+    """One short recording: every formulation ends, and those that may not be unstable are not."""
+    monkeypatch.setattr("symid.bench.formulations.FIT", 8.0)
+    assert main(["bench", "--formulations", "1", "--json", str(tmp_path / "rows.json")]) == 0
+    rows = {row["formulation"]: row for row in json.loads((tmp_path / "rows.json").read_text())}
+    assert rows.keys() == FORMULATIONS.keys() and rows["prediction error"]["solved"]
+    assert rows["eigenvalue constraint"]["growth_1_s"] < 0
+    best = min(rows, key=lambda name: rows[name]["gain_error"])
+    assert best in ("prediction error", "estimated process noise", "three times the data")
+    assert "gain_error_percent" in capsys.readouterr().out
+    assert plot_formulations(pd.DataFrame(rows.values())).png().startswith(b"\x89PNG")
 
 
 def test_a_fresh_process_gives_its_numbers(tiny):

@@ -12,7 +12,6 @@ from symid.bench.runs import run_fresh
 from symid.bench.task import Task
 
 CASADI = ("map + JIT", "expand")
-LOAD = (1, 2, 4, 8)  # lengths of a long recording, in windows
 
 
 def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda text: None) -> dict:
@@ -43,15 +42,6 @@ def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda
         solves = {label: _solves(each, sides, rounds, cache, say) for label, each, sides in _plan(task, absent, quick)}
     return {"task": asdict(task), "absent": absent, "evaluations": evaluations, "first_use": first,
             "first_identification": new, "solves": solves}
-
-
-def measure_load(task: Task, say: Callable[[str], None] = lambda text: None) -> list[dict]:
-    """symid on the window laid end to end 1, 2, 4 and 8 times, from its default start."""
-    out = []
-    for repeat in LOAD:
-        out.append({"windows": repeat} | run_fresh("symid_side.identification", replace(task, repeat=repeat), "default"))
-        say(f"recording of {repeat} windows")
-    return out
 
 
 def _plan(task: Task, absent: list[str], quick: bool):

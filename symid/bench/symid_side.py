@@ -58,6 +58,7 @@ def identification(task: Task, start: str) -> dict:
     pairs = outputs_and_targets(transcription, result.z)
     rms = (sum(((y - d) ** 2).mean() for y, d in pairs) / len(pairs)) ** 0.5
     return {"import": imported, "build": built - began, "solve": ended - built, "total": ended - began,
+            "nodes": sum(transcription.layout.intervals) + len(transcription.layout.intervals),
             "iterations": result.iterations, "status": result.status_name, "rms": float(rms),
             "functions_share": result.seconds["functions"] / result.seconds["total"],
             "memory_mb": peak_memory_mb() - at_start}

@@ -22,14 +22,6 @@ def table(found: dict) -> str:
     return "\n".join(parts)
 
 
-def load_table(rows: list[dict]) -> str:
-    """What `measure_load` found."""
-    lines = [f"{'windows':>8}{'build s':>10}{'solve s':>10}{'iterations':>12}{'ms/iteration':>14}{'memory MB':>11}"]
-    lines += [f"{r['windows']:>8}{r['build']:>10.2f}{r['solve']:>10.2f}{r['iterations']:>12}"
-              f"{1e3 * r['solve'] / max(1, r['iterations']):>14.1f}{r['memory_mb']:>11.0f}" for r in rows]
-    return "\n".join(lines)
-
-
 def _evaluations(found: dict) -> Iterator[str]:
     kinds = ("residual", "jacobian", "hessian")
     intervals = found["evaluations"]["symid, C"]["intervals"]

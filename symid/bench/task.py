@@ -24,7 +24,6 @@ class Task:
     controller : "pd" or "fpd".
     episodes : repetitions with process noise; 1 is without.
     number : of the random start.
-    repeat : how often the recording is laid end to end, to make a long one.
     """
 
     recording: str
@@ -33,15 +32,13 @@ class Task:
     controller: str = "fpd"
     episodes: int = 1
     number: int = 0
-    repeat: int = 1
 
     @cached_property
     def data(self) -> Recording:
         """The recording; reading it is not measured."""
         from symid.recording import read_recording
 
-        once = read_recording(self.recording)
-        return once if self.repeat == 1 else _end_to_end(once, self.window, self.repeat)
+        return read_recording(self.recording)
 
     def identification(self) -> Identification:
         """The problem as a user of symid states it, the model derived anew."""
@@ -51,18 +48,4 @@ class Task:
 
         noise = {"torque": NOISE} if self.episodes > 1 else {}
         return Identification(build_model(self.body, self.controller), self.data,
-                              self.window if self.repeat == 1 else None, episodes=Episodes(self.episodes, **noise))
-
-
-def _end_to_end(recording: Recording, window: tuple[float, float], repeat: int) -> Recording:
-    """The window, forwards and backwards in turn so that nothing jumps but the rates, `repeat` times."""
-    import numpy as np
-
-    from symid.recording import Recording
-
-    part = recording.window(*window)
-    step = part.time[1] - part.time[0]
-    channels = {name: np.concatenate([x[::-1] if k % 2 else x for k in range(repeat)])
-                for name, x in part.channels.items()}
-    time = step * np.arange(repeat * len(part.time))
-    return Recording(f"{part.name} x {repeat}", time, channels, part.units)
+                              self.window, episodes=Episodes(self.episodes, **noise))

@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import sys
 
+from symid.errors import SymidError
+
 SUMMARY = "measure symid on this machine, beside its peers where they are installed"
 
 
@@ -14,26 +16,66 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--window", nargs=2, type=float, metavar=("T0", "T1"), default=(0.0, 100.0),
                         help="part to fit, s (default: 0 100)")
     parser.add_argument("--quick", action="store_true", help="one random start; without episodes and opty")
-    parser.add_argument("--load", action="store_true", help="only long recordings: the window up to eight times")
+    parser.add_argument("--load", action="store_true", help="only long made-up recordings, 100 to 800 s")
+    parser.add_argument("--growth", metavar="OUT.png",
+                        help="only the growth of the cost: 500 to 20000 nodes, 1 to 10 episodes, and its figure")
+    parser.add_argument("--formulations", type=int, metavar="K",
+                        help="only formulations head to head, on K made-up recordings whose gains are known")
     parser.add_argument("--json", metavar="OUT.json", help="write every run as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from symid.bench.measure import measure, measure_load
-    from symid.bench.table import load_table, table
     from symid.bench.task import Task
 
+    chosen = [name for name in ("load", "growth", "formulations") if getattr(arguments, name)]
+    if len(chosen) > 1:
+        raise SymidError(f"bench: --{chosen[0]} and --{chosen[1]} are measurements of their own; give one")
     task = Task(*_files(arguments), window=tuple(arguments.window))
-    if arguments.load:
-        found = measure_load(task, _say)
-        print(load_table(found))
-    else:
-        found = measure(task, arguments.quick, _say)
-        print(table(found))
+    measurement = {"load": _load, "growth": _growth, "formulations": _formulations}.get(chosen[0] if chosen else "", _all)
+    found = measurement(task, arguments)
     if arguments.json:
         from symid.files import write_json
         write_json(arguments.json, found)
     return 0
+
+
+def _all(task, arguments: argparse.Namespace) -> dict:
+    from symid.bench.measure import measure
+    from symid.bench.table import table
+
+    found = measure(task, arguments.quick, _say)
+    print(table(found))
+    return found
+
+
+def _load(task, arguments: argparse.Namespace) -> dict:
+    from symid.bench.growth import growth_table, measure_load
+
+    found = measure_load(_say)
+    print(growth_table(found))
+    return found
+
+
+def _growth(task, arguments: argparse.Namespace) -> dict:
+    from symid.bench.growth import growth_table, measure_growth
+    from symid.files import write_atomically
+    from symid.plots.bench import plot_growth
+
+    found = measure_growth(_say)
+    print(growth_table(found))
+    write_atomically(arguments.growth, plot_growth(found).png())
+    return found
+
+
+def _formulations(task, arguments: argparse.Namespace) -> list[dict]:
+    from symid.bench.formulations import head_to_head, summary
+
+    if arguments.formulations < 1:
+        raise SymidError(f"bench: --formulations {arguments.formulations} is not possible; give at least 1 recording")
+    rows = head_to_head(range(arguments.formulations), on_row=lambda row: _say(
+        f"recording {row['seed']}, {row['formulation']}: {'stable' if row['stable'] else 'unstable'}, {row['seconds']:.2f} s"))
+    print(summary(rows).to_string(float_format=lambda x: f"{x:.3g}"))
+    return rows.to_dict("records")
 
 
 def _files(arguments: argparse.Namespace) -> tuple[str, str]:

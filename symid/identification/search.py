@@ -119,14 +119,14 @@ def _regressed(problem: Identification, seed: int, number: int) -> np.ndarray:
 def _softly(problem: Identification, z: np.ndarray, prices: tuple[float, ...]) -> np.ndarray:
     """The free vector with estimated process noise, from `z`, at one price after the other."""
     t = problem.transcription
-    rows = _noisy_rows(t)
+    rows = noisy_rows(t)
     for price in prices if len(rows) else ():
         result = solve_nlp(soften(problem.nonlinear_program(z), rows, price), max_iterations=100)
         z = np.clip(result.z[:t.layout.size], t.program.lower, t.program.upper)
     return z
 
 
-def _noisy_rows(t: Transcription) -> np.ndarray:
+def noisy_rows(t: Transcription) -> np.ndarray:
     """Constraints of the equations that process noise enters."""
     noises = {w.symbol for w in t.model.noises.values()}
     residual = t.model.residual()
