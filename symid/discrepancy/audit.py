@@ -43,6 +43,14 @@ class Audit:
     cutoff: np.ndarray
     rounding: np.ndarray
 
+    def weight(self, step: float) -> float:
+        """Independent samples in each sample: a filtered signal has about as many a second as its cutoff.
+
+        The signal is empty from about twice the filter's bandwidth on, and a bandwidth carries two
+        independent samples a second for each Hz (Shannon 1949).
+        """
+        return min(1.0, step * float(np.nanmin(self.cutoff))) if self.filtered else 1.0
+
     @property
     def filtered(self) -> bool:
         return bool(np.isfinite(self.cutoff).any())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -62,12 +62,14 @@ class Data:
     sensor_noise : (m,) stated standard deviation of each output's sensor, SI.
     driven : whether random forces act at the model's noises (then samples correct the state).
     rounding : (m,) step of each output's encoder, 0 for none, SI.
+    weight : independent samples in each sample, less than one where the recording was low-pass filtered.
     """
 
     episodes: tuple[Episode, ...]
     sensor_noise: np.ndarray
     driven: bool
     rounding: np.ndarray | float = 0.0
+    weight: float = 1.0
 
     @property
     def samples(self) -> int:
@@ -78,7 +80,7 @@ class Data:
         return min(float(e.time[0]) for e in self.episodes), max(float(e.time[-1]) for e in self.episodes)
 
     def with_episodes(self, episodes) -> Data:
-        return Data(tuple(episodes), self.sensor_noise, self.driven, self.rounding)
+        return replace(self, episodes=tuple(episodes))
 
     def halves(self) -> tuple[Data, Data]:
         """The first and the second half: of the episodes, or of the only one."""
@@ -91,7 +93,7 @@ class Data:
     def thinned(self) -> Data:
         """Every so-many-th sample where free motion has more samples than a fit needs; sensors keep 40 a swing."""
         most = int(min(0.025 * swing(e) / e.step for e in self.episodes))
-        every = min(self.samples // MOST_SAMPLES, most)
+        every = min(-(-self.samples // MOST_SAMPLES), most)
         if self.driven or every < 2:
             return self
         return self.with_episodes(e.part(slice(None, None, every)) for e in self.episodes)

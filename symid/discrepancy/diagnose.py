@@ -17,6 +17,7 @@ from symid.discrepancy.fit import Fit, Fitter
 from symid.discrepancy.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.freerun import FreeRun, free_run
 from symid.discrepancy.halves import survivals
+from symid.discrepancy.mechanism import explain_mechanism
 from symid.discrepancy.remainder import Test, remainder
 from symid.discrepancy.robust import with_robust_errors
 from symid.discrepancy.screen import extended
@@ -67,7 +68,7 @@ class Explanation:
 def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
              fit_window: tuple[float, float] | str | None = None, held_out: tuple[float, float] | str | None = None, sensor_noise: float | Mapping[str, float] | None = None,
              episode_length: float | None = None, driven: bool = True, settling: float = 0.0,
-             start: Mapping[str, float] | None = None, suspects: Sequence[Suspect] | None = None,
+             start: Mapping[str, float] | None = None, suspects: Sequence[Suspect] | None = None, mechanism: bool = False,
              threads: int = 2, progress: Callable[[str], None] = lambda text: None) -> Diagnosis:
     """Compare a model with a recording and say what physics the model leaves out.
 
@@ -84,6 +85,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     settling : seconds that the fit measure leaves out at the start of the fit window.
     start : values [SI] of some parameters from which the first fit begins.
     suspects : what may be missing; every law of the library at every place by default.
+    mechanism : whether several laws are to be expected at once, as in any real mechanism.
 
     Raises
     ------
@@ -96,16 +98,21 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
         raise DiagnosisError("diagnose: a model alone is not enough; give the recording and fit_window=(t0, t1)")
     episodes = episodes_of(model, recording, fit_window, episode_length)
     checked = audit(model, recording, episodes, sensor_noise)
-    data = Data(episodes, checked.noise, driven, checked.rounding).thinned()
+    data = Data(episodes, checked.noise, driven, checked.rounding, checked.weight(episodes[0].step)).thinned()
     base = fit_baseline(model, data, dict(start or {}))
     progress(f"the model as given is fitted ({base.iterations} iterations)")
     pool = list(established_suspects(model) if suspects is None else suspects)
     anything = cache(lambda: _anything(base, data))
-    found, ranking = _explain(base, data, pool, anything, threads, progress)
+    if mechanism:
+        *parts, ranking = explain_mechanism(base, data, pool, threads, progress)
+        found = Explanation(*parts)
+        anything = cache(lambda: _anything(found.fit, data))
+    else:
+        found, ranking = _explain(base, data, pool, anything, threads, progress)
     found = _polished(found, data)
     left = remainder(found.fit, data)
     progress("tested for a remainder")
-    if (len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER) and _beaten(found, anything(), data):
+    if not mechanism and (len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER) and _beaten(found, anything(), data):
         found, left = anything(), remainder(anything().fit, data)
     white = all(t.locates or t.surprise <= REMAINDER for t in left)
     if not white:
@@ -123,7 +130,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
         # Segments that were set apart are judged whole.
         later = data.with_episodes(episodes_of(model, recording, held_out, None if isinstance(held_out, str) else episode_length))
         runs |= {"baseline_heldout": free_run(base, later), "augmented_heldout": free_run(found.fit, later)}
-    text = words(Story(verdict, effects, equivalent, ranking, left, runs, checked, survived, white, base.gain is not None))
+    text = words(Story(verdict, effects, equivalent, ranking, left, runs, checked, survived, white, base.gain is not None, data.weight))
     return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text, checked, survived)
 
 

@@ -127,7 +127,7 @@ class Fitter:
             # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
             cov = np.diag(np.diag(cov) + (1e-6 * self.data.sensor_noise) ** 2)
         sign, logdet = np.linalg.slogdet(cov / np.outer(self.data.sensor_noise, self.data.sensor_noise))
-        return (-len(every) * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), cov
+        return (-self.data.weight * len(every) * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), cov
 
     def evaluate(self, p, x0, gain) -> float:
         runs = self.run(p, x0, gain, sensitivities=False)
@@ -257,7 +257,7 @@ class Fitter:
             d = np.sqrt(np.maximum(np.diag(H), 1e-300))
             inverse = np.linalg.pinv(H / np.outer(d, d), rcond=1e-13) / np.outer(d, d)
             errors = dict.fromkeys(self.sim.parameters, 0.0)
-            errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0))) for i, k in enumerate(self.free)}
+            errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0) / self.data.weight)) for i, k in enumerate(self.free)}
         values = dict(zip(self.sim.parameters, map(float, at.p), strict=True))
         return Fit(self.model, values, at.x0, at.process, at.gain, tuple(surprise), cov, float(loglik2), errors,
                    iterations, converged)

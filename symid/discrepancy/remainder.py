@@ -83,11 +83,11 @@ def _columns(screen: Screen, sim: Simulator, term: Term) -> np.ndarray | None:
 
 
 def _ljung_box(screen: Screen, surprise: Sequence[np.ndarray], output: int) -> float:
-    """Ljung-Box (1978) statistic of one output's surprises over all episodes."""
+    """Ljung-Box (1978) statistic of one output's surprises over all episodes, of those that can be independent."""
     total, count = np.zeros(WHITENESS_LAGS), 0
-    power = 0.0
+    power, every = 0.0, round(1 / screen.data.weight)
     for s in surprise:
-        e = (s @ screen.white.T)[:, output]
+        e = (s[::every] @ screen.white.T)[:, output]
         count += len(e)
         power += e @ e
         total += [e[k:] @ e[:-k] for k in range(1, WHITENESS_LAGS + 1)]

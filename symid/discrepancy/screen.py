@@ -23,7 +23,7 @@ class Screen:
         fitter = Fitter(fit.model, data)
         self.substeps = fitter.substeps
         runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.gain, sensitivities=True)
-        self.white = np.linalg.inv(np.linalg.cholesky(fit.covariance))
+        self.white = np.sqrt(data.weight) * np.linalg.inv(np.linalg.cholesky(fit.covariance))
         q, n = len(fitter.free), fit.initial.shape[1]
         columns = []
         for i, t in enumerate(runs):

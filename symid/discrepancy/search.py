@@ -68,7 +68,7 @@ class Start:
 def price(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit) -> float:
     """What suspects cost: log N for each parameter, twice for one that was scanned for, and for each new initial value."""
     states = after.initial.size - before.initial.size
-    return log(data.samples) * (states + sum(s.size + (s.scanned is not None) for s in suspects))
+    return log(data.weight * data.samples) * (states + sum(s.size + (s.scanned is not None) for s in suspects))
 
 
 def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, effort: Effort = FULL, threads: int = 2,
