@@ -279,7 +279,8 @@ def _judge(found: Explanation, ranking: list[Candidate], left: list[Test], base:
         return "unexplained", effects, ()
     if rest is not None or base.gain is not None and len(effects) == MOST_EFFECTS[True]:
         what = rest.what if rest else "what only three of the known effects together imitate"
-        place = anything().suspects[0].term.location
+        votes = [anything().suspects[0].term.location, effects[0].location, *([rest.place] if rest else [])]
+        place = max(votes, key=votes.count)
         return "unexplained", (Effect("unknown", place, {}, None, rest.gain if rest else found.score, what), *effects), equivalent
     return "missing_physics", effects, equivalent
 
