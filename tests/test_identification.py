@@ -158,3 +158,14 @@ def incomplete() -> si.Model:
     model = pendulum()
     model.extra = si.State(unit="1")
     return model
+
+
+def test_a_motion_cut_off_by_its_bounds_is_said():
+    recording = pendulum_recording()
+    free = si.Identification(pendulum(), recording).solve()
+    assert free.cut_off == {} and "cut" not in str(free)
+    fastest = np.abs(free.trajectories[0]["rate"]).max()
+    narrow = si.Identification(pendulum().with_bounds(rate=(-0.8 * fastest, 0.8 * fastest)), recording).solve()
+    assert set(narrow.cut_off) == {"rate"} and 0 < narrow.cut_off["rate"] < 0.5
+    for shown in (str(narrow), narrow._repr_html_()):
+        assert "rate lies at its bounds" in shown and "with_bounds(rate=" in shown

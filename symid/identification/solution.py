@@ -130,6 +130,14 @@ class Solution:
             "meaning": [p.meaning for p in parts]}, index=pd.Index(self.values, name="parameter"))
 
     @cached_property
+    def cut_off(self) -> dict[str, float]:
+        """States that lie at a bound of theirs, and at which share of the nodes: the motion is cut off there."""
+        t = self.transcription
+        active = bound_active(t, self.result).astype(float)
+        share = np.mean(np.concatenate([t.layout.states(active, e) != 0 for e in range(len(t.recording_of))]), axis=0)
+        return {name: float(s) for name, s in zip(t.model.states, share, strict=True) if s > 0}
+
+    @cached_property
     def trajectories(self) -> tuple[pd.DataFrame, ...]:
         """One table per episode: states, outputs and "<output> recorded" over time_s, SI."""
         t, frames = self.transcription, []

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from symid.files import write_atomically
 from symid.identification import Solution
-from symid.identification.show import headline
+from symid.identification.show import headline, warnings
 from symid.plots import plot_fit, plot_parameters, plot_starts
 from symid.report.page import facts, figure, heading, number, page, paragraph, table
 
@@ -26,6 +26,7 @@ def write_report(solution: Solution, path: str | Path, held_out: dict | None = N
 def report_html(solution: Solution, held_out: dict | None = None, truth: dict[str, float] | None = None) -> str:
     """The same as text."""
     parts = [paragraph(headline(solution), "lead"), paragraph(solution.message, "note" if solution.solved else "bad")]
+    parts += [paragraph(warning + ".", "bad") for warning in warnings(solution)]
     parts += [heading("Parameters"), _parameters(solution, truth), _errors_note(solution),
               figure(plot_parameters(solution, truth), "Parameters with 95 % intervals, by unit.")]
     parts += [heading("Fit"), _fit(solution, held_out)]
