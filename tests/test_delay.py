@@ -60,11 +60,11 @@ def test_collocation_with_a_lag_converges_to_the_simulation(model):
     assert order == pytest.approx(2, abs=0.3), (order, worst)
 
 
-def errors_of_delay(model, delay: float, seeds: range) -> tuple[np.ndarray, np.ndarray]:
+def errors_of_delay(model, delay: float, seeds: range, duration: float) -> tuple[np.ndarray, np.ndarray]:
     """Error [s] of the estimated delay and its standard error, per seed."""
     pairs = []
     for seed in seeds:
-        solution = problem(model, delay, seed).solve()
+        solution = problem(model, delay, seed, duration).solve()
         assert solution.solved, solution.message
         row = solution.parameters.loc["feedback_delay"]
         pairs.append((row.value - delay, row.std_error))
@@ -73,14 +73,14 @@ def errors_of_delay(model, delay: float, seeds: range) -> tuple[np.ndarray, np.n
 
 @pytest.mark.parametrize(("delay", "seed"), [(0.04, 1), (0.12, 100)])
 def test_delay_is_within_three_standard_errors(model, delay, seed):
-    error, std_error = errors_of_delay(model, delay, range(seed, seed + 1))
+    error, std_error = errors_of_delay(model, delay, range(seed, seed + 1), 31.0)
     assert np.all(np.abs(error) < 3 * std_error) and np.all(std_error < 0.02)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("delay", DELAYS)
 def test_delay_is_within_three_standard_errors_in_forty_seeds(model, delay):
-    error, std_error = errors_of_delay(model, delay, range(100, 140))
+    error, std_error = errors_of_delay(model, delay, range(100, 140), 61.0)
     assert np.mean(np.abs(error) < 3 * std_error) >= 0.95, (error / std_error).round(1)
     assert np.median(np.abs(error)) < 0.005
     # Standard errors far too large would pass the first line.

@@ -37,6 +37,8 @@ FIT, MORE, HELD_OUT = 20.0, 3, 40.0
 """Seconds of the fit, how many times that is "more data", and seconds held out after these."""
 MARGIN = 0.05
 """Of the eigenvalue constraint [1/s]."""
+OWN, STIFFER = ("kp_aa", "kd_aa", "kp_hh", "kd_hh"), 40
+"""Gains of each joint on itself, raised by a tenth up to so many times until the loop is stable."""
 FALLEN_DEG = 90.0
 """What a free run that falls counts as."""
 
@@ -150,9 +152,14 @@ def _eigenvalue_constraint(problem: Identification, torque_noise: float):
     place = [layout.parameter_names.index(k) for k in gains]
     slopes = np.stack([(matrix(zero | {k: 1.0}) - matrix(zero)) * layout.parameter_scale[i]
                        for k, i in zip(gains, place, strict=True)])
-    nlp = with_hurwitz(problem.nonlinear_program(problem.start()), layout.offsets[-1] + np.array(place), matrix(zero),
-                       slopes, MARGIN)
-    result = solve_nlp(nlp, max_iterations=300)
+    columns, base, z = layout.offsets[-1] + np.array(place), matrix(zero), problem.start()
+    own = columns[[gains.index(k) for k in OWN]]
+    for _ in range(STIFFER):    # the equations of stability are best begun where they hold
+        if np.linalg.eigvals(base + np.tensordot(z[columns], slopes, 1)).real.max() < -2 * MARGIN:
+            break
+        z[own] = np.minimum(1.1 * z[own], 0.9)
+    nlp = with_hurwitz(problem.nonlinear_program(z), columns, base, slopes, MARGIN)
+    result = solve_nlp(nlp, max_iterations=300, time_limit_s=60.0)
     return _values(problem, result), result.solved
 
 
