@@ -13,7 +13,7 @@ _WHERE = {
                     "Parameter", "Port", "State", "Term"),
     "symid.recording": ("Recording", "read_recording"),
     "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
-    "symid.analysis": ("Stability", "stability", "stability_of"),
+    "symid.analysis": ("Stability", "Uncertainty", "compare", "stability", "stability_of", "uncertainty"),
     "symid.discrepancy": ("Diagnosis", "diagnose", "diagnose_case", "read_case", "rig_case"),
     "symid.identification": ("Cluster", "Identification", "LocalPool", "Solution", "Solve", "Study"),
 }

@@ -12,8 +12,8 @@ from pathlib import Path
 
 from symid.bench.task import Task
 from symid.errors import SymidError
+from symid.threads import ONE_THREAD
 
-ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 MARK = "measured: "
 
 

@@ -10,8 +10,8 @@ from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecu
 from multiprocessing import connection, current_process, get_context, parent_process
 
 from symid.errors import SolveError
+from symid.threads import ONE_THREAD
 
-ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 _NAME = "symid worker"
 _GUARD = "in a script, a study must run under `if __name__ == '__main__':`, because every worker reads the script"
 _SPAWN = get_context("spawn")
