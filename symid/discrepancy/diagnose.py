@@ -114,7 +114,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     progress("tested for a remainder")
     if not mechanism and (len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER) and _beaten(found, anything(), data):
         found, left = anything(), remainder(anything().fit, data)
-    white = all(t.locates or t.surprise <= REMAINDER for t in left)
+    white = not checked.filtered and all(t.locates or t.surprise <= REMAINDER for t in left)
     if not white:
         steady = _steady(found, base, data)
         if steady is not None:

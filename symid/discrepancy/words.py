@@ -102,7 +102,9 @@ class Story:
 
 def words(story: Story) -> str:
     """Everything that a reader should know, most important first, one line a paragraph."""
-    parts = (_finding(story), _losses(story) + _alike(story), _proof(story) + _rest(story), _halves(story), _caveats(story))
+    losses = _losses(story)
+    first = (losses, _finding(story)) if len(losses) and " not enough" in losses[0] else (_finding(story) + losses,)
+    parts = (*first, _alike(story), _proof(story) + _rest(story), _halves(story), _caveats(story))
     return "\n".join(" ".join(part) for part in parts if part)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 from types import SimpleNamespace
 
@@ -29,6 +30,9 @@ def _extra_mass(model: Model, place: str, p: SimpleNamespace) -> None:
     """Put the mass, centre of mass and inertia of link and point mass together (Steiner 1840)."""
     mass, com, inertia = (_stated(model, role, place) for role in ("mass", "center_of_mass", "inertia"))
     total = mass + p.mass_kg
+    # Nobody overlooks more than all that was weighed.
+    part, whole = model[str(p.mass_kg)], sum(m.value for m in model.find("mass"))
+    model.components[part.name] = replace(part, bounds=(0.0, whole))
     model.substitute({
         mass: total,
         com: (mass * com + p.mass_kg * p.height_m) / total,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.signal import welch
 
+from symid.discrepancy.words import law_name
 from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened, shown_unit
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ def plot_before_after(diagnosis: Diagnosis) -> Picture:
     windows = [(k, t) for k, t in WINDOWS if f"baseline_{k}" in diagnosis.runs]
     outputs = list(diagnosis.baseline.model.outputs.values())
     figure = Picture(figsize=(9.5, 2.5 * len(outputs) + 0.6), layout="constrained")
-    grid = figure.subplots(2 * len(outputs), len(windows), sharex="col", sharey="row", squeeze=False,
+    grid = figure.subplots(2 * len(outputs), len(windows), sharex="col", squeeze=False,
                            height_ratios=[2.4, 1] * len(outputs))
     for first, column, (key, title) in zip((True, False), grid.T, windows, strict=False):
         before, after = diagnosis.runs[f"baseline_{key}"], diagnosis.runs[f"augmented_{key}"]
@@ -104,7 +105,7 @@ def plot_scores(diagnosis: Diagnosis) -> Picture:
     for y, s in zip(places, scores, strict=True):
         axes.annotate(f"{s:,.0f}".replace("-", "\N{MINUS SIGN}"), (max(s, 0), y), xytext=(4, 0), textcoords="offset points",
                       va="center", fontsize=8.5, color=INK)
-    axes.set_yticks(places, [f"{c.suspect.term.name} · {c.suspect.term.location}" for c in shown], fontsize=8.5)
+    axes.set_yticks(places, [law_name(c.suspect.term.name, c.suspect.term.location) for c in shown], fontsize=8.5)
     axes.invert_yaxis()
     axes.set_xlim(0, 1.12 * max([*scores, 1.0]))
     axes.set_xlabel("score of each suspect alone: growth of twice the log-likelihood less the price of its parameters", fontsize=9)
