@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
-from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened
+from symid.plots.style import INK, MODEL, RECORDED, WARN, Picture, opened
 
 
 def plot_growth(found: Mapping[str, Sequence[Mapping]]) -> Picture:
@@ -57,7 +57,7 @@ def plot_formulations(rows: pd.DataFrame) -> Picture:
                 axis.barh(i, 100 * values.mean(), color=MODEL, height=0.55)
                 continue
             shown = 100 * values if column == "gain_error" else values
-            axis.plot(shown, np.full(len(shown), i), "|", color=QUIET, ms=9, mew=1.2)
+            axis.plot(shown, np.full(len(shown), i), "|", color=RECORDED, ms=9, mew=1.2)
             axis.plot([shown.median()], [i], "o", color=WARN if column == "held_out_deg" else MODEL, ms=6)
         if column == "stable":
             axis.set_xlim(0, 105)
