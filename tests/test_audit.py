@@ -51,6 +51,7 @@ def test_a_recording_that_was_filtered_is_found_out(cutoff):
     noisy = MOTION + 5e-2 * np.random.default_rng(2).standard_normal(len(TIME))
     a = audited(filtfilt(b, c, noisy))
     assert a.filtered and cutoff < a.cutoff[0] < 6 * cutoff
+    assert a.weight(0.01) == pytest.approx(0.01 * a.cutoff[0]) and audited(noisy).weight(0.01) == 1.0
 
 
 def test_white_noise_of_pieces():

@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 
 from symid.cli import main
-from symid.discrepancy import diagnose_case, established_suspects, read_case, rig_case
+from symid.discrepancy import Suspect, diagnose, diagnose_case, established_suspects, read_case, rig_case
+from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.case import parts_of, with_base_acceleration
-from symid.discrepancy.data import Data, episodes_of, piece_length
+from symid.discrepancy.comb import comb
+from symid.discrepancy.data import Data, Episode, episodes_of, piece_length
+from symid.discrepancy.screen import Screen
 from symid.errors import DiagnosisError, ModelError, RecordingError, SymidError
 from symid.mechanics import LIBRARY, BenchDoublePendulum, model_of, rig_model
 from symid.recording import Recording, read_recording
@@ -196,6 +199,47 @@ def test_bad_input_for_a_rig_ends_in_one_sentence(rig, capsys, arguments, messag
     assert main(["diagnose", str(rig / "recording.csv"), "--rig", str(rig / "rig.json"), *arguments]) == 2
     out, err = capsys.readouterr()
     assert out == "" and err.startswith("symid: error: ") and message in err and err.count("\n") == 1
+
+
+def losing():
+    """A pendulum in six pieces with several losses at once and an encoder, as data of a rig."""
+    terms = [LIBRARY["viscous_friction"].at("joint1"), LIBRARY["coulomb_friction"].at("joint1")]
+    model, values = rig_model(SINGLE), {terms[0].parameter_name("coefficient_Nms_rad"): 1e-4, terms[1].parameter_name("torque_Nm"): 6e-4}
+    for t in terms:
+        model = model.with_term(t)
+    time, rng = np.arange(0, 32, 0.01), np.random.default_rng(1)
+    y = simulator(model).simulate(values, np.array([1.1, 0.0]), time, substeps=4).y[:, 0] + 2e-4 * rng.standard_normal(len(time))
+    return Recording("losing", time, {"link1_angle": y}, {"link1_angle": "rad"}, segment=(time // 4).astype(int),
+                     split=np.where(time < 24, "fit", "held_out"))
+
+
+def test_several_losses_are_told_apart_and_no_clock_is_needed():
+    recording, model = losing(), rig_model(SINGLE)
+    names = ("viscous_friction", "coulomb_friction", "quadratic_drag", "periodic_torque", "sensor_offset")
+    finding = diagnose(model, recording, fit_window="fit", held_out="held_out", driven=False, mechanism=True, threads=1,
+                       suspects=[s for s in established_suspects(model) if s.term.name in names])
+    assert finding.verdict == "missing_physics" and finding.confirmed
+    found = {e.name: next(iter(e.parameters.values())) for e in finding.effects}
+    assert set(found) == {"viscous_friction", "coulomb_friction"}
+    for name, true in (("viscous_friction", 1e-4), ("coulomb_friction", 6e-4)):
+        assert abs(found[name][0] - true) < 4 * found[name][1] < 0.1 * true
+    assert "Energy is lost at joint 1, and one law is not enough" in finding.words
+    assert all(not s.reason for s in finding.halves)
+
+
+def test_a_frequency_is_found_between_the_simulated_ones():
+    """Pieces four seconds long, twenty apart: a fine grid of frequencies from a coarse one."""
+    term, model = LIBRARY["periodic_torque"].at("joint1"), rig_model(SINGLE)
+    true, sim = {"amplitude_Nm": 2e-4, "frequency_Hz": 0.6437, "phase_rad": 0.4}, simulator(model.with_term(term))
+    episodes = []
+    for k in range(6):
+        time = np.arange(0, 4, 0.02) + 20 * k
+        run = sim.simulate({term.parameter_name(q): v for q, v in true.items()}, np.array([0.5 - 0.05 * k, 0.0]), time, substeps=4)
+        episodes.append(Episode(time, run.y + 2e-4 * np.random.default_rng(k).standard_normal(run.y.shape), {}))
+    data = Data(tuple(episodes), np.array([2e-4]), driven=False)
+    screen, suspect = Screen(fit_baseline(model, data), data), Suspect(term)
+    best = comb(screen, suspect, sim, 3.0)[0]
+    assert best["frequency_Hz"] == pytest.approx(true["frequency_Hz"], abs=0.006)
 
 
 def test_a_rig_as_python(rig):

@@ -131,7 +131,7 @@ def _where(d: Diagnosis) -> list[str]:
 
 
 def _ranking(d: Diagnosis) -> str:
-    rows = [[_plain(c.suspect.term.name), c.suspect.term.location, float(c.score), float(c.gain),
+    rows = [[_plain(c.suspect.term.name), c.suspect.term.location, round(c.score, 1), round(c.gain, 1),
              "" if c.suspect.established else "hypothesis"] for c in d.ranking[:MOST]]
     return table(["suspect", "place", "score", "gain", ""], rows)
 
