@@ -20,6 +20,7 @@ from study_problems import STARTS, kept, numbers, poisoned, problem, study
 from symid.errors import SolveError, TranscriptionError
 from symid.identification import Identification, LocalPool, Solve, Study, dispatch
 from symid.identification.store import StudyDirectory
+from symid.transcription import Episodes
 
 HERE = Path(__file__).parent
 
@@ -466,6 +467,17 @@ def test_best_needs_one_problem(undisturbed):
         result.best()
     with pytest.raises(SolveError, match=r"best\(damping='medium'\): 0 problems"):
         result.best(damping="medium")
+
+
+def test_draws_of_noise_are_one_problem_and_the_best_has_its_own():
+    drawn = [problem(episodes=Episodes(2, amplitude=0.2, seed=k)) for k in range(3)]
+    result = Study({str(k): Solve(p) for k, p in enumerate(drawn)}).run_here(on_finished=None)
+    best = result.best()
+    place = int(np.argmin(result.table["objective"]))
+    assert best.problem is drawn[place] and best.result.objective == result.table["objective"].iloc[place]
+    other = (place + 1) % 3
+    chosen = result.best(lambda row: row is result.rows[str(other)])
+    assert chosen.problem is drawn[other]
 
 
 def test_best_of_failures_says_the_first():

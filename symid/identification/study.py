@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -227,8 +227,10 @@ class StudyResult:
         """Whether every solve ran to an end; if not, running the study again repeats the lost ones."""
         return all(row.status != "lost" for row in self.rows.values())
 
-    def best(self, **labels) -> Solution:
-        """The best solution of the one problem that these labels leave.
+    def best(self, accept: Callable[[StartRow], bool] = lambda row: True, **labels) -> Solution:
+        """The best solution of the one problem that these labels leave: solved, accepted, with the least objective.
+
+        Draws of process noise may differ: the problem is the same.
 
         Raises
         ------
@@ -236,19 +238,20 @@ class StudyResult:
             They leave no solve or several problems, or no solve has a result.
         """
         names = [n for n, s in self.solves.items() if labels.items() <= dict(s.labels).items()]
-        problems = {digest(self.solves[n].problem.identity) for n in names}
+        problems = {_besides_its_draw(self.solves[n].problem) for n in names}
         if len(problems) != 1:
             known = sorted({f"{k}={v!r}" for s in self.solves.values() for k, v in s.labels.items()})
             asked = ", ".join(f"{k}={v!r}" for k, v in labels.items())
             raise SolveError(f"best({asked}): {len(problems)} problems of the study have these labels, and only solves of "
                              f"one problem compare; its labels: {', '.join(known)}")
         rows = [self.rows[n] for n in names]
-        place = min(range(len(rows)), key=lambda i: (not rows[i].solved, np.nan_to_num(rows[i].objective, nan=np.inf)))
+        place = min(range(len(rows)), key=lambda i: (not rows[i].solved, not rows[i].solved or not accept(rows[i]),
+                                                  np.nan_to_num(rows[i].objective, nan=np.inf)))
         outcome = self._store[self.solves[names[place]].key]
         if outcome.result is None:
             raise SolveError(f"none of {len(rows)} starts gave a result; the first says: {rows[0].message}"
                              if len(rows) > 1 else rows[0].message)
-        return build_solution(self.solves[names[0]].problem, outcome.result, tuple(rows), place)
+        return build_solution(self.solves[names[place]].problem, outcome.result, tuple(rows), place)
 
     def __repr__(self) -> str:
         ended = pd.Series([row.status for row in self.rows.values()]).value_counts()
@@ -256,3 +259,9 @@ class StudyResult:
 
     def _repr_html_(self) -> str:
         return self.table.to_html(float_format=lambda x: f"{x:.5g}", border=0)
+
+
+def _besides_its_draw(problem: Identification) -> str:
+    """Fingerprint of a problem that is the same for every draw of its process noise."""
+    episodes = {f.name: getattr(problem.episodes, f.name) for f in fields(problem.episodes) if f.name != "seed"}
+    return digest(problem.identity | {"episodes": digest(episodes)})
