@@ -13,7 +13,7 @@ import symid as si
 from symid.discrepancy import Suspect, diagnose, established_suspects, read_case
 from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.data import Data, episodes_between
-from symid.discrepancy.gain import kalman_gain
+from symid.discrepancy.gain import HOLD, kalman_gain
 from symid.discrepancy.remainder import remainder
 from symid.discrepancy.search import explore
 from symid.discrepancy.words import quantity
@@ -79,8 +79,8 @@ def test_the_fit_finds_the_truth_within_its_own_errors():
     for seed in range(8):
         fit = fit_baseline(cart(), data_of(recorded(seed)))
         z += [(fit.values[k] - TRUE[k]) / fit.errors[k] for k in TRUE]
-        # Drawn every 10 ms, seen every 20 ms: as strong as noise of this size held for 20 ms.
-        assert fit.process[0] == pytest.approx(0.05 / 2**0.5, rel=0.3)
+        # Drawn every 10 ms, seen every 20 ms.
+        assert fit.process[0] == pytest.approx(0.05, rel=0.3)
     assert np.abs(z).max() < 4 and 0.4 < np.std(z) < 1.7
 
 
@@ -99,9 +99,25 @@ def test_free_runs_of_pieces_without_random_forces():
 def test_kalman_gain_of_a_random_walk():
     linear = Linearised(np.zeros((1, 1)), np.ones((1, 1)), np.ones((1, 1)), np.zeros((1, 0)), np.zeros((1, 0)),
                         np.zeros(0), np.zeros(0, int))
-    gain = kalman_gain(linear, 1.0, np.array([1.0]), np.array([1.0]))
+    gain = kalman_gain(linear, 1.0, np.array([1.0 / HOLD**0.5]), np.array([1.0]))
     golden = (1 + 5**0.5) / 2          # P = (1 + sqrt 5)/2 solves P^2 = P + 1
     assert gain[0, 0] == pytest.approx(golden / (golden + 1), rel=1e-6)
+
+
+def test_forces_that_change_within_a_sample_move_position_and_speed_apart():
+    A, G, C = np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), np.array([[1.0, 0.0]])
+    linear = Linearised(A, G, C, np.zeros((2, 0)), np.zeros((1, 0)), np.zeros(0), np.zeros(0, int))
+    step, sd, rng = 10 * HOLD, 3.0, np.random.default_rng(1)
+    gain = kalman_gain(linear, step, np.array([sd]), np.array([1e-4]))
+    x, guess, surprise = np.zeros(2), np.zeros(2), []
+    for _ in range(20000):
+        for force in sd * rng.standard_normal(10):
+            x = np.array([x[0] + HOLD * x[1] + HOLD**2 / 2 * force, x[1] + HOLD * force])
+        guess = np.array([guess[0] + step * guess[1], guess[1]])
+        surprise.append(x[0] + 1e-4 * rng.standard_normal() - guess[0])
+        guess = guess + gain[:, 0] * surprise[-1]
+    e = np.array(surprise)
+    assert abs(e[1:] @ e[:-1] / (e @ e)) < 4 / len(e)**0.5
 
 
 def test_nothing_missing_is_adequate():

@@ -15,6 +15,7 @@ import numpy as np
 
 from symid.discrepancy.data import Data, Episode
 from symid.discrepancy.fit import Fit, Fitter
+from symid.discrepancy.gain import HOLD
 from symid.errors import SymidError
 
 REPEATS = 8
@@ -57,11 +58,15 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
     rng, sim, episodes = np.random.default_rng(seed), fit.simulator, []
     fitter = Fitter(fit.model, data)
     for e, x0 in zip(data.episodes, fit.initial, strict=True):
-        noise = {k: s * rng.standard_normal(len(e.time)) for k, s in zip(fit.model.noises, fit.process, strict=True)}
-        run = sim.simulate(fit.values, x0, e.time, e.inputs, noise=noise, substeps=fitter.substeps, keep="outputs")
+        holds = max(1, round(e.step / HOLD))
+        time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)
+        noise = {k: s * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process, strict=True)}
+        run = sim.simulate(fit.values, x0, time, {k: np.interp(time, e.time, u) for k, u in e.inputs.items()}, noise=noise,
+                           substeps=-(-fitter.substeps // holds), keep="outputs")
         if run.diverged:
             return None
-        episodes.append(Episode(e.time, run.y + data.sensor_noise * rng.standard_normal(run.y.shape), e.inputs))
+        shown = run.y[::holds]
+        episodes.append(Episode(e.time, shown + data.sensor_noise * rng.standard_normal(shown.shape), e.inputs))
     try:
         again = Fitter(fit.model, data.with_episodes(episodes)).fit(fit.values, fit.initial, fit.process, ITERATIONS,
                                                                      errors=False, gain=fit.gain)

@@ -7,6 +7,9 @@ from scipy.linalg import LinAlgError, expm, solve_discrete_are
 
 from symid.simulation import Linearised, Simulator
 
+HOLD = 0.01
+"""Random forces last about this long [s]."""
+
 
 def linearised_along(simulator: Simulator, values: np.ndarray, states: np.ndarray, points: int = 16) -> Linearised:
     """The mean of the linearisations at `points` states of a trajectory (statistical linearisation)."""
@@ -23,16 +26,13 @@ def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np
 
     Parameters
     ----------
-    step : seconds between samples; the process noise is held over each (Anderson & Moore 1979, 4.4).
+    step : seconds between samples; the process noise is held over `HOLD` seconds, or a whole part of the
+        sample nearest to that: forces that change within a sample move position and speed apart.
     process : (w,) standard deviation of each noise of the model; sensor : (m,) of each output.
     """
     A, G, C = linear.without_delay()
-    n, w = G.shape
-    block = np.zeros((n + w, n + w))
-    block[:n, :n], block[:n, n:] = A * step, G * step
-    exact = expm(block)
-    F, B = exact[:n, :n], exact[:n, n:] * process
-    R, Q = np.diag(sensor**2), B @ B.T
+    F, Q = _moved(A, G, step, process)
+    n, R = len(A), np.diag(sensor**2)
     scale = 1.0 / np.maximum(np.abs(np.diag(R)).mean(), 1e-300)
     for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
         try:
@@ -41,6 +41,20 @@ def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np
         except (LinAlgError, ValueError):
             continue
     return np.zeros((len(linear.A), len(C)))
+
+
+def _moved(A, G, step: float, process: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Transition over a sample and the covariance of what the noise adds (Anderson & Moore 1979, 4.4)."""
+    n, w = G.shape
+    holds = max(1, round(step / HOLD))
+    block = np.zeros((n + w, n + w))
+    block[:n, :n], block[:n, n:] = A * step / holds, G * step / holds
+    exact = expm(block)
+    F, B = exact[:n, :n], exact[:n, n:] * process
+    one, Q = B @ B.T, np.zeros((n, n))
+    for _ in range(holds):
+        Q = F @ Q @ F.T + one
+    return np.linalg.matrix_power(F, holds), Q
 
 
 def _gains(F, P, C, inverse, linear: Linearised, step: float) -> np.ndarray:
