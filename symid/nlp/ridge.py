@@ -1,4 +1,4 @@
-"""A quadratic pull towards zero on some variables of a nonlinear program."""
+"""A quadratic pull towards a point on some variables of a nonlinear program."""
 
 from __future__ import annotations
 
@@ -9,8 +9,10 @@ import numpy as np
 from symid.nlp.program import NonlinearProgram
 
 
-def with_ridge(nlp: NonlinearProgram, columns: np.ndarray, weight: float) -> NonlinearProgram:
-    """`nlp` with weight * sum of z[columns]^2 added to its objective (Hoerl & Kennard 1970).
+def with_ridge(nlp: NonlinearProgram, columns: np.ndarray, weight: float,
+               centre: np.ndarray | float = 0.0) -> NonlinearProgram:
+    """`nlp` with weight * sum of (z[columns] - centre)^2 added to its objective (Hoerl & Kennard 1970;
+    about a point that is not zero: Rockafellar 1976, the proximal point method).
 
     It gives curvature to directions of the variables that the objective does not see, along which
     an exact Hessian is singular and a Newton method stalls.
@@ -19,6 +21,7 @@ def with_ridge(nlp: NonlinearProgram, columns: np.ndarray, weight: float) -> Non
     ----------
     columns : int array, each variable at most once.
     weight : of the unscaled variables' squares.
+    centre : (columns,) where the pull is zero.
     """
     rows, cols, places = _with_diagonal(nlp, columns)
 
@@ -30,10 +33,10 @@ def with_ridge(nlp: NonlinearProgram, columns: np.ndarray, weight: float) -> Non
 
     def gradient(z):
         slope = nlp.gradient(z).copy()
-        slope[columns] += 2 * weight * z[columns]
+        slope[columns] += 2 * weight * (z[columns] - centre)
         return slope
 
-    return replace(nlp, objective=lambda z: nlp.objective(z) + weight * float(z[columns] @ z[columns]),
+    return replace(nlp, objective=lambda z: nlp.objective(z) + weight * float(np.sum((z[columns] - centre) ** 2)),
                    gradient=gradient, hessian=None if nlp.hessian is None else hessian,
                    hessian_rows=rows, hessian_cols=cols)
 
