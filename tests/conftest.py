@@ -41,13 +41,13 @@ def pendulum_model() -> si.Model:
 
 
 def pendulum_recording(damping: float = 0.4, duration: float = 6.0, step: float = 0.02, noise: float = 0.0,
-                       seed: int = 0) -> Recording:
+                       seed: int = 0, strength: float = 1.0) -> Recording:
     """The pendulum's motion under a smooth drive, from SciPy's integrator, which symid does not use."""
     from scipy.integrate import solve_ivp
     time = np.arange(0, duration + step / 2, step)
 
     def drive(t):
-        return 1.5 * np.sin(2.1 * t) + np.cos(0.7 * t)
+        return strength * (1.5 * np.sin(2.1 * t) + np.cos(0.7 * t))
 
     def f(t, x):
         return [x[1], -4 * np.sin(x[0]) - damping * x[1] + drive(t)]

@@ -60,7 +60,7 @@ def problem_identity(problem: Identification) -> dict[str, str]:
         "episodes": digest(problem.episodes),
         "weights": digest(problem.weights),
         "per_recording": digest(tuple(problem.per_recording)),
-        "ridge": digest(problem.ridge),
+        "ridge": digest(problem.ridge if problem.ridge_about == "zero" else (problem.ridge, problem.ridge_about)),
         "backend": problem.backend,
         "version of symid": version("symid"),
     }

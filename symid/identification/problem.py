@@ -15,6 +15,7 @@ from symid.errors import TranscriptionError
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution, StartRow
+from symid.identification.rehearsal import rehearsed_start
 from symid.identification.search import can_search, search_start, soft_start
 from symid.identification.starts import default_start, given_start, random_start
 from symid.identification.study import Solve, Study, start_kinds
@@ -48,6 +49,7 @@ class Identification:
     ridge : weight, for each episode, of the sum of squared parameters, each divided by its larger
         bound, added to the objective; for parameters that the data do not determine alone, such
         as the weights of a neural network.
+    ridge_about : "zero", or "start": the ridge pulls towards the parameters that a solve begins with.
 
     Raises
     ------
@@ -64,10 +66,13 @@ class Identification:
     per_recording: Sequence[str] = ()
     backend: str = "auto"
     ridge: float = 0.0
+    ridge_about: str = "zero"
 
     def __post_init__(self):
         many = self.recordings if isinstance(self.recordings, Sequence) else (self.recordings,)
         object.__setattr__(self, "recordings", tuple(many))
+        if self.ridge_about not in ("zero", "start"):
+            raise TranscriptionError(f"ridge_about={self.ridge_about!r}: a ridge pulls towards 'zero' or towards the 'start'")
 
     @property
     def windows(self) -> list[tuple[float, float] | None]:
@@ -113,7 +118,8 @@ class Identification:
             searched as below), "random" (recorded motion, parameters uniform
             within their bounds), "search" (random, then searched until simulations follow the
             recording: for several episodes), "soft" (random, then identified with process noise that
-            is estimated, too), parameter values by name, a Solution of a similar problem, or a free
+            is estimated, too), "rehearsed" (searched for among loops that do not fall from states around
+            the recorded ones), parameter values by name, a Solution of a similar problem, or a free
             vector as it is.
         """
         if isinstance(kind, np.ndarray):
@@ -123,8 +129,9 @@ class Identification:
             return z if simulated or not can_search(self) else search_start(self, seed, number)
         if kind == "random":
             return random_start(self.transcription, seed, number)
-        if isinstance(kind, str) and kind in ("search", "soft"):
-            return {"search": search_start, "soft": soft_start}[kind](self, seed, number)
+        searches = {"search": search_start, "soft": soft_start, "rehearsed": rehearsed_start}
+        if isinstance(kind, str) and kind in searches:
+            return searches[kind](self, seed, number)
         return given_start(self.transcription, kind)
 
     def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
@@ -132,7 +139,9 @@ class Identification:
         nlp, layout = self.transcription.nonlinear_program(start), self.transcription.layout
         if not self.ridge:
             return nlp
-        return with_ridge(nlp, np.arange(layout.offsets[-1], layout.size), self.ridge * len(layout.intervals))
+        columns = np.arange(layout.offsets[-1], layout.size)
+        centre = start[columns] if self.ridge_about == "start" else 0.0
+        return with_ridge(nlp, columns, self.ridge * len(layout.intervals), centre)
 
     def solve_from(self, start: np.ndarray, *, on_iteration: Callable[[Iteration], bool | None] | None = None,
                    warm_start: SolverResult | None = None, dual_limit: float = np.inf, **solver) -> SolverResult:

@@ -1,0 +1,93 @@
+"""A start whose loop survives simulations from states and with inputs that were not recorded."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import pendulum, pendulum_recording
+
+from symid.errors import TranscriptionError
+from symid.identification import Identification
+from symid.identification.rehearsal import Rehearsed, displaced, rehearsed_start, survival
+from symid.nlp import check_derivatives, with_ridge
+from symid.transcription import Episodes
+
+
+def mild_recording():
+    """So little driven that the pendulum does not turn over where the input is made larger."""
+    return pendulum_recording(noise=0.01, strength=0.3)
+
+
+@pytest.fixture(scope="module")
+def problem():
+    return Identification(pendulum(), mild_recording(), episodes=Episodes(3, amplitude=0.3, seed=1),
+                          ridge=1e-2, ridge_about="start")
+
+
+def test_displaced_states_fill_the_widened_box():
+    states = np.array([[-1.0, 0.0], [1.0, 4.0], [0.5, 1.0]])
+    x = displaced(states, 64, 2.0)
+    assert x.shape == (64, 2)
+    assert np.all(np.abs(x[:, 0]) <= 2) and np.all(np.abs(x[:, 1] - 2) <= 4)
+    assert np.allclose(x.mean(axis=0), [0, 2], atol=0.1) and np.abs(x[:, 0]).max() > 1.9
+    assert np.array_equal(x[:8], displaced(states, 8, 2.0))
+
+
+@pytest.mark.parametrize("damping", [0.2, 0.4, 1.5])
+def test_slopes_of_the_displaced_runs_are_those_of_their_errors(problem, damping):
+    loop = Rehearsed(problem.transcription, 1e-3, price=0.3)
+    z = loop.unknowns(np.array([damping]))
+    jacobian = loop.jacobian(z)
+    for i in range(len(z)):
+        h = 1e-6 * np.eye(len(z))[i]
+        slope = (loop.residual(z + h) - loop.residual(z - h)) / 2e-6
+        assert np.allclose(jacobian[:, i], slope, atol=1e-6 * np.abs(jacobian).max())
+
+
+def test_price_weighs_the_displaced_runs_against_the_episodes(problem):
+    t = problem.transcription
+    plain, cheap, dear = (Rehearsed(t, 0.0, price) for price in (0.0, 0.1, 0.2))
+    z = plain.unknowns(np.array([0.4]))
+    assert dear.cost(z) - plain.cost(z) == pytest.approx(4 * (cheap.cost(z) - plain.cost(z)))
+    assert cheap.distance(z) > plain.distance(z)
+
+
+def test_a_damped_loop_survives_and_one_that_gains_energy_falls():
+    t = Identification(pendulum(), mild_recording()).transcription
+    assert survival(t, np.array([0.4])) == 1.0
+    assert survival(t, np.array([-3.0])) == 0.0
+
+
+def test_rehearsed_start_survives_follows_and_is_solved(problem):
+    z = rehearsed_start(problem, seed=0, number=0)
+    t = problem.transcription
+    assert t.layout.parameters(z)[0] == pytest.approx(0.4, abs=0.1)
+    assert not np.allclose(t.layout.states(z, 0), t.layout.states(z, 1))    # each episode has its own noise
+    result = problem.solve_from(z)
+    assert result.solved and survival(t, t.layout.parameters(result.z)) == 1.0
+
+
+def test_rehearsed_start_is_the_same_for_a_seed(problem):
+    first = problem.start("rehearsed", 3, 2)
+    assert np.array_equal(first, problem.start("rehearsed", 3, 2))
+
+
+def test_ridge_about_a_point_has_its_least_there(problem):
+    nlp = problem.transcription.nonlinear_program(problem.start("random"))
+    columns, centre = np.array([nlp.n - 1, 0]), np.array([0.3, -0.2])
+    ridged = with_ridge(nlp, columns, 0.5, centre)
+    z = nlp.start + 0.1
+    assert ridged.objective(z) == pytest.approx(nlp.objective(z) + 0.5 * np.sum((z[columns] - centre) ** 2))
+    assert check_derivatives(ridged, z).ok
+
+
+def test_a_ridge_about_the_start_keeps_a_solve_there(problem):
+    z = problem.start({"damping": 2.0})
+    ends = [replace(problem, ridge=ridge).solve_from(z).z[-1] for ridge in (0.0, 1e6)]
+    assert ends[1] == pytest.approx(z[-1], abs=1e-3) and abs(ends[0] - z[-1]) > 0.1
+    assert problem.identity["ridge"] != replace(problem, ridge_about="zero").identity["ridge"]
+
+
+def test_a_ridge_about_something_else_is_refused(problem):
+    with pytest.raises(TranscriptionError, match="ridge_about='mean'.*'zero'.*'start'"):
+        replace(problem, ridge_about="mean")
