@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from symid.reproduce.run import NETWORK_RIDGE, Finding, Reproduction
+from symid.reproduce.run import NETWORK_RIDGE, START_RIDGE, Finding, Reproduction
 
 NOTES = (
     ("process noise", "Gaussian in the text, uniform within 0.25 N m in the result files", "uniform"),
@@ -15,7 +15,10 @@ NOTES = (
     ("draws of noise", "not said; tables 1 and 2 spread as draws do, not as starts of one draw", "one for each start"),
     ("starts of noisy episodes", "random within the bounds", "random, then searched until simulations follow; "
      "with two episodes every second one with estimated process noise, so that unstable loops are met"),
-    ("weights of the network", "within 5 of fitted ones", f"within 20, ridge {NETWORK_RIDGE:g} on (w/20)^2"),
+    ("weights of the network", "within 5 of fitted ones", f"within 20, ridge {NETWORK_RIDGE:g} on (w/20)^2 without "
+     f"noise; with noise ridge {START_RIDGE:g} on their distance from the start"),
+    ("best start of the network", "least RMS", "with noise least RMS among those whose loop, simulated with the input of "
+     "the fitted window made larger, from states around its own, does not fall (`identification.rehearsal`)"),
 )
 
 
