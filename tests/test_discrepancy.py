@@ -13,6 +13,7 @@ import symid as si
 from symid.discrepancy import Suspect, diagnose, established_suspects, read_case
 from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.data import Data, episodes_between
+from symid.discrepancy.diagnose import Explanation, _fit_with, _sure
 from symid.discrepancy.gain import HOLD, kalman_gain
 from symid.discrepancy.remainder import remainder
 from symid.discrepancy.search import explore
@@ -134,6 +135,17 @@ def test_friction_is_named_placed_and_measured():
     assert abs(value - 0.35) < 4 * error and error < 0.02
     assert finding_.runs["augmented_heldout"].rms < 0.2 * finding_.runs["baseline_heldout"].rms
     assert "cart is held back by a dry friction" in finding_.words
+
+
+def test_effects_that_could_as_well_be_nothing_are_left_out():
+    friction, gain = (Suspect(LIBRARY[n].at(p)) for n, p in (("coulomb_friction", "cart"), ("input_gain", "input")))
+    data = data_of(recorded(4, friction.term, {"torque_Nm": 0.35}))
+    base = fit_baseline(cart(), data)
+    start = base.values | friction.named({"torque_Nm": 0.3}) | gain.named({"gain": 1.0})
+    both = _fit_with([gain, friction], base, base, data, start)
+    assert _sure(both, base, data).suspects == (friction,)
+    alone = Explanation((gain,), _fit_with([gain], base, base, data, start).fit, 0.0)
+    assert _sure(alone, base, data) is alone
 
 
 @pytest.mark.slow

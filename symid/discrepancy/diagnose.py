@@ -42,6 +42,8 @@ REMAINDER = 4.5
 QUIET = 1.5
 """Below this nothing is left that another pair of suspects could explain better."""
 EQUIVALENT = 12.0
+UNSURE = 2.0
+"""An effect that is not this many honest standard errors from nothing is left out."""
 FAR = 5.0
 """Errors so many times the sensors' noise are not explained by whatever acts at one place alone."""
 MOST_EFFECTS = {True: 3, False: 6}
@@ -120,6 +122,9 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
         if steady is not None:
             found, left = steady, remainder(steady.fit, data)
         found = replace(found, fit=with_robust_errors(found.fit, data))
+        sure = _sure(found, base, data)
+        if sure is not found:
+            found, left = sure, remainder(sure.fit, data)
     elif found.established:
         names = [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters]
         found = replace(found, fit=unbiased(found.fit, data, names, threads))
@@ -203,6 +208,26 @@ def _steady(found: Explanation, base: Fit, data: Data) -> Explanation | None:
         return None
     less = _fit_with(kept, found.fit, base, data)
     return None if less is None else _polished(less, data)
+
+
+def _sure(found: Explanation, base: Fit, data: Data) -> Explanation:
+    """The explanation without effects that could as well be nothing, the least certain dropped first; one at least is kept."""
+    while len(found.suspects) > 1:
+        doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
+        if _certainty(doubtful, found.fit) > UNSURE:
+            break
+        less = _fit_with([s for s in found.suspects if s is not doubtful], found.fit, base, data)
+        if less is None:
+            break
+        less = _polished(less, data)
+        found = replace(less, fit=with_robust_errors(less.fit, data))
+    return found
+
+
+def _certainty(suspect: Suspect, fit: Fit) -> float:
+    """Standard errors between the suspect and nothing; infinite where no value of it means nothing."""
+    nulls = {suspect.term.parameter_name(q.key): q.null for q in suspect.law.parameters if q.null is not None}
+    return max((abs(fit.values[k] - null) / fit.errors[k] for k, null in nulls.items() if fit.errors.get(k)), default=np.inf)
 
 
 def _preferred(found: list[Explanation]) -> Explanation | None:
