@@ -117,6 +117,15 @@ def test_warm_start_with_an_active_bound_stays_there():
     assert warm.iterations < cold.iterations
 
 
+def test_an_end_at_a_bound_oversteps_nothing_and_starts_another_solve(either_way):
+    nlp = hs071()
+    end = solve_nlp(nlp, options={"tol": 1e-11}).z
+    assert end[0] == pytest.approx(1, abs=1e-7) and np.all(end >= nlp.lower) and np.all(end <= nlp.upper)
+    relaxed = solve_nlp(nlp, options={"tol": 1e-11, "honor_original_bounds": "no"}).z
+    assert relaxed[0] < 1.0
+    assert solve_nlp(nlp, start=relaxed).solved
+
+
 def test_a_warm_start_of_another_size_is_refused():
     with pytest.raises(SolveError, match=r"z has shape \(1,\), expected \(4,\)"):
         solve_nlp(hs071(), warm_start=solve_nlp(one_variable()))

@@ -28,6 +28,7 @@ DEFAULTS: dict[str, str | float] = {
     "mumps_permuting_scaling": 0,
     "mumps_scaling": 0,
     "mumps_pivot_order": 6,
+    "honor_original_bounds": "yes",
     "print_level": 0,
     "sb": "yes",
 }
@@ -122,13 +123,13 @@ def _starting_point(nlp, start, warm_start) -> dict[str, np.ndarray]:
                 f"The start does not fit the program: {name} has shape {point[name].shape}, "
                 f"expected ({size},). Transcribe the previous solution to this program first."
             )
-    _check_inside(nlp, point["z"], allowance=1e-7 if warm_start else 0.0)
+    _check_inside(nlp, point["z"])
     return point
 
 
-def _check_inside(nlp: NonlinearProgram, z: np.ndarray, allowance: float) -> None:
+def _check_inside(nlp: NonlinearProgram, z: np.ndarray) -> None:
     """Refuse a start out of bounds; a previous solution may overstep by Ipopt's own relaxation."""
-    slack = allowance * np.maximum(1.0, np.abs(z))
+    slack = 1e-7 * np.maximum(1.0, np.abs(z))
     inside = (z >= nlp.lower - slack) & (z <= nlp.upper + slack)
     if not inside.all():
         i = int(np.argmin(inside))
