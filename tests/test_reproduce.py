@@ -8,7 +8,7 @@ import pytest
 
 from symid.cli import main
 from symid.errors import SymidError
-from symid.reproduce import CASES, Reproduction, comparison, notes
+from symid.reproduce import CASES, Reproduction, comparison, late_feedback, late_feedback_text, notes
 from symid.reproduce.article import chosen
 from symid.reproduce.run import Finding, problem
 
@@ -94,3 +94,13 @@ def test_one_case_from_the_command_line(capsys, tmp_path, shared):
     assert table.loc["rms of the best start", "here"] <= 0.384
     assert sorted(p.name for p in tmp_path.iterdir()) == ["comparison.csv", "figure_2.png", "starts.png"]
     assert "Figure 2" in capsys.readouterr().out
+
+
+def test_a_late_feedback_stands_beside_the_articles(shared):
+    table = late_feedback(*_material(shared)).set_index("law")
+    assert table["solved"].all() and np.isnan(table.loc["FPD", "delay_ms"])
+    late = table.loc["FPD with delay"]
+    assert 30 < late["delay_ms"] < 90 and 0 < late["std_error_ms"] < 15
+    assert table.loc["FPD", "rms_deg"] == pytest.approx(0.955313, abs=1e-5) and late["rms_deg"] < 0.94
+    assert table["held_out_rms_deg"].between(1.3, 1.4).all()
+    assert "held out: 260 to 300 s" in late_feedback_text(table.reset_index())

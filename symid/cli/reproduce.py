@@ -31,7 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.identification.study import tell
     from symid.plots.article import plot_stable_share, plot_starts_spread
     from symid.recording import read_recording
-    from symid.reproduce import comparison, reproduce, text
+    from symid.reproduce import CASES, comparison, late_feedback, late_feedback_text, reproduce, text
     from symid.reproduce.article import chosen
 
     if arguments.starts < 1:
@@ -43,12 +43,17 @@ def run(arguments: argparse.Namespace) -> int:
         found = reproduce(cases, body, recording, starts=1 if arguments.quick else arguments.starts, seeds=arguments.seeds,
                           executor=executor, jobs=arguments.jobs, store=arguments.store, on_finished=tell)
     print(text(found))
-    output = Path(arguments.output)
-    write_atomically(output / "comparison.csv", comparison(found).to_csv(index=False))
+    files = {"comparison.csv": comparison(found).to_csv(index=False)}
     if found.findings:
-        write_atomically(output / "figure_2.png", plot_stable_share(found.findings).png())
-        write_atomically(output / "starts.png", plot_starts_spread(found.findings).png())
-    print(f"\nWritten: comparison.csv, figure_2.png and starts.png in {output}")
+        files["figure_2.png"] = plot_stable_share(found.findings).png()
+        files["starts.png"] = plot_starts_spread(found.findings).png()
+    if CASES["FPD-1"] in cases:
+        late = late_feedback(body, recording)
+        print(f"\n{late_feedback_text(late)}")
+        files["late_feedback.csv"] = late.to_csv(index=False)
+    for name, content in files.items():
+        write_atomically(Path(arguments.output) / name, content)
+    print(f"\nWritten: {', '.join(files)} in {arguments.output}")
     return 1 if found.failed or not all(f.best.solved for f in found.findings) else 0
 
 
