@@ -29,12 +29,12 @@ TRUE = {"stiffness": 30.0, "damping": 1.2}
 SENSOR = 2e-4
 
 
-def cart() -> Model:
+def cart(softest: float = 0.0) -> Model:
     m = Model("cart on a spring")
     m.position, m.speed = State(unit="m"), State(unit="m/s")
     m.shaker = Input(unit="m/s^2", role="excitation", at="input")
     m.mass = Constant(2.0, unit="kg", role="mass", at="cart")
-    m.stiffness = Parameter(unit="N/m", bounds=(0, 1e4))
+    m.stiffness = Parameter(unit="N/m", bounds=(softest, 1e4))
     m.damping = Parameter(unit="N*s/m", bounds=(0, 1e3))
     m.gust = Noise(unit="N", role="process_noise", at="cart")
     m.kinematics = Equation(m.position.dot - m.speed)

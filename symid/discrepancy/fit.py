@@ -13,8 +13,10 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from symid.discrepancy.bounded import growth, growth_normal, runs_away
 from symid.discrepancy.data import Data
 from symid.discrepancy.gain import kalman_gain, linearised_along
+from symid.discrepancy.step import damped_step
 from symid.errors import DiagnosisError, SymidError
 from symid.model import Model
 from symid.simulation import Simulator, simulator
@@ -87,6 +89,7 @@ class Fitter:
         self.bounds = np.array([model.parameters[p].bounds for p in self.sim.parameters], dtype=float).reshape(-1, 2)
         self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
         self.driven = data.driven and bool(model.noises)
+        self.bounded = False
         self.step = data.episodes[0].step
         self.substeps = max(1, int(np.ceil(self.step / (1.01 * LONGEST_STEP[self.driven]))))
 
@@ -151,7 +154,17 @@ class Fitter:
 
         `gain` is one that is known to hold the start together, of an earlier fit that ended there.
         """
+        self.bounded = False
         at = self._begin(start, initial, process, gain)
+        k, converged = self._descend(at, iterations, tolerance)
+        if self.driven and runs_away(self, at.p, at.x0):
+            self.bounded = True
+            at.value -= self._price(at.p, at.path)
+            k, converged = self._descend(at, iterations, tolerance)
+        return self._result(at, k, converged, errors)
+
+    def _descend(self, at: _Point, iterations: int, tolerance: float) -> tuple[int, bool]:
+        """Move `at` uphill; how many iterations that took, and whether it converged."""
         damping, converged, k = 1e-3, False, 0
         for k in range(1, iterations + 1):
             system = self.normal(at.p, at.x0, at.gain, at.process, at.path)
@@ -162,12 +175,13 @@ class Fitter:
                 # No step gains although little is left to gain: the gain's own change is not in the slopes.
                 converged = float(step @ system[1]) < 1.0
                 break
-            change, at = new.value - at.value, new
+            change = new.value - at.value
+            at.p, at.x0, at.process, at.gain, at.value = new.p, new.x0, new.process, new.gain, new.value
             at.path = self.path(at.p, at.x0, at.gain)
             if change < tolerance:
                 converged = True
                 break
-        return self._result(at, k, converged, errors)
+        return k, converged
 
     def again(self, fit: Fit, iterations: int = 40) -> Fit:
         """A fit that goes on from where `fit` of the same model ended."""
@@ -188,7 +202,7 @@ class Fitter:
     def _improved(self, at: _Point, system, damping: float) -> tuple[_Point | None, np.ndarray, float]:
         """A better point, the last step tried, and the damping to go on with."""
         for _ in range(PATIENCE):
-            step = _solve(system, damping, self.bounds[self.index], at.p[self.index])
+            step = damped_step(system, damping, self.bounds[self.index], at.p[self.index])
             p, x0, process = self._moved(at.p, at.x0, at.process, step)
             gain, value = self._tried(p, x0, process, at.path)
             if value > at.value - 1e-9:
@@ -200,9 +214,13 @@ class Fitter:
         """The gain and twice the log-likelihood at a trial point, -inf where it cannot be simulated."""
         try:
             gain = self.gain(p, process, path)
-            return gain, self.evaluate(p, x0, gain)
+            return gain, self.evaluate(p, x0, gain) - self._price(p, path)
         except SymidError:
             return None, -np.inf
+
+    def _price(self, p, path) -> float:
+        """What growth costs of twice the log-likelihood."""
+        return self.data.weight * growth(self, p, path) ** 2 if self.bounded else 0.0
 
     def _moved(self, p, x0, process, step):
         q, (E, n) = len(self.free), x0.shape
@@ -231,6 +249,10 @@ class Fitter:
                 where = np.r_[0:q + w, q + w + i * n:q + w + (i + 1) * n]
                 H[np.ix_(where, where)] += J.T @ J
                 g[where] += J.T @ r
+            if self.bounded:
+                own, pull = growth_normal(self, p, path)
+                H[:q, :q] += own
+                g[:q] += pull
         # Sensitivities of an unstable predictor overflow before the run itself does.
         return (H, g, q) if np.isfinite(H).all() and np.isfinite(g).all() else None
 
@@ -269,24 +291,3 @@ def whitened(white: np.ndarray, a: np.ndarray) -> np.ndarray:
     for i, row in enumerate(white):
         out[:, i] = sum(f * a[:, j] for j, f in enumerate(row) if f != 0)
     return out.reshape(-1, a.shape[2])
-
-
-def _solve(system, damping, bounds, at) -> np.ndarray:
-    """The damped step; parameters that would leave their bounds are held there."""
-    H, g, q = system
-    held = np.zeros(len(g), dtype=bool)
-    d = np.maximum(np.diag(H), 1e-12 * max(np.diag(H).max(), 1e-300))
-    for _ in range(q + 1):
-        use = ~held
-        scale = np.sqrt(d[use])
-        A = H[np.ix_(use, use)] / np.outer(scale, scale) + damping * np.eye(use.sum())
-        step = np.zeros(len(g))
-        step[use] = np.linalg.lstsq(A, g[use] / scale, rcond=1e-13)[0] / scale
-        target = at + step[:q]
-        out = ((target < bounds[:, 0]) & (at <= bounds[:, 0])) | ((target > bounds[:, 1]) & (at >= bounds[:, 1]))
-        out &= ~held[:q]
-        if not out.any():
-            return step
-        held[:q] |= out
-    return step
-
