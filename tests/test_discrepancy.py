@@ -13,7 +13,7 @@ import symid as si
 from symid.discrepancy import Suspect, diagnose, established_suspects, read_case
 from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.data import Data, episodes_between
-from symid.discrepancy.diagnose import Explanation, _fit_with, _sure
+from symid.discrepancy.explanation import Explanation, fit_with, sure
 from symid.discrepancy.gain import HOLD, kalman_gain
 from symid.discrepancy.remainder import remainder
 from symid.discrepancy.search import explore
@@ -142,10 +142,10 @@ def test_effects_that_could_as_well_be_nothing_are_left_out():
     data = data_of(recorded(4, friction.term, {"torque_Nm": 0.35}))
     base = fit_baseline(cart(), data)
     start = base.values | friction.named({"torque_Nm": 0.3}) | gain.named({"gain": 1.0})
-    both = _fit_with([gain, friction], base, base, data, start)
-    assert _sure(both, base, data).suspects == (friction,)
-    alone = Explanation((gain,), _fit_with([gain], base, base, data, start).fit, 0.0)
-    assert _sure(alone, base, data) is alone
+    both = fit_with([gain, friction], base, base, data, start)
+    assert sure(both, base, data).suspects == (friction,)
+    alone = Explanation((gain,), fit_with([gain], base, base, data, start).fit, 0.0)
+    assert sure(alone, base, data) is alone
 
 
 @pytest.mark.slow

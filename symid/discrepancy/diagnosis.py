@@ -12,7 +12,7 @@ from pathlib import Path
 from symid.discrepancy.audit import Audit
 from symid.discrepancy.fit import Fit
 from symid.discrepancy.freerun import FreeRun
-from symid.discrepancy.halves import Survival
+from symid.discrepancy.halves import HalfVerdict, Survival
 from symid.discrepancy.remainder import Test
 from symid.discrepancy.search import Candidate
 from symid.files import write_atomically
@@ -52,7 +52,8 @@ class Diagnosis:
     baseline, final : fits before and after. improved : the model with the found terms.
     runs : free simulations by ``baseline_train``, ``baseline_heldout``, ``augmented_train``, ``augmented_heldout``.
     remainder : tests for something left over. words : the finding in sentences.
-    audit : noise of the sensors, and whether the recording was filtered. halves : each effect on two halves.
+    audit : noise of the sensors, and whether the recording was filtered. halves : each effect on two halves;
+    verdicts_of_halves : what either half alone says, where what is left is not random.
     """
 
     verdict: str
@@ -66,6 +67,7 @@ class Diagnosis:
     words: str
     audit: Audit
     halves: tuple[Survival, ...] = ()
+    verdicts_of_halves: tuple[HalfVerdict, ...] = ()
 
     @property
     def improved(self) -> Model:
@@ -95,6 +97,8 @@ class Diagnosis:
             "confirmed": self.confirmed,
             "fit": {"baseline": rms("baseline"), "augmented": rms("augmented")},
             "halves": [self._half(s) for s in self.halves],
+            "verdicts_of_halves": [{"span_s": list(v.span), "verdict": v.verdict, "better_explained_by": None if v.rival is None else
+                                    {"name": v.rival.term.name, "location": v.rival.term.location}} for v in self.verdicts_of_halves],
             "recording": self._recording(),
             "remainder": [{"location": t.place, "what": t.what, "gain": t.gain, "degrees_of_freedom": t.size,
                            "minus_log10_probability": min(t.surprise, 300.0)} for t in self.remainder[:3]],

@@ -10,8 +10,9 @@ import numpy as np
 
 from symid.discrepancy.data import Data
 from symid.discrepancy.fit import Fit, Fitter
+from symid.discrepancy.remainder import REMAINDER, remainder
 from symid.discrepancy.robust import with_robust_errors
-from symid.discrepancy.search import price
+from symid.discrepancy.search import explore, price
 from symid.discrepancy.suspects import Suspect
 from symid.errors import SymidError
 
@@ -44,6 +45,36 @@ class Survival:
     location: str
     halves: tuple[Half, Half]
     reason: str = ""
+
+
+@dataclass(frozen=True)
+class HalfVerdict:
+    """What one half of the fit window says alone: start and end [s], the verdict, and a suspect that explains more there, if any."""
+
+    span: tuple[float, float]
+    verdict: str
+    rival: Suspect | None = None
+
+
+def verdicts(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, rivals: Sequence[Suspect]) -> tuple[HalfVerdict, ...]:
+    """The verdict on each of two disjoint halves, with what was found and each of `rivals` in its place; empty where a half cannot be fitted."""
+    found = []
+    for half, initial in zip(data.halves(), _states(fit, data), strict=True):
+        near = replace(fit, initial=initial)
+        given, whole = _refit([], near, base, half), _refit(suspects, near, base, half)
+        if given is None or whole is None:
+            return ()
+        score = whole.loglik2 - given.loglik2 - price(suspects, half, given, whole)
+        explained = score > 0 and bool(suspects)
+        verdict = "unexplained" if remainder(whole, half)[0].surprise > REMAINDER else "missing_physics" if explained else "adequate"
+        found.append(HalfVerdict(half.span, verdict, _better(rivals, score, given, half) if len(suspects) == 1 else None))
+    return tuple(found)
+
+
+def _better(rivals: Sequence[Suspect], score: float, given: Fit, half: Data) -> Suspect | None:
+    """The rival that explains a half better than the score of what was found, if one does."""
+    found = [c for c in explore(given, half, rivals, threads=1) if c.score > score] if rivals else []
+    return found[0].suspect if found else None
 
 
 def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool, others: Sequence[Suspect] = ()) -> tuple[Survival, ...]:

@@ -14,7 +14,6 @@ from symid.discrepancy.fit import Fit, Fitter
 from symid.discrepancy.screen import Screen, extended, padded
 from symid.discrepancy.suspects import Suspect
 from symid.errors import SymidError
-from symid.simulation import simulator
 
 WORTH_REFITTING = 8.0
 """A suspect with a smaller forecast gain than this is refitted only if it is among the best few."""

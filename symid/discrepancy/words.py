@@ -12,7 +12,7 @@ import numpy as np
 from symid.discrepancy.audit import Audit
 from symid.discrepancy.diagnosis import Effect
 from symid.discrepancy.freerun import FreeRun
-from symid.discrepancy.halves import Survival
+from symid.discrepancy.halves import HalfVerdict, Survival
 from symid.discrepancy.remainder import Test
 from symid.discrepancy.search import Candidate
 from symid.discrepancy.suspects import Suspect
@@ -95,6 +95,7 @@ class Story:
     runs: Mapping[str, FreeRun]
     audit: Audit
     survived: tuple[Survival, ...]
+    halves: tuple[HalfVerdict, ...]
     white: bool
     driven: bool
     weight: float
@@ -104,7 +105,7 @@ def words(story: Story) -> str:
     """Everything that a reader should know, most important first, one line a paragraph."""
     losses = _losses(story)
     first = (losses, _finding(story)) if len(losses) and " not enough" in losses[0] else (_finding(story) + losses,)
-    parts = (*first, _alike(story), _proof(story) + _rest(story), _halves(story), _caveats(story))
+    parts = (*first, _alike(story), _proof(story) + _rest(story), _halves(story) + _verdicts_of_halves(story), _caveats(story))
     return "\n".join(" ".join(part) for part in parts if part)
 
 
@@ -173,6 +174,17 @@ def _halves(s: Story) -> list[str]:
     out += [f"{'It' if one else _capital(law_name(v.name, v.location))} does not survive on two halves of the fit window: {v.reason}."
             for v in s.survived if v.reason]
     return out
+
+
+def _verdicts_of_halves(s: Story) -> list[str]:
+    """Whether either half alone leads to the same verdict and to the same suspect."""
+    if not s.halves:
+        return []
+    other = [f"the {which} half leads to '{v.verdict.replace('_', ' ')}'" for v, which in zip(s.halves, ("first", "second"), strict=True)
+             if v.verdict != s.verdict]
+    out = [f"Taken alone, {_listed(other)}: another verdict than on the whole." if other else "Either half alone leads to the same verdict."]
+    return out + [f"On the {which} half alone {law_name(v.rival.term.name, v.rival.term.location)} explains more than what was found."
+                  for v, which in zip(s.halves, ("first", "second"), strict=True) if v.rival is not None]
 
 
 def _capital(text: str) -> str:
