@@ -19,9 +19,16 @@ ATTEMPTS = 2  # a worker may be killed by chance once
 
 
 def in_turn(todo: Mapping[str, Solve], on_iteration) -> Iterator[tuple[str, Outcome]]:
-    """Keys and outcomes of solves done here, one after the other."""
+    """Keys and outcomes of solves done here, one after the other.
+
+    Of several problems only a copy of the one at work is transcribed: each takes tens of megabytes.
+    """
+    several = len({id(solve.problem) for solve in todo.values()}) > 1
+    problem = copy = None
     for key, solve in todo.items():
-        yield key, solve_here(solve, on_iteration)
+        if several and solve.problem is not problem:
+            problem, copy = solve.problem, replace(solve.problem)
+        yield key, solve_here(replace(solve, problem=copy) if several else solve, on_iteration)
 
 
 def on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple[str, Outcome]]:
