@@ -1,6 +1,7 @@
 """What a recording is trusted for: its noise, its filtering, its rounding; errors and effects that do not believe in white noise."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,10 +11,10 @@ from scipy.signal import butter, filtfilt
 from symid.discrepancy.audit import audit, white_noise
 from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.data import Data, Episode
-from symid.discrepancy.halves import Half, _reason, _said, survivals
+from symid.discrepancy.halves import Half, HalfVerdict, _reason, _said, survivals, verdicts
 from symid.discrepancy.robust import with_robust_errors
 from symid.discrepancy.suspects import Suspect
-from symid.discrepancy.words import law_name, place_name, quantity, sentence
+from symid.discrepancy.words import _verdicts_of_halves, law_name, place_name, quantity, sentence
 from symid.mechanics import LIBRARY, rig_model
 from symid.recording import Recording
 from symid.simulation import simulator
@@ -89,8 +90,8 @@ def test_errors_from_blocks_are_no_smaller_and_alike_where_noise_is_white():
 
 
 # ---- halves ----------------------------------------------------------------------------------
-def swings(torque_of_half, episodes=6):
-    """A pendulum in pieces whose dry friction may differ between the halves."""
+def swings(torque_of_half, episodes=6, named="coulomb_friction"):
+    """A pendulum in pieces whose dry friction may differ between the halves: the suspect named, fits with and without it, data."""
     term, model = LIBRARY["coulomb_friction"].at("joint1"), rig_model(SINGLE)
     sim, rng, found = simulator(model.with_term(term)), np.random.default_rng(1), []
     time = np.arange(0, 4, 0.01)
@@ -99,12 +100,12 @@ def swings(torque_of_half, episodes=6):
         y = sim.simulate({term.parameter_name("torque_Nm"): torque}, np.array([0.9 - 0.05 * k, 0.0]), time, substeps=2).y
         found.append(Episode(time + 4 * k, y + 5e-4 * rng.standard_normal(y.shape), {}))
     data = Data(tuple(found), np.array([5e-4]), driven=False)
-    base, whole = fit_baseline(model, data), fit_baseline(model.with_term(term), data)
-    return survivals([Suspect(term)], whole, base, data, white=True)
+    said = LIBRARY[named].at("joint1")
+    return [Suspect(said)], fit_baseline(model.with_term(said), data), fit_baseline(model, data), data
 
 
 def test_an_effect_that_acts_all_the_time_survives_on_both_halves():
-    (found,) = swings((1e-3, 1e-3))
+    (found,) = survivals(*swings((1e-3, 1e-3)), white=True)
     assert found.reason == "" and [h.span for h in found.halves] == [pytest.approx((0.0, 11.99)), pytest.approx((12.0, 23.99))]
     for half in found.halves:
         value, error = half.parameters["torque_Nm"]
@@ -112,10 +113,31 @@ def test_an_effect_that_acts_all_the_time_survives_on_both_halves():
 
 
 def test_an_effect_that_changes_does_not_survive_and_the_words_say_why():
-    (found,) = swings((1e-3, 1.3e-3))
+    (found,) = survivals(*swings((1e-3, 1.3e-3)), white=True)
     assert found.reason.startswith("its torque differs between the halves by")
-    (found,) = swings((1e-3, 0.0))
+    (found,) = survivals(*swings((1e-3, 0.0)), white=True)
     assert found.reason == "the second half alone does not ask for it"
+
+
+def test_either_half_has_a_verdict_of_its_own():
+    assert [v.verdict for v in verdicts(*swings((1e-3, 1e-3)), rivals=[])] == ["missing_physics", "missing_physics"]
+    assert [v.verdict for v in verdicts(*swings((1e-3, 0.0)), rivals=[])] == ["missing_physics", "adequate"]
+
+
+def test_a_suspect_that_explains_a_half_better_is_seen():
+    dry = Suspect(LIBRARY["coulomb_friction"].at("joint1"))
+    assert [v.rival for v in verdicts(*swings((1e-3, 1e-3), named="viscous_friction"), rivals=[dry])] == [dry, dry]
+    wet = Suspect(LIBRARY["viscous_friction"].at("joint1"))
+    assert [v.rival for v in verdicts(*swings((1e-3, 1e-3)), rivals=[wet])] == [None, None]
+
+
+def test_the_words_say_whether_the_halves_agree():
+    wet = Suspect(LIBRARY["viscous_friction"].at("joint1"))
+    agree, differ = HalfVerdict((0, 1), "unexplained"), HalfVerdict((1, 2), "missing_physics", wet)
+    assert _verdicts_of_halves(SimpleNamespace(verdict="unexplained", halves=(agree, agree))) == ["Either half alone leads to the same verdict."]
+    assert _verdicts_of_halves(SimpleNamespace(verdict="unexplained", halves=(agree, differ))) == [
+        "Taken alone, the second half leads to 'missing physics': another verdict than on the whole.",
+        "On the second half alone viscous friction at joint 1 explains more than what was found."]
 
 
 def test_one_recording_is_cut_in_its_middle():
