@@ -230,6 +230,8 @@ def test_the_answer_is_in_the_stated_format(tmp_path):
 
 @pytest.mark.parametrize("value, error, unit, text", [
     (0.084, 0.003, "s", "84.0 ± 3.0 ms"), (5.0, 0.0, "N*m", "5 N m"), (0.01, 0.001, "rad", "0.573 ± 0.057 deg"),
+    (0.0, 2e-5, "N*m", "0 ± 20 µN m"), (0.0, 1e280, "N*m", "0 N m (hardly determined)"),
+    (1.25e-5, 4.3e-7, "N*m*s^2/rad^2", "12.50 ± 0.43 µN m s²/rad²"),
 ])
 def test_quantities_read_well(value, error, unit, text):
     assert quantity(value, error, unit) == text

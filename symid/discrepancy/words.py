@@ -17,13 +17,13 @@ from symid.discrepancy.remainder import Test
 from symid.discrepancy.search import Candidate
 from symid.discrepancy.suspects import Suspect
 
-_UNITS = {"1": "", "N*m": "N m", "N*m*s/rad": "N m s/rad", "kg*m^2": "kg m^2"}
+_UNITS = {"1": "", "N*m": "N m", "N*m*s/rad": "N m s/rad", "kg*m^2": "kg m²"}
 _PREFIXED = ("N*", "N/", "m", "kg*")
 LOSSES = ("viscous_friction", "coulomb_friction", "quadratic_drag", "stribeck_friction", "joint_drag",
           "load_dependent_friction", "bouc_wen_hysteresis")
 """Laws by which a mechanism loses energy."""
-UNSURE = 100.0
-"""A value with an error this many times larger is not worth digits."""
+UNSURE, HOPELESS = 100.0, 1e6
+"""A value with an error this many times larger, or with one this large in its unit, is not worth digits."""
 STILL = 3.0
 """What varies by less than so many times the sensors' noise does not move."""
 ABOVE = 2.0
@@ -58,15 +58,16 @@ def sentence(suspect: Suspect, parameters: Mapping[str, tuple[float, float]]) ->
 def quantity(value: float, error: float, unit: str) -> str:
     """A value with its standard error and unit: "84 ± 3 ms", "0.052 ± 0.004 N m"."""
     prefixed = unit.startswith(_PREFIXED)
-    unit = _UNITS.get(unit, unit.replace("*", " "))
-    if unit == "s" and abs(value) < 1:
+    unit = _UNITS.get(unit, unit.replace("*", " ")).replace("^2", "²").replace("^3", "³")
+    size = abs(value) or error
+    if unit == "s" and size < 1:
         value, error, unit = 1e3 * value, 1e3 * error, "ms"
-    elif unit == "rad" and abs(value) < 0.2:
+    elif unit == "rad" and size < 0.2:
         value, error, unit = degrees(value), degrees(error), "deg"
-    elif 0 < abs(value) < 1e-2 and prefixed and not unit.startswith("kg"):
-        factor, prefix = (1e3, "m") if abs(value) > 1e-3 else (1e6, "µ")
+    elif 0 < size < 1e-2 and prefixed and not unit.startswith("kg"):
+        factor, prefix = (1e3, "m") if size > 1e-3 else (1e6, "µ")
         value, error, unit = factor * value, factor * error, prefix + unit
-    if not isfinite(error) or error > UNSURE * abs(value):
+    if not isfinite(error) or error > UNSURE * abs(value) > 0 or error > HOPELESS:
         return f"{value:.2g} {unit}".strip() + " (hardly determined)"
     if not error > 0:
         return f"{value:.3g} {unit}".strip()

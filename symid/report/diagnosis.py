@@ -15,6 +15,7 @@ VERDICTS = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexp
 MEANING = {"missing_physics": "the model leaves out what is named below",
            "adequate": "nothing that this recording could show is missing",
            "unexplained": "something systematic is missing that no established effect explains"}
+_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 MOST = 15
 """Suspects listed."""
 
@@ -142,7 +143,9 @@ def _remainder(d: Diagnosis) -> str:
 
 
 def _odds(surprise: float) -> str:
-    return f"{10 ** surprise:,.0f}" if surprise < 6 else f"10^{min(surprise, 300):.0f}"
+    if surprise < 6:
+        return f"{10 ** surprise:,.0f}"
+    return ("over " if surprise > 300 else "") + "10" + f"{min(surprise, 300):.0f}".translate(_RAISED)
 
 
 def _parameters(d: Diagnosis) -> str:
