@@ -1,4 +1,4 @@
-"""A start whose loop survives simulations from states and with inputs that were not recorded."""
+"""A start whose loop survives simulations from states that were not recorded."""
 
 from dataclasses import replace
 
@@ -7,14 +7,14 @@ import pytest
 from conftest import pendulum, pendulum_recording
 
 from symid.errors import TranscriptionError
-from symid.identification import Identification
+from symid.identification import Identification, rehearsal
 from symid.identification.rehearsal import Rehearsed, displaced, rehearsed_start, survival
 from symid.nlp import check_derivatives, with_ridge
 from symid.transcription import Episodes
 
 
 def mild_recording():
-    """So little driven that the pendulum does not turn over where the input is made larger."""
+    """So little driven that the pendulum does not turn over from states twice as far out."""
     return pendulum_recording(noise=0.01, strength=0.3)
 
 
@@ -35,7 +35,7 @@ def test_displaced_states_fill_the_widened_box():
 
 @pytest.mark.parametrize("damping", [0.2, 0.4, 1.5])
 def test_slopes_of_the_displaced_runs_are_those_of_their_errors(problem, damping):
-    loop = Rehearsed(problem.transcription, 1e-3, price=0.3)
+    loop = Rehearsed(problem.transcription, price=0.3, runs=8)
     z = loop.unknowns(np.array([damping]))
     jacobian = loop.jacobian(z)
     for i in range(len(z)):
@@ -46,7 +46,7 @@ def test_slopes_of_the_displaced_runs_are_those_of_their_errors(problem, damping
 
 def test_price_weighs_the_displaced_runs_against_the_episodes(problem):
     t = problem.transcription
-    plain, cheap, dear = (Rehearsed(t, 0.0, price) for price in (0.0, 0.1, 0.2))
+    plain, cheap, dear = (Rehearsed(t, price, 8) for price in (0.0, 0.1, 0.2))
     z = plain.unknowns(np.array([0.4]))
     assert dear.cost(z) - plain.cost(z) == pytest.approx(4 * (cheap.cost(z) - plain.cost(z)))
     assert cheap.distance(z) > plain.distance(z)
@@ -70,6 +70,22 @@ def test_rehearsed_start_survives_follows_and_is_solved(problem):
 def test_rehearsed_start_is_the_same_for_a_seed(problem):
     first = problem.start("rehearsed", 3, 2)
     assert np.array_equal(first, problem.start("rehearsed", 3, 2))
+
+
+def test_where_no_loop_survives_the_start_follows_the_recording_all_the_same(problem, monkeypatch):
+    monkeypatch.setattr(rehearsal, "survival", lambda t, parameters: 0.0)
+    z = rehearsed_start(problem, seed=0, number=0)
+    assert problem.transcription.layout.parameters(z)[0] == pytest.approx(0.4, abs=0.1)
+
+
+def test_of_the_loops_that_survive_the_one_that_follows_best_is_kept(problem, monkeypatch):
+    t = problem.transcription
+    loop = Rehearsed(t, 0.0, 4)
+    far, near = (loop.unknowns(np.array([damping])) for damping in (1.0, 0.45))
+    ends = {0: [far, near], 1: []}
+    monkeypatch.setattr(rehearsal, "_candidates", lambda *_: [0, 1])
+    monkeypatch.setattr(rehearsal, "_descend", lambda _, z: ends[z])
+    assert t.layout.parameters(rehearsed_start(problem, 0, 0))[0] == pytest.approx(0.45)
 
 
 def test_ridge_about_a_point_has_its_least_there(problem):

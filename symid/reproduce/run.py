@@ -14,7 +14,7 @@ from symid import mechanics
 from symid.analysis import Stability, stability_of
 from symid.errors import SolveError
 from symid.identification import Finished, Identification, Solution, Solve, StartRow, Study
-from symid.identification.rehearsal import SURVIVES, survival
+from symid.identification.rehearsal import SOLVED_SURVIVES, survival
 from symid.model import Model
 from symid.recording import Recording
 from symid.reproduce.article import HELD_OUT, RANGE, TORQUE_NOISE, WINDOW, Case
@@ -25,8 +25,8 @@ NETWORK_RIDGE = 4e-4
 """Weight of the network's squared weights: w/20 have a standard deviation of a few tenths, and Ipopt a Hessian."""
 START_RIDGE = 0.1
 """Weight of their squared distance from the start where there is process noise: keeps them near a loop that survives."""
-SOLVER = {"rehearsed": {"max_iterations": 200, "dual_limit": 1e4}, "search": {"max_iterations": 200, "dual_limit": 1e4}, "soft": {"max_iterations": 200, "dual_limit": 1e4},
-          "random": {"max_iterations": 500}}
+SOLVER = {kind: {"max_iterations": 200, "dual_limit": 1e4} for kind in ("search", "soft", "rehearsed")} | {
+    "random": {"max_iterations": 500}}
 DRAWS = 1000
 """Draws of process noise that belong to one seed: start k has number seed * DRAWS + k."""
 
@@ -108,7 +108,7 @@ def _survives(one: Identification) -> Callable[[StartRow], bool]:
     if one.ridge_about != "start":
         return lambda row: True
     names = one.transcription.layout.parameter_names
-    return lambda row: survival(one.transcription, np.array([row.parameters[k] for k in names])) >= SURVIVES
+    return lambda row: survival(one.transcription, np.array([row.parameters[k] for k in names])) >= SOLVED_SURVIVES
 
 
 def _start_kind(case: Case, number: int) -> str:
