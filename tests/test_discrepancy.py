@@ -13,6 +13,7 @@ import symid as si
 from symid.discrepancy import Suspect, diagnose, established_suspects, read_case
 from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.data import Data, episodes_between
+from symid.discrepancy.diagnose import _reexamined
 from symid.discrepancy.explanation import Explanation, fit_with, sure
 from symid.discrepancy.gain import HOLD, kalman_gain
 from symid.discrepancy.remainder import remainder
@@ -146,6 +147,15 @@ def test_effects_that_could_as_well_be_nothing_are_left_out():
     assert sure(both, base, data).suspects == (friction,)
     alone = Explanation((gain,), fit_with([gain], base, base, data, start).fit, 0.0)
     assert sure(alone, base, data) is alone
+
+
+def test_a_suspect_that_no_longer_earns_its_place_is_dropped():
+    friction, cubic, gain = (Suspect(LIBRARY[n].at(p)) for n, p in (("coulomb_friction", "cart"), ("cubic_stiffness", "cart"), ("input_gain", "input")))
+    data = data_of(recorded(4, friction.term, {"torque_Nm": 0.35}))
+    base = fit_baseline(cart(), data)
+    start = base.values | friction.named({"torque_Nm": 0.3}) | cubic.named({"k3_Nm_rad3": 0.0}) | gain.named({"gain": 1.0})
+    three = fit_with([friction, cubic, gain], base, base, data, start)
+    assert _reexamined(three, [], base, data).suspects == (friction, gain)
 
 
 @pytest.mark.slow

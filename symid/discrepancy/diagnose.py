@@ -202,15 +202,13 @@ def _beam(pair: Explanation, best: Explanation, single: list[Candidate], data: D
     return _preferred([p for p in pairs if p is not None])
 
 
-def _reexamined(both: Explanation, single: list[Candidate], base: Fit, data: Data) -> Explanation:
-    """The other good single suspects are tried in the place of the first: greedy choices mislead."""
-    first, kept = both.suspects[0], list(both.suspects[1:])
-    alone = fit_with(kept, both.fit, base, data)
-    tried = [alone] if alone is not None else []
-    taken = {s.term for s in both.suspects}
+def _reexamined(found: Explanation, single: list[Candidate], base: Fit, data: Data) -> Explanation:
+    """Earlier suspects are left out in turn, and other good single ones tried in the place of the first: greedy choices mislead."""
+    first, kept = found.suspects[0], list(found.suspects[1:])
+    tried = [fit_with([s for s in found.suspects if s is not earlier], found.fit, base, data) for earlier in found.suspects[:-1]]
+    taken = {s.term for s in found.suspects}
     for c in [c for c in single if c.suspect.term not in taken and c.suspect.established == first.established][:RIVALS]:
-        near = both.fit.values | {k: v for k, v in c.fit.values.items() if k not in both.fit.values}
-        other = fit_with([c.suspect, *kept], both.fit, base, data, near)
-        tried += [other] if other is not None else []
-    best = max(tried, key=lambda e: e.score, default=both)
-    return best if best.score > both.score + 1.0 else both
+        near = found.fit.values | {k: v for k, v in c.fit.values.items() if k not in found.fit.values}
+        tried.append(fit_with([c.suspect, *kept], found.fit, base, data, near))
+    best = max((e for e in tried if e is not None), key=lambda e: e.score, default=found)
+    return best if best.score > found.score + 1.0 else found
