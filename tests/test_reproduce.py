@@ -64,14 +64,16 @@ def test_every_number_stands_beside_the_articles(shared):
     case = CASES["PD-3"]
     model = problem(case, *_material(shared)).model
     best = _Best(model, {k: mean + 2 * spread for k, (mean, spread) in case.gains.items()})
-    starts = pd.DataFrame({"solved": [True, False, True], "rms_deg": [1.1, np.nan, 1.2]} | {k: [v, v, 2 * v] for k, v in best.values.items()})
+    starts = pd.DataFrame({"solved": [True, False, True, True], "rms_deg": [1.1, np.nan, 1.2, 1.105]}
+                          | {k: [v, v, 2 * v, case.gains[k][0]] for k, v in best.values.items()})
     table = comparison(Reproduction((Finding(case, 4, starts, best, _Stability()),), {}))
     assert np.allclose(table["deviation"].dropna(), (table["here"] - table["article"]).dropna())
     gains = table[table["quantity"].isin(case.gains)]
-    assert np.allclose(gains["deviation"] / gains["spread"], 2) and set(gains["where"]) == {"table 1"}
-    assert np.allclose(gains["mean"], gains["here"]) and np.allclose(gains["sd"], 0)    # the third start is no good one
+    # The first and the last start are good ones, the third is not.
+    assert np.allclose(gains["deviation"] / gains["spread"], 1) and set(gains["where"]) == {"table 1"}
+    assert np.allclose(gains["best"], list(best.values.values())) and np.allclose(gains["sd"], gains["spread"])
     here = table.set_index("quantity")["here"]
-    assert here["solved starts"] == pytest.approx(200 / 3) and here["median rms of the solved starts"] == pytest.approx(1.15)
+    assert here["solved starts"] == pytest.approx(75) and here["median rms of the solved starts"] == pytest.approx(1.105)
     assert set(table["noise_seed"]) == {4} and "table 3" in set(table["where"])
 
 

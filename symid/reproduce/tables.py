@@ -27,13 +27,13 @@ GOOD = 1.01
 
 
 def comparison(reproduction: Reproduction) -> pd.DataFrame:
-    """One row per number: table or figure, case, noise seed, quantity, article, here, deviation, spread, mean, sd.
+    """One row per number: table or figure, case, noise seed, quantity, article, here, deviation, spread, sd, best.
 
-    `here` is of the best start; `spread` is the article's standard deviation over its good starts where it
-    has one, `mean` and `sd` are those of the good starts here (`GOOD`).
+    Gains are means over the good starts (`GOOD`), as in the article's tables; `spread` is the article's standard
+    deviation over its good starts, `sd` that of those here, and `best` the gain of the best start.
     """
     rows = [row for finding in reproduction.findings for row in _rows(finding)]
-    columns = ["where", "case", "noise_seed", "quantity", "unit", "article", "here", "deviation", "spread", "mean", "sd"]
+    columns = ["where", "case", "noise_seed", "quantity", "unit", "article", "here", "deviation", "spread", "sd", "best"]
     return pd.DataFrame(rows, columns=columns)
 
 
@@ -42,19 +42,17 @@ def _rows(f: Finding) -> list[tuple]:
     gains_in = {"PD": "table 1", "FPD": "table 2"}.get(case.controller, "figure 2")
     stable_in = {"PD": "table 3", "FPD": "table 4"}.get(case.controller, "figure 2")
     solved = f.starts[f.starts["solved"]]
-
     good = solved[solved["rms_deg"] <= GOOD * solved["rms_deg"].min()]
 
-    def row(where, quantity, unit, article, here, spread=np.nan, many=()):
-        return (where, case.name, f.seed, quantity, unit, article, here, here - article, spread, *(many or (np.nan, np.nan)))
+    def row(where, quantity, unit, article, here, spread=np.nan, sd=np.nan, best=np.nan):
+        return where, case.name, f.seed, quantity, unit, article, here, here - article, spread, sd, best
 
     rows = [row(gains_in, "rms of the best start", "deg", case.rms_deg[0], f.best.fit["rms_deg"]["all"]),
             row(gains_in, "median rms of the solved starts", "deg", float(np.median(case.rms_deg)),
                 float(solved["rms_deg"].median())),
             row("text", "solved starts", "%", np.nan, 100 * float(f.starts["solved"].mean()))]
     units = f.best.model.parameters
-    rows += [row(gains_in, name, units[name].unit, mean, f.best.values[name], spread,
-                 (good[name].mean(), good[name].std(ddof=0)))
+    rows += [row(gains_in, name, units[name].unit, mean, good[name].mean(), spread, good[name].std(ddof=0), f.best.values[name])
              for name, (mean, spread) in case.gains.items()]
     rows += [row(stable_in, "stable by eigenvalues", "%", case.eigenvalue_percent, f.stability.eigenvalue_percent),
              row(stable_in, "stable by simulation", "%", case.forward_percent, f.stability.forward_percent)]
