@@ -345,6 +345,14 @@ def test_a_directory_of_another_study_is_refused(tmp_path, change, part):
         Study({"a": Solve(other)}, tmp_path)
 
 
+def test_a_directory_keeps_solves_of_other_names_too(tmp_path):
+    Study({"a": Solve(problem())}, tmp_path).run_here(on_finished=None)
+    Study({"b": Solve(problem(0.8))}, tmp_path).run_here(on_finished=None)
+    before = kept(tmp_path)
+    assert Study({"a": Solve(problem()), "b": Solve(problem(0.8))}, tmp_path).run_here(on_finished=None).complete
+    assert len(before) == 2 and kept(tmp_path) == before
+
+
 def longer_pendulum():
     model = pendulum()
     model.redefine("measured", 2 * model.angle)

@@ -104,19 +104,11 @@ class StudyDirectory:
 
 
 def _refuse_other_study(path: Path, known: Mapping, wanted: Mapping) -> None:
-    if known and not known.keys() & wanted.keys():
-        raise SolveError(f"{path} belongs to another study: it has the solves {_some(known)}, and not {_some(wanted)}. "
-                         "Give another directory")
     for name, parts in wanted.items():
         if name in known and known[name]["key"] != parts["key"]:
             parts = [p for p in parts if p != "key" and known[name].get(p) != parts[p]]
             raise SolveError(f"{path} belongs to another study: its solve '{name}' differs in {' and '.join(parts)}. "
                              "Give another directory, or the problem as it was")
-
-
-def _some(names) -> str:
-    names = list(names)
-    return ", ".join(f"'{n}'" for n in names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
 
 
 def _taken_apart(outcome: Outcome) -> tuple[dict, bytes]:

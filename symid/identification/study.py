@@ -91,7 +91,7 @@ class Study:
     ----------
     solves : name -> Solve.
     store : directory that keeps every finished solve, so that running the study again after a
-        kill goes on where it was. A study with more solves may use the same directory; one
+        kill goes on where it was. Studies with other solves may use the same directory; one
         whose solves of the same names differ is refused. None keeps the results in memory.
 
     Raises
