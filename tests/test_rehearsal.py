@@ -58,6 +58,15 @@ def test_a_damped_loop_survives_and_one_that_gains_energy_falls():
     assert survival(t, np.array([-3.0])) == 0.0
 
 
+def test_a_loop_has_to_survive_the_larger_input_too(monkeypatch):
+    t = Identification(pendulum(), pendulum_recording(noise=0.01)).transcription    # twice the drive turns it over
+    monkeypatch.setattr(rehearsal, "WIDE", (1.0, 1.0))
+    monkeypatch.setattr(rehearsal, "LOUD", (1.0,))
+    quiet = survival(t, np.array([0.4]))
+    monkeypatch.setattr(rehearsal, "LOUD", (1.0, 2.0))
+    assert quiet > 0.5 and survival(t, np.array([0.4])) < 0.1
+
+
 def test_rehearsed_start_survives_follows_and_is_solved(problem):
     z = rehearsed_start(problem, seed=0, number=0)
     t = problem.transcription

@@ -90,6 +90,6 @@ class Loop:
             blocks.append(block)
         return np.concatenate([*blocks, self.ridge * np.eye(self.q, len(z))])
 
-    def shoot(self, z: np.ndarray, evaluations: int, ftol: float = 1e-5) -> np.ndarray:
+    def shoot(self, z: np.ndarray, evaluations: int) -> np.ndarray:
         return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
-                             max_nfev=evaluations, ftol=ftol).x
+                             max_nfev=evaluations, ftol=1e-5).x
