@@ -17,7 +17,7 @@ from symid.discrepancy.words import sentence
 
 EQUIVALENT = 12.0
 """Suspects whose score is so near explain the recording almost as well."""
-RIVALS = 5
+RIVALS = 3
 """So many suspects are compared with the finding on each half."""
 
 
