@@ -32,8 +32,9 @@ def _evaluations(found: dict) -> Iterator[str]:
 
 def _solves(found: dict) -> Iterator[str]:
     for label, sides in found["solves"].items():
-        yield f"{label + ' (median of ' + str(len(next(iter(sides.values())))) + ')':<40}" + "".join(
-            f"{head:>11}" for head in ("build s", "solve s", "total s", "iterations", "RMS")) + "   of each start: total s (iterations, RMS)"
+        title = f"{label} (median of {len(next(iter(sides.values())))})"
+        heads = "".join(f"{head:>11}" for head in ("build s", "solve s", "total s", "iterations", "RMS"))
+        yield f"{title:<40}{heads}   of each start: total s (iterations, RMS)"
         for side, runs in sides.items():
             yield (f"{side:<40}{middle(runs, 'build'):>11.2f}{middle(runs, 'solve'):>11.2f}{middle(runs, 'total'):>11.2f}"
                    f"{middle(runs, 'iterations'):>11.0f}{middle(runs, 'rms'):>11.6f}   "

@@ -122,7 +122,8 @@ def _part(option: str, words: list[str] | None) -> tuple[float, float] | str | N
         return words and words[0]
     if len(words) == 2 and all(map(_is_number, words)) and float(words[0]) < float(words[1]):
         return float(words[0]), float(words[1])
-    raise DiagnosisError(f"{option} {' '.join(words)} is no window; give a start and a later end in seconds, or a label of the column split")
+    raise DiagnosisError(f"{option} {' '.join(words)} is no window; give a start and a later end in seconds, "
+                         "or a label of the column split")
 
 
 def _is_number(word: str) -> bool:
