@@ -46,6 +46,11 @@ def test_a_bias_is_taken_off_and_paid_for(monkeypatch):
     assert new.errors["damping"] == pytest.approx(fit.errors["damping"] * np.sqrt(1 + 1 / REPEATS))
 
 
+def test_a_biased_value_has_the_error_that_repeats_show(monkeypatch):
+    fit, new = with_repeats(monkeypatch, -3.0, 1.3)
+    assert new.errors["damping"] == pytest.approx(1.3 * fit.errors["damping"] * np.sqrt(1 + 1 / REPEATS))
+
+
 def test_a_bias_within_its_own_error_is_left(monkeypatch):
     fit, new = with_repeats(monkeypatch, 0.8, 1.0)
     assert new.values == fit.values and new.errors == pytest.approx(fit.errors)

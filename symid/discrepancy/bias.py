@@ -29,8 +29,8 @@ WIDER = 1.6
 def unbiased(fit: Fit, data: Data, names: Sequence[str], threads: int = 2) -> Fit:
     """`fit` without the bias of its values, if that of one of `names` shows in simulated repeats.
 
-    Standard errors become as large as the repeats' spread where that is clearly larger, and those of
-    corrected values hold that the bias is known from a few repeats only.
+    Standard errors become as large as the repeats' spread where that is clearly larger; those of
+    corrected values wherever it is larger, and they hold that the bias is known from a few repeats only.
     """
     if not data.driven or fit.gain is None or not fit.errors or not names:
         return fit
@@ -46,7 +46,8 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str], threads: int = 2) -> Fi
     if np.any(np.abs(bias[at]) > SEEN * np.maximum(spread, stated)[at] / few):
         bounds = np.array([fit.model.parameters[k].bounds for k in fit.values])
         values = np.clip(np.array(list(fit.values.values())) - bias, *bounds.T)
-        errors = errors * np.sqrt(1 + 1 / len(found))
+        # Where a law is too sharp for the predictor, it is so for its errors.
+        errors = np.where(stated > 0, np.maximum(spread, stated), stated) * np.sqrt(1 + 1 / len(found))
     else:
         values = np.array(list(fit.values.values()))
     return replace(fit, values=dict(zip(fit.values, map(float, values), strict=True)),
