@@ -94,7 +94,7 @@ def test_a_term_makes_another_sound_model_and_leaves_the_first_alone(model, term
 
 
 def at_null(model, term):
-    """Residuals and outputs of the model with the term switched off and its own states solved for."""
+    """Residuals and outputs of the model with the term switched off, its own states solved for, or at rest if nothing moves them."""
     augmented = model.with_term(term)
     table = {augmented[term.parameter_name(q.key)].symbol: sm.sympify(q.null) for q in term.law.parameters if q.null is not None}
     for late, delay in augmented.delays.items():
@@ -102,11 +102,12 @@ def at_null(model, term):
             table[late] = delay.of
     rows = {k: augmented.inline(e.expr).xreplace(table) for k, e in (augmented.equations | augmented.outputs).items()}
     added = [augmented[s] for s in augmented.states if s not in model.states]
-    solved = {}
-    for state in added:
-        row = rows.pop(f"{state.name}_equation")
-        if state.dot not in row.free_symbols:
-            solved[state.symbol] = sm.solve(row, state.symbol)[0]
+    own = {state: rows.pop(f"{state.name}_equation") for state in added}
+    rest = dict.fromkeys([x for state in added for x in (state.symbol, state.dot)], sm.S.Zero)
+    if all(row.xreplace(rest) == 0 for row in own.values()):
+        solved = rest
+    else:
+        solved = {state.symbol: sm.solve(row, state.symbol)[0] for state, row in own.items() if state.dot not in row.free_symbols}
     for _ in added:
         rows = {k: r.xreplace(solved) for k, r in rows.items()}
     return rows
@@ -238,7 +239,8 @@ def test_an_elastic_mount_equals_lagranges_equations_with_the_mount_as_a_coordin
     speeds = [[sum(sm.diff(e, x) * w for x, w in zip(q, v, strict=True)) for e in point] for point in at]
     kinetic = sum(m * (x**2 + y**2) for m, (x, y) in zip((m1, m2), speeds, strict=True)) / 2 \
         + (I1 * v[1] ** 2 + I2 * v[2] ** 2 + mass * v[0] ** 2) / 2
-    potential = g * (m1 * at[0][1] + m2 * at[1][1]) + mass * pace**2 * q[0] ** 2 / 2
+    carried = mass + m1 + m2
+    potential = g * (m1 * at[0][1] + m2 * at[1][1]) + carried * pace**2 * q[0] ** 2 / 2
     residual = sm.Matrix(lagrange_residuals(kinetic, potential, q, v, a))
     start = dict(zip((*q, *v), (0.02, 0.4, -0.7, 0.3, 1.5, -2.0), strict=True))
     matrix, force = residual.jacobian(a).xreplace(start), residual.xreplace(dict.fromkeys(a, 0)).xreplace(start)
@@ -247,7 +249,7 @@ def test_an_elastic_mount_equals_lagranges_equations_with_the_mount_as_a_coordin
     states = ("elastic_mount_base_shift", "link1_angle", "link2_angle", "elastic_mount_base_speed", "link1_velocity", "link2_velocity")
     table = {k.symbol: k.value for k in model.constants.values()} | {k.symbol: 0 for k in model.noises.values()}
     table |= {model[name].symbol: x for name, x in zip(states, start.values(), strict=True)}
-    for key, value in (("moving_mass_kg", mass), ("frequency_Hz", 3.0), ("damping_ratio", 0.0)):
+    for key, value in (("inverse_mass_1_kg", 1 / carried), ("frequency_Hz", 3.0), ("damping_ratio", 0.0)):
         table[model[f"elastic_mount_base_{key}"].symbol] = value
     dots = [model[name].dot for name in states]
     f = sm.Matrix(model.residual()).xreplace(table)

@@ -10,7 +10,6 @@ import numpy as np
 
 from symid.discrepancy.data import Data, Episode
 from symid.mechanics import CANONICAL, LIBRARY, suspects
-from symid.mechanics.unknown_laws import ELASTIC_MOUNT
 from symid.model import Law, LawParameter, Model, Term
 
 SCANNED = ("frequency_Hz", "start_s", "time_s")
@@ -107,8 +106,7 @@ class Suspect:
 
 def established_suspects(model: Model) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses."""
-    extra = LIBRARY | {ELASTIC_MOUNT.name: ELASTIC_MOUNT}
-    return [Suspect(t, t.name in CANONICAL) for t in suspects(model, extra) if not _given(model, t)]
+    return [Suspect(t, t.name in CANONICAL) for t in suspects(model) if not _given(model, t)]
 
 
 def _given(model: Model, term: Term) -> bool:

@@ -100,12 +100,11 @@ def _elastic_mount(model: Model, place: str, p: SimpleNamespace) -> None:
     shift, speed = model[name + "shift"], model[name + "speed"]
     momentum = sum(-sm.diff(model[e].expr, base.symbol) * rate for e, rate in _conjugate_rates(model).items())
     relative = sum(sm.diff(momentum, s.symbol) * s.dot for s in model.states.values())
-    carried = p.moving_mass_kg + sum(c.symbol for c in model.find("mass"))
     pace = 2 * sm.pi * p.frequency_Hz
-    hold = p.moving_mass_kg * (pace**2 * shift + 2 * p.damping_ratio * pace * speed)
     model.redefine(base.name, base.expr + speed.dot)
-    setattr(model, f"{name}shift_equation", Equation(speed - shift.dot))
-    setattr(model, f"{name}speed_equation", Equation(-carried * base.symbol - relative - hold))
+    setattr(model, f"{name}shift_equation", Equation(shift.dot - speed))
+    setattr(model, f"{name}speed_equation", Equation(
+        speed.dot + 2 * p.damping_ratio * pace * speed + pace**2 * shift + p.inverse_mass_1_kg * relative))
 
 
 def _conjugate_rates(model: Model) -> dict[str, sm.Expr]:
@@ -122,10 +121,10 @@ def _conjugate_rates(model: Model) -> dict[str, sm.Expr]:
 
 FURTHER_WORLD_LAWS: tuple[Law, ...] = (
     Law("elastic_mount", ("base_acceleration",),
-        (LawParameter("moving_mass_kg", "kg", (1e-3, inf), None, (1.0, 5.0), 1.0),
-         LawParameter("frequency_Hz", "Hz", (0.2, 50.0), None, (2.0, 5.0, 12.0), 5.0),
+        (LawParameter("inverse_mass_1_kg", "1/kg", (0.0, 100.0), typical=0.1),  # of all that the springs carry
+         LawParameter("frequency_Hz", "Hz", (0.5, 40.0), None, (3.0, 6.0, 12.0), 5.0),
          LawParameter("damping_ratio", "1", (0.0, 2.0), None, (0.05,), 0.05)),
-        _elastic_mount, "The {place} gives way: {moving_mass_kg} on a spring, at {frequency_Hz}", "Den Hartog 1934"),
+        _elastic_mount, "The {place} gives way like a mass on springs of {frequency_Hz}", "Den Hartog 1934"),
 )
 
 WORLD_LAWS: tuple[Law, ...] = (
