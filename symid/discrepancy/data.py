@@ -130,7 +130,8 @@ def _in_order(recording: Recording) -> list[Recording]:
     segments = recording.segments()
     if any(b.time[0] <= a.time[-1] for a, b in pairwise(segments)):
         labels = [] if recording.split is None else sorted(set(recording.split.tolist()))
-        choice = f"give a label of its column split instead: {', '.join(labels)}" if labels else "add a column split with labels such as fit and held_out"
+        choice = (f"give a label of its column split instead: {', '.join(labels)}" if labels else
+                  "add a column split with labels such as fit and held_out")
         raise DiagnosisError(f"{recording.name}: time begins anew in each segment, so a window of time means nothing; {choice}")
     return segments
 

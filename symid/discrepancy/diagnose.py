@@ -48,7 +48,8 @@ RIVAL_SHARE = 0.3
 
 @one_blas_thread
 def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
-             fit_window: tuple[float, float] | str | None = None, held_out: tuple[float, float] | str | None = None, sensor_noise: float | Mapping[str, float] | None = None,
+             fit_window: tuple[float, float] | str | None = None, held_out: tuple[float, float] | str | None = None,
+             sensor_noise: float | Mapping[str, float] | None = None,
              episode_length: float | None = None, driven: bool = True, settling: float = 0.0,
              start: Mapping[str, float] | None = None, suspects: Sequence[Suspect] | None = None, mechanism: bool = False,
              threads: int = 2, progress: Callable[[str], None] = lambda text: None) -> Diagnosis:
@@ -94,7 +95,8 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     found = polished(found, data)
     left = remainder(found.fit, data)
     progress("tested for a remainder")
-    if not mechanism and (len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER) and _beaten(found, anything(), data):
+    doubtful = len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER
+    if not mechanism and doubtful and _beaten(found, anything(), data):
         found, left = anything(), remainder(anything().fit, data)
     white = not checked.filtered and all(t.locates or t.surprise <= REMAINDER for t in left)
     if not white:
@@ -116,7 +118,8 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
         # Segments that were set apart are judged whole.
         later = data.with_episodes(episodes_of(model, recording, held_out, None if isinstance(held_out, str) else episode_length))
         runs |= {"baseline_heldout": free_run(base, later), "augmented_heldout": free_run(found.fit, later)}
-    text = words(Story(verdict, effects, equivalent, ranking, left, runs, checked, survived, halves, white, base.gain is not None, data.weight))
+    text = words(Story(verdict, effects, equivalent, ranking, left, runs, checked, survived, halves, white,
+                       base.gain is not None, data.weight))
     return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text, checked, survived, halves)
 
 
@@ -131,7 +134,8 @@ def _of_solution(solution: Solution, recording, fit_window, start):
 
 
 # ---- explaining ------------------------------------------------------------------------------
-def _explain(base: Fit, data: Data, pool: list[Suspect], anything: Callable[[], Explanation], threads: int, progress) -> tuple[Explanation, list[Candidate]]:
+def _explain(base: Fit, data: Data, pool: list[Suspect], anything: Callable[[], Explanation], threads: int,
+             progress) -> tuple[Explanation, list[Candidate]]:
     """The best explanation by one or several suspects, and the ranking of single ones."""
     single = explore(base, data, pool, threads=threads, progress=progress)
     best = Explanation((), base, 0.0)

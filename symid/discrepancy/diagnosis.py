@@ -82,7 +82,8 @@ class Diagnosis:
         """The finding as plain numbers and text, in the answer format."""
         def rms(when: str) -> dict:
             runs = {part: self.runs[f"{when}_{part}"] for part in ("train", "heldout") if f"{when}_{part}" in self.runs}
-            pieces = {f"{part}_rms_rad_of_segments": [r for _, r in run.of_episodes()] for part, run in runs.items() if len(run.lengths) > 1}
+            pieces = {f"{part}_rms_rad_of_segments": [r for _, r in run.of_episodes()]
+                      for part, run in runs.items() if len(run.lengths) > 1}
             return {f"{part}_rms_rad": run.rms for part, run in runs.items()} | pieces
         return {
             "format": FORMAT,
@@ -157,12 +158,15 @@ class Diagnosis:
     def _repr_html_(self) -> str:
         cell = "style='text-align:left;padding:2px 14px 2px 0'"
         rows = [["effect", "place", "value, SI (± standard error)"]] if self.effects else []
-        rows += [[e.name.replace("_", " "), e.location, ", ".join(f"{k} = {v:.4g} ± {s:.2g}" for k, (v, s) in e.parameters.items()) or e.sentence]
+        rows += [[e.name.replace("_", " "), e.location,
+                  ", ".join(f"{k} = {v:.4g} ± {s:.2g}" for k, (v, s) in e.parameters.items()) or e.sentence]
                  for e in self.effects]
         table = "".join("<tr>" + "".join(f"<{kind} {cell}>{escape(x)}</{kind}>" for x in row) + "</tr>"
                         for row, kind in zip(rows, ["th"] + ["td"] * len(rows), strict=False))
         verdict = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}[self.verdict]
-        return (f"<div style='max-width:46em'><p><b>{verdict}</b> &middot; {escape(self.baseline.model.name)}</p>" + "".join(f"<p>{escape(line)}</p>" for line in self.words.split("\n")) + (f"<table>{table}</table>" if rows else "") + "</div>")
+        said = "".join(f"<p>{escape(line)}</p>" for line in self.words.split("\n"))
+        return (f"<div style='max-width:46em'><p><b>{verdict}</b> &middot; {escape(self.baseline.model.name)}</p>{said}"
+                + (f"<table>{table}</table>" if rows else "") + "</div>")
 
 
 def _value(value: float, error: float) -> dict[str, float | None]:

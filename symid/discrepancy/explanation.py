@@ -42,7 +42,8 @@ def fit_with(suspects: list[Suspect], near: Fit, base: Fit, data: Data, values: 
         model = model.with_term(s.term)
     sim = simulator(model)
     try:
-        fit = Fitter(model, data).fit({k: (values or near.values)[k] for k in sim.parameters}, extended(base.initial, sim), near.process)
+        start = {k: (values or near.values)[k] for k in sim.parameters}
+        fit = Fitter(model, data).fit(start, extended(base.initial, sim), near.process)
     except SymidError:
         return None
     return Explanation(tuple(suspects), fit, fit.loglik2 - base.loglik2 - price(suspects, data, base, fit))
@@ -58,7 +59,9 @@ def polished(found: Explanation, data: Data) -> Explanation:
 
 def steady(found: Explanation, base: Fit, data: Data) -> Explanation | None:
     """The explanation without oscillations that one half of the data contradicts: what is no sine keeps no frequency."""
-    fickle = {(v.name, v.location) for v in survivals([s for s in found.suspects if s.phase], found.fit, base, data, white=False, others=found.suspects) if v.reason}
+    sines = [s for s in found.suspects if s.phase]
+    survived = survivals(sines, found.fit, base, data, white=False, others=found.suspects)
+    fickle = {(v.name, v.location) for v in survived if v.reason}
     kept = [s for s in found.suspects if (s.term.name, s.term.location) not in fickle]
     if not kept or len(kept) == len(found.suspects):
         return None

@@ -57,7 +57,10 @@ class HalfVerdict:
 
 
 def verdicts(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, rivals: Sequence[Suspect]) -> tuple[HalfVerdict, ...]:
-    """The verdict on each of two disjoint halves, with what was found and each of `rivals` in its place; empty where a half cannot be fitted."""
+    """The verdict on each of two disjoint halves, with what was found and each of `rivals` in its place.
+
+    Empty where a half cannot be fitted.
+    """
     found = []
     for half, initial in zip(data.halves(), _states(fit, data), strict=True):
         near = replace(fit, initial=initial)
@@ -77,14 +80,16 @@ def _better(rivals: Sequence[Suspect], score: float, given: Fit, half: Data) -> 
     return found[0].suspect if found else None
 
 
-def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool, others: Sequence[Suspect] = ()) -> tuple[Survival, ...]:
+def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool,
+              others: Sequence[Suspect] = ()) -> tuple[Survival, ...]:
     """Every lasting effect of `suspects` refitted on two disjoint halves, each compared with the model that lacks only it.
 
     Effects that last for a time only, or begin at one, are left out: a half need not contain them.
 
     Parameters
     ----------
-    others : all suspects in `fit`, where those asked for are not all. white : whether surprises are white, so that plain standard errors are believed.
+    others : all suspects in `fit`, where those asked for are not all.
+    white : whether surprises are white, so that plain standard errors are believed.
     """
     lasting = [s for s in suspects if s.scanned is None or s.scanned.key == "frequency_Hz"]
     if not lasting or not fit.errors:
@@ -94,7 +99,8 @@ def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, whit
         found.append(_on_half(lasting, list(others or suspects), replace(fit, initial=initial), base, half, white))
         if found[-1] is None:
             return ()
-    return tuple(Survival(s.term.name, s.term.location, pair, _reason(pair)) for s, pair in zip(lasting, zip(*found, strict=True), strict=True))
+    pairs = zip(*found, strict=True)
+    return tuple(Survival(s.term.name, s.term.location, pair, _reason(pair)) for s, pair in zip(lasting, pairs, strict=True))
 
 
 def _states(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:

@@ -183,7 +183,8 @@ def _verdicts_of_halves(s: Story) -> list[str]:
         return []
     other = [f"the {which} half leads to '{v.verdict.replace('_', ' ')}'" for v, which in zip(s.halves, ("first", "second"), strict=True)
              if v.verdict != s.verdict]
-    out = [f"Taken alone, {_listed(other)}: another verdict than on the whole." if other else "Either half alone leads to the same verdict."]
+    out = [f"Taken alone, {_listed(other)}: another verdict than on the whole." if other else
+           "Either half alone leads to the same verdict."]
     return out + [f"On the {which} half alone {law_name(v.rival.term.name, v.rival.term.location)} explains more than what was found."
                   for v, which in zip(s.halves, ("first", "second"), strict=True) if v.rival is not None]
 

@@ -35,7 +35,8 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
     """The same as text."""
     d = diagnosis
     first, *more = d.words.split("\n")
-    parts = [paragraph(first, "lead"), *map(paragraph, more), paragraph(f"Verdict: {VERDICTS[d.verdict].lower()} ({MEANING[d.verdict]}).", "note")]
+    verdict = paragraph(f"Verdict: {VERDICTS[d.verdict].lower()} ({MEANING[d.verdict]}).", "note")
+    parts = [paragraph(first, "lead"), *map(paragraph, more), verdict]
     if d.effects:
         parts += [heading("What is missing"), effects_table(d)]
     if d.equivalent:
@@ -152,5 +153,6 @@ def _parameters(d: Diagnosis) -> str:
     model, rows = d.improved, []
     for name, value in d.values.items():
         before = d.baseline.values.get(name)
-        rows.append([name, "" if before is None else number(float(before)), float(value), float(d.final.errors.get(name, float("nan"))), model.parameters[name].unit])
+        rows.append([name, "" if before is None else number(float(before)), float(value),
+                     float(d.final.errors.get(name, float("nan"))), model.parameters[name].unit])
     return table(["parameter", "model as given", "improved", "std. error", "unit (SI)"], rows)
