@@ -186,6 +186,16 @@ def test_a_push_is_found_with_its_time():
     assert abs(first.window[0] - 23.0) < 0.5
 
 
+def test_laws_that_need_more_than_the_model_declares_are_no_suspects():
+    m = Model("swing")
+    m.g_down = si.Expression(9.81, unit="m/s^2", role="gravity", at="global")
+    m.angle, m.rate = State(unit="rad"), State(unit="rad/s")
+    m.kinematics = Equation(m.angle.dot - m.rate)
+    m.balance = Equation(m.rate.dot + m.g_down * sm.sin(m.angle.symbol))
+    m.seen = Output(m.angle, channel="angle", unit="rad", role="sensor", at="sensor:angle")
+    assert {s.term.name for s in established_suspects(m)} == {"sensor_gain", "sensor_offset", "sensor_delay"}
+
+
 def _sine_spring(model, place, p):
     port = model["cart"]
     model.add_effort("cart", -p.force_N * sm.sin(port.position / p.wave_m))

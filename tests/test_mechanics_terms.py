@@ -211,6 +211,15 @@ def test_base_motion_is_the_second_derivative_of_its_displacement():
     assert sm.expand(moved.base_acceleration.expr - sm.diff(displacement, RIG.time, 2)) == 0
 
 
+def test_a_base_that_moves_up_and_down_adds_its_acceleration_to_gravity():
+    moved = RIG.with_term(LIBRARY["vertical_base_motion"].at("base"))
+    amplitude, frequency, phase = (moved[f"vertical_base_motion_base_{k}"].symbol for k in ("amplitude_m", "frequency_Hz", "phase_rad"))
+    height = amplitude * sm.sin(2 * sm.pi * frequency * RIG.time + phase)
+    forward, down = moved.find("gravity")
+    assert sm.expand(down.expr - RIG.find("gravity")[1].expr - sm.diff(height, RIG.time, 2)) == 0
+    assert forward.expr == RIG.find("gravity")[0].expr
+
+
 def test_extra_mass_composes_the_link_anew():
     """A link of two point masses is the link of one of them with the other as extra mass."""
     one, two, at_one, at_two = 3.0, 2.0, 0.2, 0.5
@@ -305,7 +314,7 @@ def test_a_law_where_it_cannot_act_is_refused():
 def test_a_tilt_needs_both_components_of_gravity():
     m = si.Model("mass")
     m.g_down = si.Expression(9.81, unit="m/s^2", role="gravity", at="global")
-    with pytest.raises(ModelError, match="a tilt needs two"):
+    with pytest.raises(ModelError, match="two are needed: the forward component first"):
         m.with_term(LIBRARY["gravity_tilt"].at("global"))
 
 

@@ -50,6 +50,7 @@ RIG: dict[str, dict[str, Range]] = {
     "sensor_offset": {"offset_rad": (1e-3, 8e-3)},
     "sensor_delay": {"delay_s": (1e-3, 8e-3)},
     "link_inertia_error": {"factor": (0.03, 0.25)},
+    "vertical_base_motion": {"amplitude_m": (1e-4, 3e-3), "frequency_Hz": (0.4, 4.0), "phase_rad": (-np.pi, np.pi)},
     "elastic_mount": {"inverse_mass_1_kg": (0.15, 0.8), "frequency_Hz": (4.0, 10.0), "damping_ratio": (0.02, 0.1)},
     "bouc_wen_hysteresis": {"force_Nm": (1e-4, 1e-3), "yield_rad": (0.02, 0.2)},
 }

@@ -20,6 +20,7 @@ ALSO_ACCEPTED = {
     "gain_change": ("controller",), "integral_feedback": ("controller",), "torque_feedback": ("controller",),
     "gravity_tilt": ("gravity", "mount", "base", "swing_plane"), "base_motion": ("pivot", "mount", "input", "global"),
     "elastic_mount": ("pivot", "mount", "global", "joint1", "input"),
+    "vertical_base_motion": ("pivot", "mount", "global", "gravity"),
 }
 """Other words for the place of a law that acts on more than one part."""
 LAW_OF_LINK = ("quadratic_drag", "link_inertia_error", "sensor_offset", "sensor_delay")

@@ -9,7 +9,8 @@ from itertools import product
 import numpy as np
 
 from symid.discrepancy.data import Data, Episode
-from symid.mechanics import CANONICAL, LIBRARY, suspects
+from symid.errors import ModelError
+from symid.mechanics import CANONICAL, suspects
 from symid.model import Law, LawParameter, Model, Term
 
 SCANNED = ("frequency_Hz", "start_s", "time_s")
@@ -106,9 +107,18 @@ class Suspect:
 
 def established_suspects(model: Model) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses."""
-    return [Suspect(t, t.name in CANONICAL) for t in suspects(model) if not _given(model, t)]
+    return [Suspect(t, t.name in CANONICAL) for t in suspects(model) if not _given(model, t) and _fits(model, t)]
 
 
 def _given(model: Model, term: Term) -> bool:
     """Whether the model contains this term already."""
     return any(str(t) == str(term) for t in model.terms)
+
+
+def _fits(model: Model, term: Term) -> bool:
+    """Whether the model declares all that the law needs, such as both components of gravity for a tilt."""
+    try:
+        model.with_term(term)
+    except ModelError:
+        return False
+    return True

@@ -10,9 +10,12 @@ import sympy as sm
 
 from symid.errors import ModelError
 from symid.mechanics.laws import give_unit, late_symbols, parameter_name
-from symid.model import Equation, Law, LawParameter, Model, Port, State
+from symid.model import Equation, Expression, Law, LawParameter, Model, Port, State
 
 _OFFSET = LawParameter("offset_rad", "rad", (-inf, inf), typical=0.01)
+_MOTION = (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3),
+           LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.5, 1.0, 2.0, 4.0, 8.0)),
+           LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,)))
 
 
 def _input_gain(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -69,12 +72,17 @@ def _sensor_delay(model: Model, place: str, p: SimpleNamespace) -> None:
         model.redefine(sensor.name, model.delayed(sensor.expr, p.delay_s))
 
 
-def _tilt(model: Model, place: str, p: SimpleNamespace) -> None:
+def _gravity(model: Model) -> list[Expression]:
+    """Its forward component and its downward one."""
     components = model.find("gravity")
     if len(components) != 2:
-        raise ModelError(f"model '{model.name}' has {len(components)} expressions with role='gravity'; a tilt needs "
-                         "two: the forward component first, then the downward one")
-    forward, down = components
+        raise ModelError(f"model '{model.name}' has {len(components)} expressions with role='gravity', and two are needed: "
+                         "the forward component first, then the downward one")
+    return components
+
+
+def _tilt(model: Model, place: str, p: SimpleNamespace) -> None:
+    forward, down = _gravity(model)
     cos, sin = sm.cos(p.bias_rad), sm.sin(p.bias_rad)
     model.redefine(forward.name, p.g_scale * (forward.expr * cos + down.expr * sin))
     model.redefine(down.name, p.g_scale * (down.expr * cos - forward.expr * sin))
@@ -84,6 +92,12 @@ def _base_motion(model: Model, place: str, p: SimpleNamespace) -> None:
     speed = 2 * sm.pi * p.frequency_Hz
     for base in model.find("base_acceleration", place):
         model.redefine(base.name, base.expr - p.amplitude_m * speed**2 * sm.sin(speed * model.time + p.phase_rad))
+
+
+def _vertical_motion(model: Model, place: str, p: SimpleNamespace) -> None:
+    """In a base that moves up and down gravity changes by the acceleration of the base."""
+    down, speed = _gravity(model)[1], 2 * sm.pi * p.frequency_Hz
+    model.redefine(down.name, down.expr - p.amplitude_m * speed**2 * sm.sin(speed * model.time + p.phase_rad))
 
 
 def _elastic_mount(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -125,6 +139,8 @@ FURTHER_WORLD_LAWS: tuple[Law, ...] = (
          LawParameter("frequency_Hz", "Hz", (0.5, 40.0), None, (3.0, 6.0, 12.0), 5.0),
          LawParameter("damping_ratio", "1", (0.0, 2.0), None, (0.05,), 0.05)),
         _elastic_mount, "The {place} gives way like a mass on springs of {frequency_Hz}", "Den Hartog 1934"),
+    Law("vertical_base_motion", "gravity", _MOTION, _vertical_motion,
+        "The base moves up and down by {amplitude_m} at {frequency_Hz}", "Stephenson 1908", "base"),
 )
 
 WORLD_LAWS: tuple[Law, ...] = (
@@ -150,9 +166,5 @@ WORLD_LAWS: tuple[Law, ...] = (
          LawParameter("bias_rad", "rad", (-0.5, 0.5), typical=0.01)),
         _tilt, "Gravity is {g_scale} times the stated one and the vertical is turned by {bias_rad}",
         "Newton 1687", "global"),
-    Law("base_motion", "base_acceleration",
-        (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3),
-         LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.5, 1.0, 2.0, 4.0, 8.0)),
-         LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,))),
-        _base_motion, "The base moves back and forth by {amplitude_m} at {frequency_Hz}", "d'Alembert 1743"),
+    Law("base_motion", "base_acceleration", _MOTION, _base_motion, "The base moves back and forth by {amplitude_m} at {frequency_Hz}", "d'Alembert 1743"),
 )
