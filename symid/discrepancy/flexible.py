@@ -21,13 +21,10 @@ MOST_ITERATIONS = 20
 
 def flexible_terms(fit: Fit, data: Data) -> list[Term]:
     """A flexible term at every port, sensor and input, scaled by the motion of the fit."""
-    sim, model = simulator(fit.model), fit.model
-    runs = [sim.simulate(fit.values, x0, e.time, e.inputs, gain=fit.gain, recorded=e.recorded)
-            for e, x0 in zip(data.episodes, fit.initial, strict=True)]
-    path, terms = np.vstack([t.x for t in runs]), []
+    model, path, terms = fit.model, fitted_path(fit, data), []
     for role in ("joint", "link"):
         ports = [p for p in model.ports.values() if p.role == role]
-        scales = {p.at: (_rms(model, p.position, path), _rms(model, p.rate, path)) for p in ports}
+        scales = {p.at: (_size(along(path, p.position, model)), _size(along(path, p.rate, model))) for p in ports}
         law = unknown_force(role, scales, data.span)
         terms += [law.at(p.at) for p in ports if _first(model, p)]
     recorded = np.vstack([e.recorded for e in data.episodes])
@@ -50,9 +47,16 @@ def _size(x: np.ndarray) -> float:
     return float(np.sqrt(np.mean(x**2))) or 1.0
 
 
-def _rms(model: Model, expr, path: np.ndarray) -> float:
-    """Root mean square of a linear expression of the states along a path."""
-    return _size(sum(float(expr.coeff(s.symbol)) * path[:, i] for i, s in enumerate(model.states.values())))
+def fitted_path(fit: Fit, data: Data) -> np.ndarray:
+    """(N, n) states of the fit, all episodes one below the other."""
+    sim = simulator(fit.model)
+    return np.vstack([sim.simulate(fit.values, x0, e.time, e.inputs, gain=fit.gain, recorded=e.recorded).x
+                      for e, x0 in zip(data.episodes, fit.initial, strict=True)])
+
+
+def along(path: np.ndarray, expr, model: Model) -> np.ndarray:
+    """(N,) a linear expression of the states along a path."""
+    return sum(float(expr.coeff(s.symbol)) * path[:, i] for i, s in enumerate(model.states.values()))
 
 
 def flexible_fits(base: Fit, data: Data, terms: Sequence[Term]) -> list[Candidate]:

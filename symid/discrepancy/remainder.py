@@ -11,6 +11,7 @@ from scipy.stats import chi2
 from symid.discrepancy.data import Data
 from symid.discrepancy.fit import Fit
 from symid.discrepancy.flexible import flexible_terms
+from symid.discrepancy.modulation import PARTS, modulated
 from symid.discrepancy.screen import Screen, extended, padded
 from symid.errors import SymidError
 from symid.model import Term
@@ -37,7 +38,7 @@ class Test:
     Attributes
     ----------
     place : where it would act. what : in words. gain : growth of twice the log-likelihood, or the
-    statistic. size : its degrees of freedom. surprise : -log10 of the probability by chance.
+    statistic. size : its degrees of freedom. tried : the largest of so many. surprise : -log10 of the probability by chance.
     """
 
     place: str
@@ -45,10 +46,11 @@ class Test:
     gain: float
     size: int
     locates: bool = True
+    tried: int = 1
 
     @property
     def surprise(self) -> float:
-        return float(-chi2.logsf(self.gain, self.size) / np.log(10))
+        return max(0.0, float(-chi2.logsf(self.gain, self.size) / np.log(10) - np.log10(self.tried)))
 
 
 def remainder(fit: Fit, data: Data) -> list[Test]:
@@ -66,6 +68,8 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
             gain, coefficients = screen.score(columns)
             size = int(np.count_nonzero(coefficients))
             found.append(Test(term.location, _WHAT[term.name], gain / _excess([screen.score(columns, r)[0] for r in nulls], size), size))
+    found += [Test(place, "a stiffness or damping that comes and goes", gain, PARTS, tried=tried)
+              for place, gain, tried in modulated(screen)]
     for o, y in enumerate(fit.model.outputs.values()):
         statistic = _ljung_box(screen, fit.surprise, o) / _excess([_ljung_box(screen, r, o) for r in rounded], WHITENESS_LAGS)
         found.append(Test(y.at, "surprises that follow from earlier ones", statistic, WHITENESS_LAGS, locates=False))

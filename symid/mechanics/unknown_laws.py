@@ -10,13 +10,22 @@ from collections.abc import Mapping
 
 import sympy as sm
 
-from symid.mechanics.laws import port_at
+from symid.mechanics.laws import effort_law, port_at
 from symid.model import Equation, Law, LawParameter, Model, State
 
 WAVE = 1.0
 """A distortion of a sensor is built of waves of this many radians per rms of what it shows, and its multiples."""
+BRIEF = 0.02
+"""Half width of a push that is short beside any motion [s]."""
 MEMORY_TIMES = (0.05, 0.2, 0.8)
 """Time constants [s] of the filtered positions that let a flexible force remember."""
+
+
+SHORT_PUSH = effort_law(
+    "short_push", "joint", (LawParameter("impulse_Nms", "N*m*s"), LawParameter("time_s", "s", null=None)),
+    lambda model, port, p: p.impulse_Nms * sm.exp(-(((model.time - p.time_s) / BRIEF) ** 2)) / (BRIEF * sm.sqrt(sm.pi)),
+    "", "")
+"""A push of unit impulse, to see how a loop answers."""
 
 
 def _parameters(count: int) -> tuple[LawParameter, ...]:

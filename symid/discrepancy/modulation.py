@@ -1,0 +1,63 @@
+"""Does a joint's stiffness or damping come and go? Its motion times sines of every frequency, as a force.
+
+A loop that is nearly linear answers a short push alike at all times: its answer to any force is
+that to a push, convolved with the force (Duhamel 1833). So one simulation serves all frequencies.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.signal import fftconvolve
+
+from symid.discrepancy.flexible import along, fitted_path
+from symid.discrepancy.screen import Screen
+from symid.discrepancy.suspects import Suspect
+from symid.mechanics.unknown_laws import SHORT_PUSH
+from symid.model import Port
+from symid.simulation import simulator
+
+HIGHEST = 2.0
+"""Up to here a change of stiffness or damping is looked for [Hz]."""
+SPACING = 0.5
+"""Spacing of the frequencies, in parts of one over the recording."""
+LASTS = 10.0
+"""So long the answer to a push is followed [s]."""
+PARTS = 4
+"""Position and rate, each times sine and cosine."""
+
+
+def modulated(screen: Screen) -> list[tuple[str, float, int]]:
+    """Place, largest gain of twice the log-likelihood with `PARTS` coefficients, and how many frequencies were tried.
+
+    Nothing where random forces do not act, or pieces of the recording have each a start of their own.
+    """
+    data, model, found = screen.data, screen.fit.model, []
+    if not data.driven or len(data.episodes) > 1:
+        return found
+    path, episode = fitted_path(screen.fit, data), data.episodes[0]
+    time = episode.time - episode.time[0]
+    frequencies = np.arange(1.5, HIGHEST * time[-1], SPACING) / time[-1]
+    for port in (p for p in model.ports.values() if p.role == "joint"):
+        answer = _answer(screen, port)
+        if answer is None:
+            continue
+        motion = [along(path, expr, model) for expr in (port.position, port.rate)]
+        motion = [(x - x.mean()) / (x.std() or 1.0) for x in motion]
+        gains = [screen.score(np.column_stack([_to_force(answer, x * wave(2 * np.pi * f * time))
+                                               for x in motion for wave in (np.sin, np.cos)]))[0] for f in frequencies]
+        found.append((port.at, max(gains), len(frequencies)))
+    return found
+
+
+def _answer(screen: Screen, port: Port) -> np.ndarray | None:
+    """(K, m) whitened change of the predictions after a push at a joint, sample by sample."""
+    suspect, episode = Suspect(SHORT_PUSH.at(port.at), established=False), screen.data.episodes[0]
+    start = len(episode.time) // 2
+    column = screen.response(suspect, simulator(screen.fit.model.with_term(suspect.term)),
+                             {"impulse_Nms": 0.0, "time_s": float(episode.time[start])})
+    return None if column is None else column.reshape(-1, len(screen.white))[start:start + int(LASTS / episode.step)]
+
+
+def _to_force(answer: np.ndarray, force: np.ndarray) -> np.ndarray:
+    """(N m,) answer to a force (N,), up to a factor."""
+    return fftconvolve(force[:, None], answer, axes=0)[:len(force)].reshape(-1)
