@@ -13,9 +13,10 @@ from symid.mechanics.laws import give_unit, late_symbols, parameter_name
 from symid.model import Equation, Expression, Law, LawParameter, Model, Port, State
 
 _OFFSET = LawParameter("offset_rad", "rad", (-inf, inf), typical=0.01)
-_MOTION = (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3),
-           LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.5, 1.0, 2.0, 4.0, 8.0)),
-           LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,)))
+_PERIODIC = (LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.5, 1.0, 2.0, 4.0, 8.0)),
+             LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,)))
+UNNOTICED = 0.05
+"""Nobody overlooks that a base moves up and down by more than this [m]; a stiffness that changes would look like it."""
 
 
 def _input_gain(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -139,7 +140,8 @@ FURTHER_WORLD_LAWS: tuple[Law, ...] = (
          LawParameter("frequency_Hz", "Hz", (0.5, 40.0), None, (3.0, 6.0, 12.0), 5.0),
          LawParameter("damping_ratio", "1", (0.0, 2.0), None, (0.05,), 0.05)),
         _elastic_mount, "The {place} gives way like a mass on springs of {frequency_Hz}", "Den Hartog 1934"),
-    Law("vertical_base_motion", "gravity", _MOTION, _vertical_motion,
+    Law("vertical_base_motion", "gravity",
+        (LawParameter("amplitude_m", "m", (0.0, UNNOTICED), typical=1e-3), *_PERIODIC), _vertical_motion,
         "The base moves up and down by {amplitude_m} at {frequency_Hz}", "Stephenson 1908", "base"),
 )
 
@@ -166,5 +168,6 @@ WORLD_LAWS: tuple[Law, ...] = (
          LawParameter("bias_rad", "rad", (-0.5, 0.5), typical=0.01)),
         _tilt, "Gravity is {g_scale} times the stated one and the vertical is turned by {bias_rad}",
         "Newton 1687", "global"),
-    Law("base_motion", "base_acceleration", _MOTION, _base_motion, "The base moves back and forth by {amplitude_m} at {frequency_Hz}", "d'Alembert 1743"),
+    Law("base_motion", "base_acceleration",
+        (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3), *_PERIODIC), _base_motion, "The base moves back and forth by {amplitude_m} at {frequency_Hz}", "d'Alembert 1743"),
 )
