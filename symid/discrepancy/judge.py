@@ -35,14 +35,24 @@ def judge(found: Explanation, ranking: list[Candidate], left: list[Test], base: 
     if not found.established:
         odd = next(s for s in found.suspects if not s.established)
         effects = tuple(sorted(effects, key=lambda e: (e.name, e.location) != (odd.term.name, odd.term.location)))
-        return "unexplained", effects, ()
+        place = odd.term.location if rest is None else _voted(anything(), effects[0], rest)
+        unknown = () if place == odd.term.location else (_unknown(place, left, rest, found),)
+        return "unexplained", (*unknown, *effects), ()
     if rest is not None or base.gain is not None and len(effects) == MOST_EFFECTS[True]:
-        votes = [anything().suspects[0].term.location, effects[0].location, *([rest.place] if rest else [])]
-        place = max(votes, key=votes.count)
-        seen = next((t for t in left if t.locates and t.place == place), None)
-        what = (seen or rest).what if rest else "something that only several of the known effects together imitate"
-        return "unexplained", (Effect("unknown", place, {}, None, rest.gain if rest else found.score, what), *effects), equivalent
+        return "unexplained", (_unknown(_voted(anything(), effects[0], rest), left, rest, found), *effects), equivalent
     return "missing_physics", effects, equivalent
+
+
+def _voted(anything: Explanation, effect: Effect, rest: Test | None) -> str:
+    """Where most of what tells it say that the unknown acts; where they all differ, what a flexible law says."""
+    votes = [anything.suspects[0].term.location, effect.location, *([rest.place] if rest else [])]
+    return max(votes, key=votes.count)
+
+
+def _unknown(place: str, left: list[Test], rest: Test | None, found: Explanation) -> Effect:
+    seen = next((t for t in left if t.locates and t.place == place), rest)
+    what = seen.what if rest else "something that only several of the known effects together imitate"
+    return Effect("unknown", place, {}, None, rest.gain if rest else found.score, what)
 
 
 def rivals(found: Explanation, ranking: list[Candidate]) -> list[Suspect]:
