@@ -11,10 +11,11 @@ from scipy.signal import butter, filtfilt
 from symid.discrepancy.audit import audit, white_noise
 from symid.discrepancy.baseline import fit_baseline
 from symid.discrepancy.data import Data, Episode
+from symid.discrepancy.diagnosis import Effect
 from symid.discrepancy.halves import Half, HalfVerdict, _reason, _said, survivals, verdicts
 from symid.discrepancy.robust import with_robust_errors
 from symid.discrepancy.suspects import Suspect
-from symid.discrepancy.words import _verdicts_of_halves, law_name, place_name, quantity, sentence
+from symid.discrepancy.words import _finding, _verdicts_of_halves, law_name, place_name, quantity, sentence
 from symid.mechanics import LIBRARY, rig_model
 from symid.recording import Recording
 from symid.simulation import simulator
@@ -182,3 +183,16 @@ def test_every_sentence_reads_well_at_every_kind_of_place(name):
 def test_a_value_that_is_not_determined_says_so():
     assert quantity(1e-6, 1e280, "N*m") == "1 µN m (hardly determined)"
     assert law_name("gravity_tilt", "global") == "gravity tilt" and law_name("viscous_friction", "hip") == "viscous friction at the hip"
+
+
+def test_a_hypothesis_beside_an_unknown_rest_is_not_asserted():
+    unknown = Effect("unknown", "joint1", {}, None, 50.0, "a force that depends on time", established=False)
+    guess = Effect("vertical_base_motion", "base", {}, None, 50.0, "The base moves up and down", established=False)
+    sure = Effect("sensor_offset", "sensor:link1", {}, None, 50.0, "The first sensor is off")
+    def said(*effects):
+        return " ".join(_finding(SimpleNamespace(verdict="unexplained", effects=effects)))
+    assert said(unknown, guess) == (
+        "Something systematic acts at joint 1 that no established effect explains. It looks like this: a force that depends on "
+        "time. In part it looks like this: the base moves up and down.")
+    assert said(unknown, guess, sure).startswith("The first sensor is off. That is not all")
+    assert said(unknown, guess, sure).endswith("In part it looks like this: the base moves up and down.")

@@ -30,6 +30,7 @@ class Effect:
     parameters : key -> (value, standard error), SI.
     window : start and end [s] of an effect that lasts only for a time, or that begins at one.
     gain : growth of twice the log-likelihood that is lost without it.
+    established : whether its name is an answer; else it says what something unexplained looks like.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Effect:
     window: tuple[float, float] | None
     gain: float
     sentence: str = ""
+    established: bool = True
 
 
 @dataclass(frozen=True, eq=False, repr=False)

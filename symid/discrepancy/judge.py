@@ -31,7 +31,7 @@ def judge(found: Explanation, ranking: list[Candidate], left: list[Test], base: 
     if not found.suspects and rest is None:
         return "adequate", (), ()
     if rest is not None and not found.suspects:
-        return "unexplained", (Effect("unknown", rest.place, {}, None, rest.gain, rest.what),), ()
+        return "unexplained", (Effect("unknown", rest.place, {}, None, rest.gain, rest.what, established=False),), ()
     if not found.established:
         odd = next(s for s in found.suspects if not s.established)
         effects = tuple(sorted(effects, key=lambda e: (e.name, e.location) != (odd.term.name, odd.term.location)))
@@ -52,7 +52,7 @@ def _voted(anything: Explanation, effect: Effect, rest: Test | None) -> str:
 def _unknown(place: str, left: list[Test], rest: Test | None, found: Explanation) -> Effect:
     seen = next((t for t in left if t.locates and t.place == place), rest)
     what = seen.what if rest else "something that only several of the known effects together imitate"
-    return Effect("unknown", place, {}, None, rest.gain if rest else found.score, what)
+    return Effect("unknown", place, {}, None, rest.gain if rest else found.score, what, established=False)
 
 
 def rivals(found: Explanation, ranking: list[Candidate]) -> list[Suspect]:
@@ -88,4 +88,4 @@ def _effect(suspect: Suspect, found: Explanation, base: Fit, data: Data) -> Effe
         parameters["time_s"] = (at, error)
         window = (at - min(2 * error, 3.0), at + min(2 * error, 3.0))
     gain = fit.loglik2 - base.loglik2
-    return Effect(term.name, term.location, parameters, window, gain, sentence(suspect, parameters))
+    return Effect(term.name, term.location, parameters, window, gain, sentence(suspect, parameters), suspect.established)

@@ -117,13 +117,18 @@ def _finding(s: Story) -> list[str]:
     if s.verdict == "missing_physics":
         return [f"{e.sentence}." for e in known]
     first, others = s.effects[0], [e for e in known if e is not s.effects[0]]
-    said = [f"{e.sentence}." for e in others]
+    said = [f"{e.sentence}." for e in others if e.established]
+    part = [f"In part it looks like this: {_lowered(e.sentence)}." for e in others if not e.established]
     if said and first.name == "unknown":
         return [*said, f"That is not all: something systematic is left at {place_name(first.location)}, {first.sentence}, "
-                       "which no established effect explains."]
+                       "which no established effect explains.", *part]
     out = [f"Something systematic acts at {place_name(first.location)} that no established effect explains. It looks like this: "
-           f"{first.sentence[:1].lower()}{first.sentence[1:]}."]
+           f"{_lowered(first.sentence)}.", *part]
     return out + (["Besides:", *said] if said else [])
+
+
+def _lowered(sentence: str) -> str:
+    return sentence[:1].lower() + sentence[1:]
 
 
 def _losses(s: Story) -> list[str]:
