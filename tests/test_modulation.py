@@ -41,3 +41,8 @@ def test_it_makes_the_finding_unexplained():
 def test_pieces_with_a_start_of_their_own_are_not_tested():
     data = data_of(recorded(2, gust=0.0), driven=False, length=4.0)
     assert modulated(Screen(fit_baseline(cart(), data), data)) == []
+
+
+def test_a_recording_of_less_than_a_second_is_not_tested():
+    data = data_of(recorded(2), window=(0.0, 0.6))
+    assert modulated(Screen(fit_baseline(cart(), data), data)) == []

@@ -29,7 +29,7 @@ PARTS = 4
 def modulated(screen: Screen) -> list[tuple[str, float, int]]:
     """Place, largest gain of twice the log-likelihood with `PARTS` coefficients, and how many frequencies were tried.
 
-    Nothing where random forces do not act, or pieces of the recording have each a start of their own.
+    Nothing where random forces do not act, pieces of the recording have each a start of their own, or it is too short.
     """
     data, model, found = screen.data, screen.fit.model, []
     if not data.driven or len(data.episodes) > 1:
@@ -38,7 +38,7 @@ def modulated(screen: Screen) -> list[tuple[str, float, int]]:
     time = episode.time - episode.time[0]
     frequencies = np.arange(1.5, HIGHEST * time[-1], SPACING) / time[-1]
     for port in (p for p in model.ports.values() if p.role == "joint"):
-        answer = _answer(screen, port)
+        answer = _answer(screen, port) if len(frequencies) else None
         if answer is None:
             continue
         motion = [along(path, expr, model) for expr in (port.position, port.rate)]

@@ -169,5 +169,6 @@ WORLD_LAWS: tuple[Law, ...] = (
         _tilt, "Gravity is {g_scale} times the stated one and the vertical is turned by {bias_rad}",
         "Newton 1687", "global"),
     Law("base_motion", "base_acceleration",
-        (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3), *_PERIODIC), _base_motion, "The base moves back and forth by {amplitude_m} at {frequency_Hz}", "d'Alembert 1743"),
+        (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3), *_PERIODIC), _base_motion,
+        "The base moves back and forth by {amplitude_m} at {frequency_Hz}", "d'Alembert 1743"),
 )
