@@ -32,13 +32,13 @@ def modulated(screen: Screen) -> list[tuple[str, float, int]]:
     Nothing where random forces do not act, pieces of the recording have each a start of their own, or it is too short.
     """
     data, model, found = screen.data, screen.fit.model, []
-    if not data.driven or len(data.episodes) > 1:
-        return found
-    path, episode = fitted_path(screen.fit, data), data.episodes[0]
-    time = episode.time - episode.time[0]
+    time = data.episodes[0].time - data.episodes[0].time[0]
     frequencies = np.arange(1.5, HIGHEST * time[-1], SPACING) / time[-1]
+    if not data.driven or len(data.episodes) > 1 or not len(frequencies):
+        return found
+    path = fitted_path(screen.fit, data)
     for port in (p for p in model.ports.values() if p.role == "joint"):
-        answer = _answer(screen, port) if len(frequencies) else None
+        answer = _answer(screen, port)
         if answer is None:
             continue
         motion = [along(path, expr, model) for expr in (port.position, port.rate)]

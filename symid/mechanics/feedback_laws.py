@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import sympy as sm
 
 from symid.mechanics.feedback import lag_torque
-from symid.mechanics.laws import acceleration, dry, fit_units, fixed, parameter_name, port_at, switched_on
+from symid.mechanics.laws import dry, fit_units, fixed, parameter_name, port_at, switched_on, time_derivative
 from symid.model import Equation, Law, LawParameter, Model, State
 
 _SWITCH = 0.02
@@ -75,7 +75,7 @@ def _integral(model: Model, place: str, p: SimpleNamespace) -> None:
 def _acceleration(model: Model, place: str, p: SimpleNamespace) -> None:
     fit_units(model, place, p)
     port = port_at(model, "joint", place)
-    model.add_effort(port.name, -p.gain_kg_m2 * acceleration(model, port))
+    model.add_effort(port.name, -p.gain_kg_m2 * time_derivative(model, port.rate))
 
 
 def _torque_feedback(model: Model, place: str, p: SimpleNamespace) -> None:

@@ -6,7 +6,7 @@ from math import inf
 
 import sympy as sm
 
-from symid.mechanics.laws import acceleration, dry, effort_law, fit_units, parameter_name, port_at
+from symid.mechanics.laws import dry, effort_law, fit_units, parameter_name, port_at, time_derivative
 from symid.model import Equation, Law, LawParameter, State
 
 _POSITIVE = (0.0, inf)
@@ -96,7 +96,7 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
                lambda m, port, p: -p.coefficient_Nm_s2_rad2 * port.rate * sm.Abs(port.rate),
                "The {place} is damped with the square of its speed, {coefficient_Nm_s2_rad2}", "Newton 1687"),
     effort_law("rotor_inertia", "joint", (LawParameter("inertia_kg_m2", "N*m*s^2/rad", _POSITIVE),),
-               lambda m, port, p: -p.inertia_kg_m2 * acceleration(m, port),
+               lambda m, port, p: -p.inertia_kg_m2 * time_derivative(m, port.rate),
                "Something that turns with the {place} adds an inertia of {inertia_kg_m2}", "Euler 1765"),
     effort_law("constant_torque", "joint", (LawParameter("torque_Nm", "N*m", _BOTH_SIGNS),),
                lambda m, port, p: p.torque_Nm, "A constant torque of {torque_Nm} acts at the {place}", "Newton 1687"),

@@ -51,9 +51,9 @@ def fixed(model: Model, name: str, value: float, unit: str, meaning: str) -> sm.
     return model[name].symbol
 
 
-def acceleration(model: Model, port: Port) -> sm.Expr:
-    """Time derivative of the port's rate."""
-    return sum(sm.diff(port.rate, s.symbol) * s.dot for s in model.states.values())
+def time_derivative(model: Model, expr: sm.Expr) -> sm.Expr:
+    """Of an expression of the states, by the chain rule."""
+    return sum(sm.diff(expr, s.symbol) * s.dot for s in model.states.values())
 
 
 def dry(model: Model, port: Port, law: str) -> sm.Expr:

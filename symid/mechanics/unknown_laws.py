@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import sympy as sm
 
-from symid.mechanics.laws import effort_law, port_at
+from symid.mechanics.laws import effort_law, port_at, time_derivative
 from symid.model import Equation, Law, LawParameter, Model, State
 
 WAVE = 1.0
@@ -78,8 +78,7 @@ def unknown_sensor(scales: Mapping[str, float], span: tuple[float, float]) -> La
             y = sensor.expr / scales[place]
             t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
             waves = [f(k * WAVE * y) for k in (1, 2, 3, 4) for f in (sm.sin, sm.cos)]
-            rate = sum(sm.diff(y, s.symbol) * s.dot for s in model.states.values())
-            shapes = [y, *waves, t, y * t, rate, *_memories(model, place, y)]
+            shapes = [y, *waves, t, y * t, time_derivative(model, y), *_memories(model, place, y)]
             model.redefine(sensor.name, sensor.expr + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
     return Law("unknown_sensor_error", "sensor", _parameters(12 + len(MEMORY_TIMES)), build,
                "What the sensor {place} shows is distorted in a way that no known law describes")

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 import sympy as sm
 
 from symid.errors import ModelError
-from symid.mechanics.laws import give_unit, late_symbols, parameter_name
+from symid.mechanics.laws import give_unit, late_symbols, parameter_name, time_derivative
 from symid.model import Equation, Expression, Law, LawParameter, Model, Port, State
 
 _OFFSET = LawParameter("offset_rad", "rad", (-inf, inf), typical=0.01)
@@ -89,16 +89,21 @@ def _tilt(model: Model, place: str, p: SimpleNamespace) -> None:
     model.redefine(down.name, p.g_scale * (down.expr * cos - forward.expr * sin))
 
 
-def _base_motion(model: Model, place: str, p: SimpleNamespace) -> None:
+def _shaking(model: Model, p: SimpleNamespace) -> sm.Expr:
+    """Acceleration of a base that moves by amplitude sin(2 pi frequency t + phase)."""
     speed = 2 * sm.pi * p.frequency_Hz
+    return -p.amplitude_m * speed**2 * sm.sin(speed * model.time + p.phase_rad)
+
+
+def _base_motion(model: Model, place: str, p: SimpleNamespace) -> None:
     for base in model.find("base_acceleration", place):
-        model.redefine(base.name, base.expr - p.amplitude_m * speed**2 * sm.sin(speed * model.time + p.phase_rad))
+        model.redefine(base.name, base.expr + _shaking(model, p))
 
 
 def _vertical_motion(model: Model, place: str, p: SimpleNamespace) -> None:
     """In a base that moves up and down gravity changes by the acceleration of the base."""
-    down, speed = _gravity(model)[1], 2 * sm.pi * p.frequency_Hz
-    model.redefine(down.name, down.expr - p.amplitude_m * speed**2 * sm.sin(speed * model.time + p.phase_rad))
+    _, down = _gravity(model)
+    model.redefine(down.name, down.expr + _shaking(model, p))
 
 
 def _elastic_mount(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -114,12 +119,11 @@ def _elastic_mount(model: Model, place: str, p: SimpleNamespace) -> None:
                                           meaning=f"{meaning} of the mount, forward; forgets its start, begin at 0"))
     shift, speed = model[name + "shift"], model[name + "speed"]
     momentum = sum(-sm.diff(model[e].expr, base.symbol) * rate for e, rate in _conjugate_rates(model).items())
-    relative = sum(sm.diff(momentum, s.symbol) * s.dot for s in model.states.values())
     pace = 2 * sm.pi * p.frequency_Hz
     model.redefine(base.name, base.expr + speed.dot)
     setattr(model, f"{name}shift_equation", Equation(shift.dot - speed))
     setattr(model, f"{name}speed_equation", Equation(
-        speed.dot + 2 * p.damping_ratio * pace * speed + pace**2 * shift + p.inverse_mass_1_kg * relative))
+        speed.dot + 2 * p.damping_ratio * pace * speed + pace**2 * shift + p.inverse_mass_1_kg * time_derivative(model, momentum)))
 
 
 def _conjugate_rates(model: Model) -> dict[str, sm.Expr]:
