@@ -48,5 +48,5 @@ def plot_starts_spread(findings: Sequence) -> Picture:
     axis.set_xticks(range(len(findings)), [f.case.name for f in findings], rotation=45, fontsize=8)
     axis.set_yscale("log")
     axis.set_ylabel("RMS [deg]")
-    axis.legend(frameon=False, fontsize=8)
+    axis.legend(frameon=False, fontsize=8, ncols=2, loc="lower right", bbox_to_anchor=(1, 1))  # above: starts may end anywhere
     return picture
