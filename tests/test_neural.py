@@ -99,7 +99,7 @@ def test_two_episodes_let_an_unstable_loop_win_and_three_do_not(shared):
     two = _standing(shared, 2)
     soft, searched = (two.solve_from(two.start(kind), max_iterations=100) for kind in ("soft", "search"))
     assert soft.solved and searched.solved
-    assert soft.objective < 0.95 * searched.objective
+    assert soft.objective < 0.97 * searched.objective
     assert two.transcription.layout.parameters(soft.z)[0] < 880 < two.transcription.layout.parameters(searched.z)[0]
 
 

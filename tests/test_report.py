@@ -152,7 +152,7 @@ def test_a_problem_shows_what_will_be_solved_and_builds_nothing():
                                 weights={"measured": 2.0})
     assert "transcription" not in vars(problem)
     for text in (repr(problem), problem._repr_html_()):
-        for part in ("driven pendulum", "damping", "0 s to 2 s", "angle (weight 2)", "midpoint", "3, uniform noise, seed 5"):
+        for part in ("driven pendulum", "damping", "0 s to 2 s", "angle (weight 2)", "midpoint", "3, multisine noise, seed 5"):
             assert part in text
     assert "transcription" not in vars(problem)
 

@@ -66,7 +66,7 @@ def test_every_number_stands_beside_the_articles(shared):
     best = _Best(model, {k: mean + 2 * spread for k, (mean, spread) in case.gains.items()})
     starts = pd.DataFrame({"solved": [True, False, True, True], "rms_deg": [1.1, np.nan, 1.2, 1.105]}
                           | {k: [v, v, 2 * v, case.gains[k][0]] for k, v in best.values.items()})
-    table = comparison(Reproduction((Finding(case, 4, starts, best, _Stability()),), {}))
+    table = comparison(Reproduction((Finding(case, 4, starts, best, _Stability()),), {}, "multisine"))
     assert np.allclose(table["deviation"].dropna(), (table["here"] - table["article"]).dropna())
     gains = table[table["quantity"].isin(case.gains)]
     # The first and the last start are good ones, the third is not.
@@ -77,9 +77,13 @@ def test_every_number_stands_beside_the_articles(shared):
     assert set(table["noise_seed"]) == {4} and "table 3" in set(table["where"])
 
 
-def test_what_was_chosen_is_said():
-    for word in ("uniform", "Gaussian", "activation", "initial state", "3.1416", "ridge"):
-        assert word in notes()
+@pytest.mark.parametrize(("distribution", "words"), [
+    ("multisine", "used here: orthogonal random-phase multisines"), ("uniform", "used here: uniform\n"),
+    ("gaussian", "used here: Gaussian with a standard deviation of 0.25 N m")])
+def test_what_was_chosen_is_said(distribution, words):
+    said = notes(distribution)
+    for word in (words, "uniform", "Gaussian", "activation", "initial state", "3.1416", "ridge"):
+        assert word in said
 
 
 def test_a_missing_recording_is_one_sentence(capsys, tmp_path):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from conftest import pendulum, pendulum_recording
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
@@ -109,18 +109,46 @@ def test_constraints_are_named_in_words():
     assert words[-1] == "initial state rate of episodes 1 and 2 equal"
 
 
-def test_noise_of_an_episode_does_not_depend_on_their_number():
-    model = pendulum()
-    two, five = (Episodes(n, amplitude=0.25, seed=3).draw(model, 50) for n in (2, 5))
-    assert np.array_equal(two[1], five[1])
-    assert not np.array_equal(five[0], five[1])
-    assert np.abs(np.concatenate(five)).max() <= 0.25
+@pytest.mark.parametrize("distribution", ["uniform", "gaussian"])
+def test_independent_noise_of_an_episode_does_not_depend_on_their_number(distribution):
+    two, five = (Episodes(n, amplitude=0.25, seed=3, distribution=distribution).draw(pendulum(), 5000) for n in (2, 5))
+    assert np.array_equal(two[1], five[1]) and not np.array_equal(five[0], five[1])
+    all_five = np.concatenate(five)
+    if distribution == "uniform":
+        assert 0.249 < np.abs(all_five).max() <= 0.25
+    assert all_five.std() == pytest.approx(0.25 / (np.sqrt(3) if distribution == "uniform" else 1), rel=0.01)
+
+
+@settings(max_examples=50, deadline=None)
+@given(count=st.integers(2, 7), noises=st.integers(1, 5), intervals=st.integers(3, 400), seed=st.integers(0, 99))
+def test_multisines_are_alike_sum_to_zero_and_are_orthogonal(count, noises, intervals, seed):
+    model = si.Model("shaken")
+    model.x = si.State(unit="m")
+    for j in range(noises):
+        setattr(model, f"push_{j}", si.Noise(unit="m/s"))
+    drawn = np.array(Episodes(count, amplitude=0.3, seed=seed).draw(model, intervals))
+    assert drawn.shape == (count, intervals, noises)
+    assert np.allclose((drawn ** 2).mean(axis=1), 0.03) and np.allclose(drawn.sum(axis=0), 0)
+    spectra, lines = np.fft.rfft(drawn, axis=1), (intervals - 1) // 2
+    power = np.abs(spectra[:, 1:1 + lines]) ** 2
+    assert np.allclose(power, power[0, 0, 0]) and np.allclose(spectra[:, 0], 0)
+    # Noises beyond episodes - 1 take turns over neighbouring lines: what is left of the last turn is not orthogonal.
+    together = -(-noises // (count - 1))
+    common = np.einsum("eij,eik->jk", drawn, drawn) / (0.03 * count * intervals)
+    assert np.abs(common - np.eye(noises)).max() <= (lines % together) / lines + 1e-12
+
+
+def test_multisines_follow_their_seed():
+    def draw(seed):
+        return np.array(Episodes(3, amplitude=0.3, seed=seed).draw(pendulum(), 50))
+    assert np.array_equal(draw(4), draw(4)) and not np.allclose(draw(4), draw(5))
 
 
 @pytest.mark.parametrize(("make", "words"), [
     (lambda: Episodes(0), "whole number of at least 1"),
     (lambda: Episodes(2, distribution="cauchy"), "no distribution 'cauchy'"),
     (lambda: Episodes(2, amplitude=-1), "finite amplitude"),
+    (lambda: Episodes(2, amplitude=1.0).draw(pendulum(), 2), "multisine needs at least 3 intervals, not 2; give a longer"),
     (lambda: Episodes(2).draw(pendulum(), 5), "without any noise"),
     (lambda: Episodes(2, torque=1.0).draw(pendulum(), 5), "no noise of model 'driven pendulum' has 'torque'"),
     (lambda: scheme_by_name("euler"), "no collocation scheme 'euler'"),

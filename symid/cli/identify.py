@@ -43,7 +43,8 @@ def run(arguments: argparse.Namespace) -> int:
         measure(model, recording, arguments.held_out)    # refused now, not after the solve
     noise = {"torque": arguments.noise} if arguments.episodes > 1 else {}
     problem = Identification(model, recording, arguments.window, scheme=scheme,
-                             episodes=Episodes(arguments.episodes, seed=arguments.seed, **noise))
+                             episodes=Episodes(arguments.episodes, seed=arguments.seed,
+                                               distribution=arguments.distribution, **noise))
     with chosen_executor(min(arguments.jobs, max(arguments.starts, 1)), arguments.cluster) as executor:
         solution = problem.solve(arguments.starts, seed=arguments.seed, executor=executor, store=arguments.store,
                                  on_iteration=show_iteration if arguments.starts == 1 else None,

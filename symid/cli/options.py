@@ -21,8 +21,15 @@ def add_episode_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--episodes", type=int, default=1, metavar="M",
                         help="noisy repetitions that share the parameters (default: 1, without noise)")
     parser.add_argument("--noise", type=float, default=0.25, metavar="NM",
-                        help="half width of the uniform joint-torque noise of the episodes, N m (default: 0.25)")
+                        help="joint-torque noise of the episodes: half width of the uniform noise of the same power, N m (default: 0.25)")
+    add_distribution_argument(parser)
     parser.add_argument("--seed", type=int, default=0, help="of random starts and noise (default: 0)")
+
+
+def add_distribution_argument(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--distribution", default="multisine", metavar="NAME",
+                        help="how the noise is drawn: multisine (default; flat spectrum, orthogonal, zero in sum over the "
+                             "episodes, so that the parameters depend little on the draw), uniform or gaussian (independent)")
 
 
 def build_model(body: str, controller: str):

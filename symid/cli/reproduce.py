@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from symid.cli.options import add_executor_arguments, chosen_executor
+from symid.cli.options import add_distribution_argument, add_executor_arguments, chosen_executor
 from symid.errors import RecordingError, SolveError
 
 SUMMARY = "run the article's twelve identifications and print every number beside the article's"
@@ -22,6 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--quick", action="store_true", help="one start of each case")
     parser.add_argument("--output", default="reproduction", metavar="DIRECTORY",
                         help="for the CSV and the figures (default: reproduction)")
+    add_distribution_argument(parser)
     add_executor_arguments(parser)
 
 
@@ -41,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     body = mechanics.DoubleLinkPendulum.from_json(folder / "body.json")
     with chosen_executor(arguments.jobs, arguments.cluster) as executor:
         found = reproduce(cases, body, recording, starts=1 if arguments.quick else arguments.starts, seeds=arguments.seeds,
-                          executor=executor, jobs=arguments.jobs, store=arguments.store, on_finished=tell)
+                          distribution=arguments.distribution, executor=executor, jobs=arguments.jobs, store=arguments.store, on_finished=tell)
     print(text(found))
     files = {"comparison.csv": comparison(found).to_csv(index=False)}
     if found.findings:

@@ -44,16 +44,18 @@ class Finding:
 
 @dataclass(frozen=True, eq=False)
 class Reproduction:
-    """What `reproduce` found, and which cases gave no solution: case name and seed -> why."""
+    """What `reproduce` found, which cases gave no solution (case name and seed -> why), and how the noise was drawn."""
 
     findings: tuple[Finding, ...]
     failed: dict[str, str]
+    distribution: str
 
 
-def problem(case: Case, body: mechanics.DoubleLinkPendulum, recording: Recording, draw: int = 0) -> Identification:
-    """The identification of one case, with process noise number `draw`."""
+def problem(case: Case, body: mechanics.DoubleLinkPendulum, recording: Recording, draw: int = 0,
+            distribution: str = "multisine") -> Identification:
+    """The identification of one case, with process noise number `draw` of a distribution of `Episodes`."""
     model: Model = body.with_feedback(LAWS[case.controller]())
-    episodes = Episodes(case.episodes, torque=TORQUE_NOISE, seed=draw) if case.episodes > 1 else Episodes()
+    episodes = Episodes(case.episodes, torque=TORQUE_NOISE, seed=draw, distribution=distribution)
     ridge = {}
     if case.controller == "NN":
         ridge = {"ridge": START_RIDGE, "ridge_about": "start"} if case.episodes > 1 else {"ridge": NETWORK_RIDGE}
@@ -61,8 +63,9 @@ def problem(case: Case, body: mechanics.DoubleLinkPendulum, recording: Recording
 
 
 def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recording: Recording, *, starts: int = 10,
-              seeds: Sequence[int] = (0,), executor: Executor | None = None, jobs: int = 1,
-              store: str | Path | None = None, on_finished: Callable[[Finished], None] | None = None) -> Reproduction:
+              seeds: Sequence[int] = (0,), distribution: str = "multisine", executor: Executor | None = None, jobs: int = 1,
+              store: str | Path | None = None,
+              on_finished: Callable[[Finished], None] | None = None) -> Reproduction:
     """Identify every case from several starts, and test the best solution of each for stability.
 
     PD and full-state PD without noise begin with random gains, as in the article; all others with
@@ -77,6 +80,7 @@ def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recordi
     ----------
     starts : of each case; start number k is the same however many there are.
     seeds : of the process noise; deterministic cases are solved for the first of them only.
+    distribution : of the process noise, one of `Episodes`.
     executor, jobs, store : as for `Study.run`; `jobs` are also the threads of the simulations.
     """
     solves = {}
@@ -84,7 +88,7 @@ def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recordi
         for seed in seeds if case.episodes > 1 else seeds[:1]:
             labels = {"controller": case.controller, "episodes": case.episodes, "noise seed": seed}
             for k in range(starts):
-                one, kind = problem(case, body, recording, DRAWS * seed + k), _start_kind(case, k)
+                one, kind = problem(case, body, recording, DRAWS * seed + k, distribution), _start_kind(case, k)
                 solves[f"{case.name}/{seed}/{k}"] = Solve(one, kind, k, 0, SOLVER[kind], labels)
     study = Study(solves, store)
     result = study.run_here(on_finished) if executor is None else study.run(executor, on_finished=on_finished)
@@ -100,7 +104,7 @@ def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recordi
             rows = table[(table[list(labels)] == pd.Series(labels)).all(axis=1)]
             tested = stability_of(best.model, best.values, recording, window=RANGE, held_out=HELD_OUT, threads=jobs)
             findings.append(Finding(case, seed, rows, best, tested))
-    return Reproduction(tuple(findings), failed)
+    return Reproduction(tuple(findings), failed, distribution)
 
 
 def _survives(one: Identification) -> Callable[[StartRow], bool]:

@@ -7,12 +7,17 @@ import pandas as pd
 
 from symid.reproduce.run import NETWORK_RIDGE, START_RIDGE, Finding, Reproduction
 
+NOISE = {
+    "multisine": "orthogonal random-phase multisines of the power of the latter, around whose means their gains scatter "
+                 "far less from draw to draw (`transcription.episodes`)",
+    "uniform": "uniform",
+    "gaussian": "Gaussian with a standard deviation of 0.25 N m",
+}
 NOTES = (
-    ("process noise", "Gaussian in the text, uniform within 0.25 N m in the result files", "uniform"),
     ("activation of the network", "slope 1.7 below zero as printed, 0.3 in the result files", "that of the files"),
     ("initial state", "free for each episode in the text, shared by all in the result files", "free, shared"),
     ("pi", "3.1416 in the authors' files", "as exact as the computer has it"),
-    ("draws of noise", "not said; tables 1 and 2 spread as draws do, not as starts of one draw", "one for each start"),
+    ("draws of noise", "not said; tables 1 and 2 spread as uniform draws do, not as starts of one draw", "one for each start"),
     ("starts of noisy episodes", "random within the bounds", "random, then searched until simulations follow; "
      "with two episodes every second one with estimated process noise, so that unstable loops are met"),
     ("weights of the network", "within 5 of fitted ones", f"within 20, ridge {NETWORK_RIDGE:g} on (w/20)^2 without "
@@ -66,9 +71,10 @@ def text(reproduction: Reproduction) -> str:
         shown = rows.drop(columns="where").to_string(index=False, na_rep="", float_format=lambda x: f"{x:.5g}")
         parts.append(f"{where[0].upper()}{where[1:]}\n{shown}")
     parts += [f"{name} gave no solution: {why}" for name, why in reproduction.failed.items()]
-    return "\n\n".join([*parts, notes()])
+    return "\n\n".join([*parts, notes(reproduction.distribution)])
 
 
-def notes() -> str:
-    """Where the article's text, its files and symid differ, and what was used here."""
-    return "Where the sources differ\n" + "\n".join(f"  {what}: {differ}; used here: {used}" for what, differ, used in NOTES)
+def notes(distribution: str = "multisine") -> str:
+    """Where the article's text, its files and symid differ, and what was used here with noise of that distribution."""
+    noise = "process noise", "Gaussian in the text, uniform within 0.25 N m in the result files", NOISE[distribution]
+    return "Where the sources differ\n" + "\n".join(f"  {what}: {differ}; used here: {used}" for what, differ, used in (noise, *NOTES))
