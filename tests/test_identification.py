@@ -80,6 +80,16 @@ def test_episodes_share_the_parameter_but_not_the_trajectory():
     assert solution.values["damping"] == pytest.approx(0.4, abs=0.05)
 
 
+@pytest.mark.parametrize("episodes", [2, 3])
+def test_parameters_hardly_depend_on_the_draw_of_multisines(episodes):
+    def scatter(distribution):
+        draws = (si.Episodes(episodes, amplitude=0.3, seed=seed, distribution=distribution) for seed in range(8))
+        solutions = [si.Identification(pendulum(), pendulum_recording(noise=0.01), episodes=e).solve() for e in draws]
+        assert all(s.solved for s in solutions)
+        return np.std([s.values["damping"] for s in solutions])
+    assert scatter("multisine") < 0.3 * scatter("uniform")
+
+
 def test_recordings_share_parameters_unless_told_otherwise():
     recordings = [pendulum_recording(damping=d) for d in (0.3, 0.6)]
     own = si.Identification(pendulum(), recordings, per_recording=["damping"]).solve()

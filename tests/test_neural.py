@@ -91,7 +91,7 @@ def _standing(shared, episodes: int) -> Identification:
     folder = shared / "recordings" / "standing_subject05"
     model = mechanics.DoubleLinkPendulum.from_json(folder / "body.json").with_feedback(mechanics.PD())
     return Identification(model, read_recording(folder / "recording_50hz.csv"), (160, 190),
-                          episodes=Episodes(episodes, torque=0.25, seed=1))
+                          episodes=Episodes(episodes, torque=0.25, seed=1, distribution="uniform"))
 
 
 def test_two_episodes_let_an_unstable_loop_win_and_three_do_not(shared):
@@ -99,7 +99,7 @@ def test_two_episodes_let_an_unstable_loop_win_and_three_do_not(shared):
     two = _standing(shared, 2)
     soft, searched = (two.solve_from(two.start(kind), max_iterations=100) for kind in ("soft", "search"))
     assert soft.solved and searched.solved
-    assert soft.objective < 0.97 * searched.objective
+    assert soft.objective < 0.95 * searched.objective
     assert two.transcription.layout.parameters(soft.z)[0] < 880 < two.transcription.layout.parameters(searched.z)[0]
 
 

@@ -6,7 +6,7 @@ states around the recorded ones, with the recorded input of the fitted window. S
 the output error at a falling price (they come back to the recorded motion, as a person who is pushed
 does); others judge every loop on the way, and the one that follows best of those that survive is kept.
 
-Measured on the article's network (Wang & van den Bogert 2020), noise seed 0: of six random loops about two
+Measured on the article's network (Wang & van den Bogert 2020), uniform noise of seed 0: of six random loops about two
 stand and follow one episode within 0.4 deg, and few within 0.33 deg, hence many candidates. Of 60 loops, good
 and bad, those that survived from half of the states or more were stable in 64 to 100 % of the article's
 held-out simulations (two of them in 41 and 50 %), the others in 0 to 58 %, but for a few that wander and are

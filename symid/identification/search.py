@@ -3,7 +3,7 @@
 A collocation restores feasibility by Newton steps, which explode where a controller is unstable
 and several disturbed episodes have to be followed at once. From a loop whose simulations already
 follow all episodes it converges in a few iterations. Measured on the article's recording
-(Wang & van den Bogert 2020), noise seed 0, one core of a busy machine:
+(Wang & van den Bogert 2020), uniform noise of seed 0, one core of a busy machine:
 
 ==========  ================================  =====================================================
 case        other starts                      this start
