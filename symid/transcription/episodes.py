@@ -98,19 +98,17 @@ def _multisines(episodes: int, intervals: int, noises: int, seed: int) -> np.nda
     so that the episodes sum to zero. Noises of different multiples are orthogonal over the episodes. There are
     episodes - 1 of them; noises that have the same one turn against each other from line to line of the spectrum.
 
-    TranscriptionError for fewer than three intervals, which have no frequency between zero and the highest.
+    The lines lie half way between the multiples of 1 / window: these would leave out the mean, and with it most of
+    what white noise does to a slow mode, whereas the mean of these varies from draw to draw as that of white noise.
     """
-    lines = np.arange(1, (intervals + 1) // 2)
-    if not len(lines):
-        raise TranscriptionError(f"episodes: a multisine needs at least 3 intervals, not {intervals}; give a longer window, "
-                                 'or distribution="uniform"')
-    rng, noise = np.random.default_rng(seed), np.arange(noises)
+    count = intervals // 2
+    rng, line, noise = np.random.default_rng(seed), np.arange(count), np.arange(noises)
     multiple, group = 1 + noise % (episodes - 1), noise // (episodes - 1)
     together = group.max(initial=0) + 1
-    blocks = rng.uniform(0, 2 * np.pi, (-(-len(lines) // together), noises))
-    phase = np.repeat(blocks, together, axis=0)[:len(lines)] + rng.uniform(0, 2 * np.pi, (len(lines), 1))
-    phase += 2 * np.pi / together * np.outer(lines % together, group)
+    blocks = rng.uniform(0, 2 * np.pi, (-(-count // together), noises))
+    phase = np.repeat(blocks, together, axis=0)[:count] + rng.uniform(0, 2 * np.pi, (count, 1))
+    phase += 2 * np.pi / together * np.outer(line % together, group)
     turns = 2 * np.pi / episodes * np.multiply.outer(np.arange(episodes), multiple)
-    spectrum = np.zeros((episodes, intervals // 2 + 1, noises), complex)
-    spectrum[:, lines] = intervals / np.sqrt(2 * len(lines)) * np.exp(1j * (phase + turns[:, None]))
-    return np.fft.irfft(spectrum, intervals, axis=1)
+    lines = np.sqrt(2 / count) * np.exp(1j * (phase + turns[:, None]))
+    half_a_line = np.exp(1j * np.pi / intervals * np.arange(intervals))
+    return (half_a_line[:, None] * np.fft.ifft(lines, intervals, axis=1, norm="forward")).real
