@@ -39,6 +39,8 @@ MARGIN = 0.05
 """Of the eigenvalue constraint [1/s]."""
 OWN, STIFFER = ("kp_aa", "kd_aa", "kp_hh", "kd_hh"), 40
 """Gains of each joint on itself, raised by a tenth up to so many times until the loop is stable."""
+PATIENCE_S = 60.0
+"""Of a solve: where multipliers explode, each factorization takes half a minute and leads nowhere."""
 FALLEN_DEG = 90.0
 """What a free run that falls counts as."""
 
@@ -116,8 +118,7 @@ def held_out_deg(model: Model, values: dict[str, float], recording) -> float:
 
 
 def _solved(problem: Identification) -> tuple[dict[str, float], bool]:
-    # Where multipliers explode, the factorizations take half a minute each and lead nowhere.
-    result = problem.solve_from(problem.start(), max_iterations=300, dual_limit=1e4)
+    result = problem.solve_from(problem.start(), max_iterations=300, time_limit_s=PATIENCE_S)
     return _values(problem, result), result.solved
 
 
@@ -163,7 +164,7 @@ def _eigenvalue_constraint(problem: Identification, torque_noise: float):
             break
         z[own] = np.minimum(1.1 * z[own], 0.9)
     nlp = with_hurwitz(problem.nonlinear_program(z), columns, base, slopes, MARGIN)
-    result = solve_nlp(nlp, max_iterations=300, time_limit_s=60.0)
+    result = solve_nlp(nlp, max_iterations=300, time_limit_s=PATIENCE_S)
     return _values(problem, result), result.solved
 
 
