@@ -7,7 +7,7 @@ One random draw also moves the parameters, by chance: to first order with the no
 with its spectrum and with what its signals have in common. Orthogonal random-phase multisines (Dobrowiecki,
 Schoukens & Guillaume 2006) have none of this by chance: their spectrum is flat, they sum to zero over
 the episodes, and they are orthogonal. On the article's recording, three episodes, the gains then scatter over
-draws a tenth as much, around the same means.
+draws a sixth to a seventh as much as with uniform noise, around the same means.
 """
 
 from __future__ import annotations
