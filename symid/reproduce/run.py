@@ -69,9 +69,8 @@ def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recordi
     """Identify every case from several starts, and test the best solution of each for stability.
 
     PD and full-state PD without noise begin with random gains, as in the article; all others with
-    `identification.search`, because random ones seldom end at all. With two episodes every second
-    start is the one of `search.soft_start`: an unstable loop can still win there, and would never
-    be met. Every start has a process noise of its own: the spread of the article's starts is the
+    `identification.search`, because random ones seldom end at all. With two episodes the starts are
+    those of `search.soft_start`: an unstable loop can still win there, and would never be met. Every start has a process noise of its own: the spread of the article's starts is the
     spread over draws, while all starts of one draw end in the same optimum. The network with noise begins
     with `rehearsal.rehearsed_start`, and its best start is the best of those whose loop survives the
     rehearsal: ten fitted seconds do not say whether a loop stands elsewhere, the model does.
@@ -88,7 +87,7 @@ def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recordi
         for seed in seeds if case.episodes > 1 else seeds[:1]:
             labels = {"controller": case.controller, "episodes": case.episodes, "noise seed": seed}
             for k in range(starts):
-                one, kind = problem(case, body, recording, DRAWS * seed + k, distribution), _start_kind(case, k)
+                one, kind = problem(case, body, recording, DRAWS * seed + k, distribution), _start_kind(case)
                 solves[f"{case.name}/{seed}/{k}"] = Solve(one, kind, k, 0, SOLVER[kind], labels)
     study = Study(solves, store)
     result = study.run_here(on_finished) if executor is None else study.run(executor, on_finished=on_finished)
@@ -115,9 +114,9 @@ def _survives(one: Identification) -> Callable[[StartRow], bool]:
     return lambda row: survival(one.transcription, np.array([row.parameters[k] for k in names])) >= SOLVED_SURVIVES
 
 
-def _start_kind(case: Case, number: int) -> str:
+def _start_kind(case: Case) -> str:
     if case.controller == "NN" and case.episodes > 1:
         return "rehearsed"
     if case.episodes == 1 and case.controller != "NN":
         return "random"
-    return "soft" if case.episodes == 2 and number % 2 else "search"
+    return "soft" if case.episodes == 2 else "search"

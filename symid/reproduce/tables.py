@@ -19,7 +19,7 @@ NOTES = (
     ("pi", "3.1416 in the authors' files", "as exact as the computer has it"),
     ("draws of noise", "not said; tables 1 and 2 spread as uniform draws do, not as starts of one draw", "one for each start"),
     ("starts of noisy episodes", "random within the bounds", "random, then searched until simulations follow; "
-     "with two episodes every second one with estimated process noise, so that unstable loops are met"),
+     "with two episodes after an identification with estimated process noise, so that unstable loops are met"),
     ("weights of the network", "within 5 of fitted ones", f"within 20, ridge {NETWORK_RIDGE:g} on (w/20)^2 without "
      f"noise; with noise ridge {START_RIDGE:g} on their distance from the start"),
     ("best start of the network", "least RMS", "with noise least RMS among those whose loop, simulated with the input of "
