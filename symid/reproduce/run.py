@@ -64,15 +64,15 @@ def problem(case: Case, body: mechanics.DoubleLinkPendulum, recording: Recording
 
 def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recording: Recording, *, starts: int = 10,
               seeds: Sequence[int] = (0,), distribution: str = "multisine", executor: Executor | None = None, jobs: int = 1,
-              store: str | Path | None = None,
-              on_finished: Callable[[Finished], None] | None = None) -> Reproduction:
+              store: str | Path | None = None, on_finished: Callable[[Finished], None] | None = None) -> Reproduction:
     """Identify every case from several starts, and test the best solution of each for stability.
 
     PD and full-state PD without noise begin with random gains, as in the article; all others with
     `identification.search`, because random ones seldom end at all. With two episodes the starts are
-    those of `search.soft_start`: an unstable loop can still win there, and would never be met. Every start has a process noise of its own: the spread of the article's starts is the
-    spread over draws, while all starts of one draw end in the same optimum. The network with noise begins
-    with `rehearsal.rehearsed_start`, and its best start is the best of those whose loop survives the
+    those of `search.soft_start`: an unstable loop can still win there, and would never be met.
+    Every start has a process noise of its own: the spread of the article's starts is the spread over
+    draws, while all starts of one draw end in the same optimum. The network with noise begins with
+    `rehearsal.rehearsed_start`, and its best start is the best of those whose loop survives the
     rehearsal: ten fitted seconds do not say whether a loop stands elsewhere, the model does.
 
     Parameters

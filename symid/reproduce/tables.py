@@ -77,4 +77,5 @@ def text(reproduction: Reproduction) -> str:
 def notes(distribution: str = "multisine") -> str:
     """Where the article's text, its files and symid differ, and what was used here with noise of that distribution."""
     noise = "process noise", "Gaussian in the text, uniform within 0.25 N m in the result files", NOISE[distribution]
-    return "Where the sources differ\n" + "\n".join(f"  {what}: {differ}; used here: {used}" for what, differ, used in (noise, *NOTES))
+    lines = (f"  {what}: {differ}; used here: {used}" for what, differ, used in (noise, *NOTES))
+    return "\n".join(["Where the sources differ", *lines])
