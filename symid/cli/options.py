@@ -21,7 +21,8 @@ def add_episode_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--episodes", type=int, default=1, metavar="M",
                         help="noisy repetitions that share the parameters (default: 1, without noise)")
     parser.add_argument("--noise", type=float, default=0.25, metavar="NM",
-                        help="joint-torque noise of the episodes: half width of the uniform noise of the same power, N m (default: 0.25)")
+                        help="joint-torque noise of the episodes: half width of uniform noise (a multisine has the same "
+                             "power), standard deviation of gaussian noise, N m (default: 0.25)")
     add_distribution_argument(parser)
     parser.add_argument("--seed", type=int, default=0, help="of random starts and noise (default: 0)")
 

@@ -42,7 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
     body = mechanics.DoubleLinkPendulum.from_json(folder / "body.json")
     with chosen_executor(arguments.jobs, arguments.cluster) as executor:
         found = reproduce(cases, body, recording, starts=1 if arguments.quick else arguments.starts, seeds=arguments.seeds,
-                          distribution=arguments.distribution, executor=executor, jobs=arguments.jobs, store=arguments.store, on_finished=tell)
+                          distribution=arguments.distribution, executor=executor, jobs=arguments.jobs,
+                          store=arguments.store, on_finished=tell)
     print(text(found))
     files = {"comparison.csv": comparison(found).to_csv(index=False)}
     if found.findings:
