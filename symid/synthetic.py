@@ -1,7 +1,7 @@
 """A made-up person on the moving platform: recordings whose true gains are known.
 
 ``python -m symid.synthetic [FOLDER]`` writes the recording that ships in ``data/standing_synthetic``,
-the same bytes each time. `standing_recording` makes others.
+the same bytes each time on one machine, and the same up to a unit of the last digit on another. `standing_recording` makes others.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ DURATION, RATE, SEED = 120.0, 50.0, 2020
 BODY_KEYS = {"length": "m", "com": "m", "mass": "kg", "inertia": "kg_m2", "gravity": "m_s2"}
 COLUMNS = {"rad": ("deg", 180 / np.pi, 5), "rad/s": ("deg_s", 180 / np.pi, 5), "m": ("m", 1.0, 7),
            "m/s": ("m_s", 1.0, 7), "m/s^2": ("m_s2", 1.0, 6)}
-"""SI unit -> suffix in the file, factor to it, decimals: fewer than rounding errors of different machines reach."""
+"""SI unit -> suffix in the file, factor to it, decimals: what the sensors resolve, and far above rounding errors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +83,9 @@ def standing_recording(model: Model, parameters: Mapping[str, float], *, duratio
                                 process_noise=dict.fromkeys(model.noises, torque_noise),
                                 sensor_noise=dict.fromkeys(channels, sensor_noise))
     _refuse_fall(model, plain)
-    table = {c: (_rounded(plain[c], "rad"), "rad") for c in channels}
-    table |= {rate_name(c): (np.gradient(table[c][0], plain.time), "rad/s") for c in channels}
+    table = {c: (plain[c], "rad") for c in channels}
+    # Of the angles before rounding: a last digit that two machines round otherwise must not grow in the difference.
+    table |= {rate_name(c): (np.gradient(plain[c], plain.time), "rad/s") for c in channels}
     table |= motion | {u.channel: (plain[u.channel], plain.units[u.channel]) for u in model.inputs.values()}
     return Recording(plain.name, plain.time, {k: _rounded(*v) for k, v in table.items()},
                      {k: u for k, (_, u) in table.items()}, noise=plain.noise, history=plain.history)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from agreement import assert_same_document, assert_same_table
 from conftest import pendulum
 
 import symid.model as si
@@ -252,12 +253,13 @@ def test_command_writes_cases_that_follow_those_that_are_there(tmp_path, capsys,
 
 
 @pytest.mark.parametrize("name", ["s02", "r01"])
-def test_the_shipped_cases_are_made_anew_bit_for_bit(tmp_path, name):
+def test_the_shipped_cases_are_made_anew_to_the_last_written_digit(tmp_path, name):
     shipped = Path(__file__).parents[1] / "data" / "concealed"
     assert sorted(p.name for p in (shipped / "cases").iterdir()) == sorted(SHIPPED)
     write_case(shipped_case(name), tmp_path, name)
-    for file in (f"cases/{name}/recording.csv", f"cases/{name}/case.json", f"sealed/{name}.json"):
-        assert (tmp_path / file).read_bytes() == (shipped / file).read_bytes()
+    assert_same_table(*(folder / f"cases/{name}/recording.csv" for folder in (tmp_path, shipped)))
+    assert (tmp_path / f"cases/{name}/case.json").read_bytes() == (shipped / f"cases/{name}/case.json").read_bytes()
+    assert_same_document(*(folder / f"sealed/{name}.json" for folder in (tmp_path, shipped)))
 
 
 def test_sealed_answers_suit_the_scorer(tmp_path, shared, offset, standing):

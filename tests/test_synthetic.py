@@ -1,10 +1,11 @@
-"""The synthetic recording: made again bit for bit, and identified with honest standard errors."""
+"""The synthetic recording: made again to the last written digit, and identified with honest standard errors."""
 
 import json
 from pathlib import Path
 
 import numpy as np
 import pytest
+from agreement import assert_same_table
 
 import symid as si
 from symid.errors import RecordingError, SymidError
@@ -20,9 +21,10 @@ def model():
     return BODY.with_feedback(FullStatePD())
 
 
-def test_shipped_files_are_made_again_bit_for_bit(tmp_path):
+def test_shipped_files_are_made_again_to_the_last_written_digit(tmp_path):
     write_standing(tmp_path)
-    for name in ("recording.csv", "body.json", "truth.json"):
+    assert_same_table(tmp_path / "recording.csv", SHIPPED / "recording.csv")
+    for name in ("body.json", "truth.json"):
         assert (tmp_path / name).read_bytes() == (SHIPPED / name).read_bytes(), name
 
 

@@ -1,4 +1,4 @@
-"""The cases that ship in ``data/concealed``: ``python -m symid.conceal.shipped [FOLDER]`` writes the same bytes each time."""
+"""The cases that ship in ``data/concealed``: ``python -m symid.conceal.shipped [FOLDER]`` writes them anew."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from symid.model import Term
 from symid.units import column_name
 
 DECIMALS = {"rad": 6, "m/s^2": 5}
-"""Of columns with this unit; fewer than rounding errors of different machines reach."""
+"""Of columns with this unit: far above rounding errors, so that two machines differ by a unit of the last one at most."""
 UNSCORED = ("phase_rad",)
 ALSO_ACCEPTED = {
     "feedback_delay": ("feedback", "controller", "input_to_controller", "ankle+hip"),
@@ -97,7 +97,7 @@ def write_case(case: Concealed, folder: str | Path, name: str) -> Path:
 
 
 def _short(x):
-    """Six digits are enough for a reader, and the same on every machine."""
+    """Six digits are enough for a reader, and agree between machines to a unit of the last."""
     if isinstance(x, dict):
         return {k: _short(v) for k, v in x.items()}
     if isinstance(x, list):
