@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from symid.model.term import Term
 
 TIME = symbol("t")
+FREE_FACTOR = 10.0
+"""What was written down as known is rarely wrong by more than an order of magnitude."""
 
 
 class Model:
@@ -212,6 +214,27 @@ class Model:
         parts = {k: (self._part(k, Parameter), v) for k, v in values.items()}
         return self._with({k: Constant(float(v), unit=c.unit, meaning=c.meaning, role=c.role, at=c.at,
                                        latex=c.latex, name=k) for k, (c, v) in parts.items()})
+
+    def free(self, *names: str, **bounds: Bounds) -> Model:
+        """A new model in which these constants are parameters to be identified, their values as guesses.
+
+        ``model.free("m1", I1=(0.01, 0.2))``; without bounds a constant stays within a factor of FREE_FACTOR.
+
+        Raises
+        ------
+        ModelError
+            If one is not a Constant, or is zero and has no bounds.
+        """
+        parts = {}
+        for name in (*names, *bounds):
+            c = self._part(name, Constant)
+            if not c.value and name not in bounds:
+                raise ModelError(f"model '{self.name}': the constant '{name}' is zero, which says nothing about its range; "
+                                 f"give bounds [{c.unit}]: free({name}=(lower, upper))")
+            ends = sorted((c.value / FREE_FACTOR, c.value * FREE_FACTOR))
+            parts[name] = Parameter(unit=c.unit, bounds=bounds.get(name, tuple(ends)), guess=c.value, meaning=c.meaning,
+                                    role=c.role, at=c.at, latex=c.latex, name=name)
+        return self._with(parts)
 
     def _part(self, name: str, kind) -> Component:
         part = self[name]
