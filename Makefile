@@ -8,7 +8,7 @@ READY := .venv/.ready
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: demo test test-slow bench clean
+.PHONY: demo test test-slow bench docs clean
 
 demo: $(READY)
 	$(PY) -m symid.cli demo
@@ -21,6 +21,10 @@ test-slow: $(READY)
 
 bench: $(READY)
 	$(PY) -m symid.cli bench
+
+docs: $(READY)
+	NO_MKDOCS_2_WARNING=1 $(PY) -m mkdocs build --quiet -f docs/mkdocs.yml
+	@echo 'The pages are in build/docs/index.html'
 
 # A cyipopt that this Python already has (conda-forge) is used through --system-site-packages.
 $(READY): pyproject.toml symid/setup_ipopt.py
