@@ -1,12 +1,15 @@
-"""What we believe about a system: named parts, implicit residuals, and terms to add to them."""
+"""What we believe about a system: named parts, implicit residuals, conditions, and terms to add to them."""
 
+from symid.model.conditions import Boundary, Constraint, Objective, Row
 from symid.model.declare import (
-    Component, Constant, Delay, Equation, Expression, Input, Noise, Output, Parameter, Port, State, symbol,
+    Algebraic, Component, Constant, Control, Delay, Equation, Expression, Input, Noise, Output, Parameter, Port, State,
 )
 from symid.model.model import TIME, Model, nearest
+from symid.model.quantity import initial, symbol, terminal
 from symid.model.term import Law, LawParameter, Term
 
 __all__ = [
-    "TIME", "Component", "Constant", "Delay", "Equation", "Expression", "Input", "Law", "LawParameter",
-    "Model", "Noise", "Output", "Parameter", "Port", "State", "Term", "nearest", "symbol",
+    "TIME", "Algebraic", "Boundary", "Component", "Constant", "Constraint", "Control", "Delay", "Equation", "Expression",
+    "Input", "Law", "LawParameter", "Model", "Noise", "Objective", "Output", "Parameter", "Port", "Row", "State", "Term",
+    "initial", "nearest", "symbol", "terminal",
 ]

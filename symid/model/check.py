@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import isfinite, isnan
+from math import isfinite, isnan, nan
 
 import sympy as sm
 
 from symid.errors import ModelError, SymidError
-from symid.model.declare import Constant, Equation, Expression, Output, Parameter, Port, State, symbol
+from symid.model.conditions import Boundary, Constraint, Objective
+from symid.model.declare import Algebraic, Constant, Control, Equation, Expression, Output, Parameter, Port, State
 from symid.model.dimensions import Mismatch, dimension_of
 from symid.model.model import TIME, Model, nearest
+from symid.model.quantity import initial, symbol, terminal
 from symid.units import dimension, known_unit
 
 
@@ -34,23 +36,56 @@ def _values(model: Model) -> Iterator[str]:
     for c in model.components.values():
         if isinstance(c, Constant) and not isfinite(c.value):
             yield f"constant '{c.name}' is {c.value}; give it a finite value [{c.unit}]"
-        if isinstance(c, (State, Parameter)):
-            lo, hi = c.bounds
+        if isinstance(c, (State, Algebraic, Control, Parameter)):
+            lo, hi = _ends(c.bounds)
             if isnan(lo) or isnan(hi) or lo > hi:
-                yield f"the bounds ({lo:g}, {hi:g}) of '{c.name}' are not an interval; give (lower, upper)"
+                yield f"the bounds {c.bounds} of '{c.name}' are not an interval; give (lower, upper)"
             elif isinstance(c, Parameter) and c.guess is not None and not lo <= c.guess <= hi:
                 yield f"the guess {c.guess:g} of parameter '{c.name}' is outside its bounds ({lo:g}, {hi:g})"
 
 
+def _ends(bounds) -> tuple[float, float]:
+    """Lower and upper bound; NaN where `bounds` is no pair of numbers."""
+    try:
+        lo, hi = map(float, bounds)
+    except (TypeError, ValueError):
+        return nan, nan
+    return lo, hi
+
+
+_NO_SYMBOL = (Equation, Port, Constraint, Boundary, Objective)
+
+
+def along_time(model: Model) -> set[sm.Symbol]:
+    """The symbols of quantities that have a value at each node, and so at both ends."""
+    return {c.symbol for c in (*model.states.values(), *model.algebraics.values(), *model.controls.values())}
+
+
+def _expressions(model: Model, c) -> list[sm.Expr]:
+    """What a part says, as expressions."""
+    if isinstance(c, (Expression, Equation, Output)):
+        return [c.expr]
+    if isinstance(c, Constraint):
+        return [c.row.expr]
+    if isinstance(c, Objective):
+        return [c.running, c.terminal]
+    return [r.expr for r in c.rows(along_time(model))] if isinstance(c, Boundary) else []
+
+
 def _unknown_symbols(model: Model) -> Iterator[str]:
-    known = {c.symbol for c in model.components.values() if not isinstance(c, (Equation, Port))}
-    known |= {s.dot for s in model.states.values()} | set(model.delays) | {TIME}
-    names = sorted(map(str, known))
+    known = {c.symbol for c in model.components.values() if not isinstance(c, _NO_SYMBOL)}
+    known |= set(model.delays) | {TIME}
+    rates, ends = {s.dot for s in model.states.values()}, {f(s) for s in along_time(model) for f in (initial, terminal)}
+    names = sorted(map(str, known | rates))
     for c in model.components.values():
-        if not isinstance(c, (Expression, Equation, Output)):
-            continue
-        for s in sorted(c.expr.free_symbols - known, key=str):
+        allowed = known | (ends if isinstance(c, (Boundary, Objective)) else rates if not isinstance(c, Constraint) else set())
+        used = set().union(*(e.free_symbols for e in _expressions(model, c)))
+        for s in sorted(used - allowed, key=str):
             kind = type(c).__name__.lower()
+            if s in rates | ends:
+                yield (f"{kind} '{c.name}' uses '{s}', which has no value there: a constraint and an objective see the "
+                       "nodes, which have no rates, and .initial and .terminal belong to a Boundary or an objective's end")
+                continue
             if str(s) in model.components or any(str(s) == str(k) for k in known):
                 yield (f"{kind} '{c.name}' uses a symbol '{s}' that is not the model's own: write model.{s}, "
                        "not sympy.symbols")
@@ -70,17 +105,27 @@ def _missing_equations(model: Model, residual) -> Iterator[str]:
     used = set().union(*(r.free_symbols for r in residual)) if residual else set()
     for s in model.states.values():
         if s.dot not in used:
-            yield f"state '{s.name}' has no equation that contains its rate {s.name}.dot"
-    states, equations = len(model.states), len(model.equations)
-    if not states:
+            yield (f"state '{s.name}' has no equation that contains its rate {s.name}.dot; what has no rate at all is "
+                   "an Algebraic")
+    for a in model.algebraics.values():
+        if a.symbol not in used:
+            yield f"algebraic '{a.name}' occurs in no equation, so nothing determines it"
+    states, algebraics, equations = len(model.states), len(model.algebraics), len(model.equations)
+    if states + algebraics == 0:
         yield "there is no State"
-    if states != equations:
-        yield f"there are {states} states but {equations} equations: each state needs one equation"
+    if states + algebraics != equations:
+        yield (f"there are {states} states" + (f" and {algebraics} algebraic variables" if algebraics else "")
+               + f" but {equations} equations: each state{' and algebraic' if algebraics else ''} needs one equation")
 
 
 def _unused(model: Model, residual) -> Iterator[str]:
-    used = set().union(*(e.free_symbols for e in (*residual, *model.observed())))
+    conditions = [e for c in model.components.values() if isinstance(c, (Constraint, Boundary, Objective))
+                  for e in _expressions(model, c)]
+    used = set().union(*(e.free_symbols for e in (*residual, *model.observed(), *map(model.inline, conditions))))
     used |= set().union(*(d.lag.free_symbols for k, d in model.delays.items() if k in used))
+    for u in model.controls.values():
+        if u.symbol not in used and not any(d.of == u.symbol for d in model.delays.values()):
+            yield f"control '{u.name}' is used by nothing, so nothing determines it: remove it"
     for p in model.parameters.values():
         if p.symbol not in used:
             yield f"parameter '{p.name}' is used by no equation and no output: remove it, or it cannot be identified"
@@ -89,7 +134,7 @@ def _unused(model: Model, residual) -> Iterator[str]:
 def _dimensions(model: Model) -> Iterator[str]:
     table, second = {TIME: dimension("s")}, dimension("s")
     for c in model.components.values():
-        if isinstance(c, (Equation, Port)):
+        if isinstance(c, _NO_SYMBOL):
             continue
         try:
             table[c.symbol] = dimension(c.unit)
@@ -100,16 +145,19 @@ def _dimensions(model: Model) -> Iterator[str]:
     for s in model.states.values():
         if s.symbol in table:
             table[symbol(s.name + "'")] = table[s.symbol] / second
+    table |= {f(s): table[s] for s in along_time(model) & table.keys() for f in (initial, terminal)}
     for late, delay in model.delays.items():
         if delay.of in table:
             table[late] = table[delay.of]
     for c in model.components.values():
-        if isinstance(c, (Expression, Equation, Output)) and c.expr.free_symbols <= table.keys():
+        for expr in _expressions(model, c) if not isinstance(c, Objective) else ():     # its weights are the user's
+            if not expr.free_symbols <= table.keys():
+                continue
             try:
-                found = dimension_of(c.expr, table)
+                found = dimension_of(expr, table)
             except Mismatch as error:
                 yield f"units of {type(c).__name__.lower()} '{c.name}': {error}"
                 continue
-            if not isinstance(c, Equation) and c.symbol in table and c.expr != sm.S.Zero and found != table[c.symbol]:
+            if isinstance(c, (Expression, Output)) and c.symbol in table and c.expr != sm.S.Zero and found != table[c.symbol]:
                 yield (f"{type(c).__name__.lower()} '{c.name}' is declared in {c.unit or '1'}, but its expression "
                        f"has the dimension {found}")

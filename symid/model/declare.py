@@ -15,56 +15,9 @@ from types import MappingProxyType
 import sympy as sm
 
 from symid.errors import ModelError
+from symid.model.quantity import AlongTime, Quantity, symbol
 
 Bounds = tuple[float, float]
-
-
-def symbol(name: str) -> sm.Symbol:
-    """The one SymPy symbol that stands for the part called `name`, in every model."""
-    return sm.Symbol(name, real=True)
-
-
-class _Algebraic:
-    """Arithmetic for parts that stand for a quantity: each operator acts on the symbol."""
-
-    def _sympy_(self) -> sm.Symbol:
-        return self.symbol
-
-    def __add__(self, other):
-        return self.symbol + sm.sympify(other)
-
-    def __radd__(self, other):
-        return sm.sympify(other) + self.symbol
-
-    def __sub__(self, other):
-        return self.symbol - sm.sympify(other)
-
-    def __rsub__(self, other):
-        return sm.sympify(other) - self.symbol
-
-    def __mul__(self, other):
-        return self.symbol * sm.sympify(other)
-
-    def __rmul__(self, other):
-        return sm.sympify(other) * self.symbol
-
-    def __truediv__(self, other):
-        return self.symbol / sm.sympify(other)
-
-    def __rtruediv__(self, other):
-        return sm.sympify(other) / self.symbol
-
-    def __pow__(self, other):
-        return self.symbol ** sm.sympify(other)
-
-    def __rpow__(self, other):
-        return sm.sympify(other) ** self.symbol
-
-    def __neg__(self):
-        return -self.symbol
-
-    def __pos__(self):
-        return self.symbol
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,7 +50,7 @@ class Component:
 
 
 @dataclass(frozen=True, kw_only=True)
-class State(_Algebraic, Component):
+class State(AlongTime, Component):
     """A quantity with a time derivative, unknown at every node. Bounds in its unit."""
 
     unit: str
@@ -110,7 +63,39 @@ class State(_Algebraic, Component):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Input(_Algebraic, Component):
+class Algebraic(AlongTime, Component):
+    """A quantity without a time derivative, determined at every instant by an equation (index-1 DAE).
+
+    >>> m.lift = Algebraic(unit="N")
+    >>> m.aerodynamics = Equation(m.lift - m.c * m.speed**2)
+    """
+
+    unit: str
+    bounds: Bounds = (-inf, inf)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Control(AlongTime, Component):
+    """An unknown input, to be chosen by an Optimization or estimated by an Identification.
+
+    >>> m.force = Control(unit="N", bounds=(-20, 20))
+
+    Parameters
+    ----------
+    bounds : in its unit.
+    hold : False for linear from node to node; True for constant from each node to the next.
+    smooth : weight [objective's unit / (unit/s)^2 / s] of the integral of its squared rate, added to the
+        objective: it makes the control an estimated disturbance that is as smooth as the data allow.
+    """
+
+    unit: str
+    bounds: Bounds = (-inf, inf)
+    hold: bool = False
+    smooth: float = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class Input(Quantity, Component):
     """A signal known from a recording. `channel` names the column, by default the input's name."""
 
     unit: str
@@ -118,7 +103,7 @@ class Input(_Algebraic, Component):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Parameter(_Algebraic, Component):
+class Parameter(Quantity, Component):
     """A constant of the system that is to be identified. `guess` is used as a start if given."""
 
     unit: str
@@ -127,7 +112,7 @@ class Parameter(_Algebraic, Component):
 
 
 @dataclass(frozen=True)
-class Constant(_Algebraic, Component):
+class Constant(Quantity, Component):
     """A known number, in its unit. Changing the value never needs new code."""
 
     value: float
@@ -135,14 +120,14 @@ class Constant(_Algebraic, Component):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Noise(_Algebraic, Component):
+class Noise(Quantity, Component):
     """Process noise: drawn for an episode, then known. Zero in a deterministic problem."""
 
     unit: str
 
 
 @dataclass(frozen=True)
-class Expression(_Algebraic, Component):
+class Expression(Quantity, Component):
     """A named intermediate quantity, such as a joint torque, that a Term can redefine."""
 
     expr: sm.Expr
@@ -157,7 +142,7 @@ class Equation(Component):
 
 
 @dataclass(frozen=True)
-class Output(_Algebraic, Component):
+class Output(Quantity, Component):
     """What a sensor shows, to be compared with the recorded `channel`.
 
     The channel and the unit default to those of the state when `expr` is one state.

@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING
 import sympy as sm
 
 from symid.errors import ModelError
+from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
-    Bounds, Component, Constant, Delay, Equation, Expression, Input, Noise, Output, Parameter,
-    Port, State, symbol,
+    Algebraic, Bounds, Component, Constant, Control, Delay, Equation, Expression, Input, Noise, Output,
+    Parameter, Port, State,
 )
+from symid.model.quantity import symbol
 
 if TYPE_CHECKING:
     from symid.model.term import Term
@@ -21,6 +23,10 @@ if TYPE_CHECKING:
 TIME = symbol("t")
 FREE_FACTOR = 10.0
 """What was written down as known is rarely wrong by more than an order of magnitude."""
+
+
+def _kind(kind: type) -> property:
+    return property(lambda self: self._of(kind))
 
 
 class Model:
@@ -47,8 +53,8 @@ class Model:
     def __setattr__(self, name: str, part: Component) -> None:
         if not isinstance(part, Component):
             raise ModelError(
-                f"model '{self.name}': cannot attach {name} = {part!r}; attach a State, Input, "
-                "Parameter, Constant, Noise, Expression, Equation, Output or Port"
+                f"model '{self.name}': cannot attach {name} = {part!r}; attach a State, Algebraic, Control, "
+                "Input, Parameter, Constant, Noise, Expression, Equation, Output, Port, Constraint, Boundary or Objective"
             )
         if name in self.components:
             raise ModelError(
@@ -70,6 +76,10 @@ class Model:
             changes["channel"] = part.channel or getattr(state, "name", name)
         if isinstance(part, Input):
             changes["channel"] = part.channel or name
+        if isinstance(part, Constraint):
+            part.row  # noqa: B018 - a condition that is none is refused where it is written
+        if isinstance(part, Objective):
+            changes |= {"running": sm.sympify(part.running), "terminal": sm.sympify(part.terminal)}
         if isinstance(part, Port):
             changes |= {"position": sm.sympify(part.position), "rate": sm.sympify(part.rate)}
         return replace(part, **changes)
@@ -89,45 +99,24 @@ class Model:
     def __dir__(self):
         return [*super().__dir__(), *self.components]
 
-    # ---- parts by kind ---------------------------------------------------------------
-    def _of(self, kind: type) -> dict[str, Component]:
+    # ---- parts by kind: {name: part}, in order of declaration --------------------------
+    def _of(self, kind: type | tuple[type, ...]) -> dict[str, Component]:
         return {k: c for k, c in self.components.items() if isinstance(c, kind)}
 
-    @property
-    def states(self) -> dict[str, State]:
-        return self._of(State)
-
-    @property
-    def inputs(self) -> dict[str, Input]:
-        return self._of(Input)
-
-    @property
-    def parameters(self) -> dict[str, Parameter]:
-        return self._of(Parameter)
-
-    @property
-    def constants(self) -> dict[str, Constant]:
-        return self._of(Constant)
-
-    @property
-    def noises(self) -> dict[str, Noise]:
-        return self._of(Noise)
-
-    @property
-    def expressions(self) -> dict[str, Expression]:
-        return self._of(Expression)
-
-    @property
-    def equations(self) -> dict[str, Equation]:
-        return self._of(Equation)
-
-    @property
-    def outputs(self) -> dict[str, Output]:
-        return self._of(Output)
-
-    @property
-    def ports(self) -> dict[str, Port]:
-        return self._of(Port)
+    states: dict[str, State] = _kind(State)
+    algebraics: dict[str, Algebraic] = _kind(Algebraic)
+    controls: dict[str, Control] = _kind(Control)
+    inputs: dict[str, Input] = _kind(Input)
+    parameters: dict[str, Parameter] = _kind(Parameter)
+    constants: dict[str, Constant] = _kind(Constant)
+    noises: dict[str, Noise] = _kind(Noise)
+    expressions: dict[str, Expression] = _kind(Expression)
+    equations: dict[str, Equation] = _kind(Equation)
+    outputs: dict[str, Output] = _kind(Output)
+    ports: dict[str, Port] = _kind(Port)
+    constraints: dict[str, Constraint] = _kind(Constraint)
+    boundaries: dict[str, Boundary] = _kind(Boundary)
+    objectives: dict[str, Objective] = _kind(Objective)
 
     @property
     def time(self) -> sm.Symbol:
@@ -157,6 +146,11 @@ class Model:
         """The output expressions in order of the outputs, with all named expressions put in."""
         return tuple(self.inline(e.expr) for e in self.outputs.values())
 
+    def algebraic_equations(self) -> tuple[int, ...]:
+        """Places among the equations of those that contain no rate."""
+        rates = {s.dot for s in self.states.values()}
+        return tuple(i for i, r in enumerate(self.residual()) if not r.free_symbols & rates)
+
     def rates(self) -> dict[str, str]:
         """Which states are rates of others by an equation of the form 0 = x' - v: {v: x}."""
         states = {s.symbol: s for s in self.states.values()}
@@ -171,13 +165,13 @@ class Model:
         return found
 
     def delayed(self, expr, lag) -> sm.Expr:
-        """`expr` with each state and input taken at time t - lag.
+        """`expr` with each state, control and input taken at time t - lag.
 
         `lag` [s] is a number, a Constant or a Parameter of this model; a signal that is late
         already becomes later by `lag`.
         """
         expr, lag = self.inline(sm.sympify(expr)), sm.sympify(lag)
-        late = {c.symbol for c in (*self.states.values(), *self.inputs.values())}
+        late = {c.symbol for c in self._of((State, Control, Input)).values()}
         table = {}
         for s in sorted(expr.free_symbols & (late | self.delays.keys()), key=str):
             delay = Delay(s, lag) if s in late else Delay(self.delays[s].of, self.delays[s].lag + lag)
@@ -206,8 +200,8 @@ class Model:
         return self._with({k: replace(self._part(k, Constant), value=float(v)) for k, v in values.items()})
 
     def with_bounds(self, **bounds: Bounds) -> Model:
-        """A new model with other bounds on states or parameters [in their own units]."""
-        return self._with({k: replace(self._part(k, (State, Parameter)), bounds=b) for k, b in bounds.items()})
+        """A new model with other bounds on states, controls or parameters [in their own units]."""
+        return self._with({k: replace(self._part(k, (State, Algebraic, Control, Parameter)), bounds=b) for k, b in bounds.items()})
 
     def fixed(self, **values: float) -> Model:
         """A new model in which these parameters are known constants."""
@@ -268,10 +262,12 @@ class Model:
     # ---- identity, checking, showing --------------------------------------------------
     @property
     def fingerprint(self) -> str:
-        """Changes with the equations, their symbols and their order; not with values or bounds."""
+        """Changes with the equations and conditions, their symbols and their order; not with values or bounds."""
         kinds = [(type(c).__name__, c.name) for c in self.components.values()]
         text = repr((kinds, [sm.srepr(e) for e in (*self.residual(), *self.observed())],
                      [(str(k), str(d.of), sm.srepr(d.lag)) for k, d in self.delays.items()]))
+        conditions = [c for c in self.components.values() if isinstance(c, (Constraint, Boundary, Objective))]
+        text += "".join(map(repr, conditions))
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def check(self, units: bool = True) -> Model:
@@ -287,7 +283,7 @@ class Model:
         return self
 
     def __repr__(self) -> str:
-        counts = [(len(self._of(k)), k.__name__.lower()) for k in (State, Input, Parameter, Constant, Equation, Output)]
+        counts = [(len(self._of(k)), k.__name__.lower()) for k in (State, Algebraic, Control, Input, Parameter, Constant, Equation, Output)]
         return f"<Model '{self.name}': " + ", ".join(f"{n} {k}{'s' * (n != 1)}" for n, k in counts if n) + ">"
 
     def _repr_html_(self) -> str:

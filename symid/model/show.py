@@ -6,8 +6,9 @@ from html import escape
 
 import sympy as sm
 
-from symid.model.declare import symbol
+from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.model import TIME, Model
+from symid.model.quantity import initial, symbol, terminal
 
 
 LINE = 150
@@ -20,19 +21,35 @@ def _names(model: Model) -> dict[sm.Symbol, str]:
         own = part.latex or sm.latex(part.symbol)
         names[part.symbol] = own
         names[symbol(part.name + "'")] = rf"\dot{{{own}}}"
+        names[initial(part.symbol)], names[terminal(part.symbol)] = rf"{own}(t_0)", rf"{own}(t_f)"
     for late, delay in model.delays.items():
         names[late] = rf"{names[delay.of]}(t-{sm.latex(delay.lag, symbol_names=names)})"
     return names
 
 
 def latex(model: Model) -> str:
-    """The equations as LaTeX, one line each, with the named expressions below."""
+    """The equations as LaTeX, one line each, with the named expressions and the conditions below."""
     names = _names(model)
     def tex(e):
         return sm.latex(e, symbol_names=names)
     lines = [_broken("0", e.expr, tex) for e in model.equations.values()]
     lines += [_broken(names[e.symbol], e.expr, tex) for e in model.expressions.values()]
+    lines += [line for c in model.components.values() for line in _conditions(c, model, tex)]
     return "$$\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}$$"
+
+
+def _conditions(part, model: Model, tex) -> list[str]:
+    """What a Constraint, Boundary or Objective says."""
+    if isinstance(part, Objective):
+        return [rf"\text{{minimise}} &\quad \int {tex(part.running)}\,dt + {tex(part.terminal)}"]
+    along = {c.symbol for c in (*model.states.values(), *model.algebraics.values(), *model.controls.values())}
+    rows = [part.row] if isinstance(part, Constraint) else part.rows(along) if isinstance(part, Boundary) else []
+    return [rf"{_number(r.lower)} &= {tex(r.expr)}" if r.equality else
+            rf"{_number(r.lower)} &\le {tex(r.expr)} \le {_number(r.upper)}" for r in rows]
+
+
+def _number(value: float) -> str:
+    return f"{value:g}".replace("inf", r"\infty")
 
 
 def _broken(left: str, expr: sm.Expr, tex) -> str:
@@ -50,7 +67,8 @@ def _broken(left: str, expr: sm.Expr, tex) -> str:
 def html(model: Model) -> str:
     """Name, equations and tables of all parts, for a notebook."""
     rows = []
-    for kind, parts in (("state", model.states), ("input", model.inputs), ("parameter", model.parameters),
+    for kind, parts in (("state", model.states), ("algebraic", model.algebraics),
+                        ("control", model.controls), ("input", model.inputs), ("parameter", model.parameters),
                         ("constant", model.constants), ("noise", model.noises), ("output", model.outputs)):
         for c in parts.values():
             value = f"{c.value:g}" if kind == "constant" else (

@@ -1,0 +1,177 @@
+"""What a motion must satisfy and what it should make small: Constraint, Boundary, Objective.
+
+Parts of a model, attached by name as the others are. A value of a quantity at one end of the
+motion is written ``m.x.initial`` or ``m.x.terminal``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from math import inf
+
+import sympy as sm
+from sympy.core.relational import Relational
+
+from symid.errors import ModelError
+from symid.model.declare import Component
+from symid.model.quantity import initial, terminal
+
+
+@dataclass(frozen=True)
+class Row:
+    """One condition: lower <= expr <= upper."""
+
+    expr: sm.Expr
+    lower: float
+    upper: float
+
+    @property
+    def equality(self) -> bool:
+        return self.lower == self.upper
+
+
+@dataclass(frozen=True)
+class Constraint(Component):
+    """A condition at every node of the motion; one on parameters alone holds once.
+
+    >>> m.track = Constraint(abs(m.x) <= 1)
+    >>> m.corridor = Constraint(m.x + m.y, lower=0, upper=2)
+    >>> m.share = Constraint(m.p1 + m.p2 <= 1)
+
+    Parameters
+    ----------
+    condition : a comparison (``<=``, ``>=``, ``sympy.Eq``), or an expression that lies between
+        `lower` and `upper`, and is zero where neither is given.
+    soft : None for a condition that must hold; a number is the weight of the integral of the squared
+        violation in the objective.
+
+    Raises
+    ------
+    ModelError
+        `condition` is no expression, or is always true or false.
+    """
+
+    condition: object
+    lower: float | None = field(default=None, kw_only=True)
+    upper: float | None = field(default=None, kw_only=True)
+    soft: float | None = field(default=None, kw_only=True)
+
+    @property
+    def row(self) -> Row:
+        return row_of(self.condition, self.lower, self.upper)
+
+    @property
+    def violation(self) -> sm.Expr:
+        """The squared distance to where the condition holds."""
+        row = self.row
+        if row.equality:
+            return (row.expr - sm.sympify(row.lower)) ** 2
+        below = sm.Max(0, sm.sympify(row.lower) - row.expr) if row.lower > -inf else sm.Integer(0)
+        above = sm.Max(0, row.expr - sm.sympify(row.upper)) if row.upper < inf else sm.Integer(0)
+        return below**2 + above**2
+
+
+@dataclass(frozen=True)
+class Boundary(Component):
+    """Conditions at the ends of the motion.
+
+    >>> m.begin = Boundary(initial={m.x: 0, m.angle: sympy.pi})
+    >>> m.end = Boundary(terminal={m.x: (1, 2)})                   # between 1 and 2
+    >>> m.gait = Boundary(periodic={m.left: m.right, m.right: m.left})
+    >>> m.whole = Boundary(m.x.terminal - m.x.initial >= 5)
+
+    Parameters
+    ----------
+    *conditions : comparisons or expressions (that are zero) of ``.initial`` and ``.terminal`` values.
+    initial, terminal : quantity or expression -> its value there, a number, an expression of
+        parameters, or a pair (lower, upper).
+    periodic : quantities that end as they began; or quantity -> expression whose initial value
+        it has at the end.
+    """
+
+    conditions: tuple = ()
+    initial: Mapping = field(default_factory=dict)
+    terminal: Mapping = field(default_factory=dict)
+    periodic: Mapping | Sequence = ()
+
+    def __init__(self, *conditions, initial=None, terminal=None, periodic=(), **common):
+        periodic = periodic if isinstance(periodic, Mapping) else {x: x for x in periodic}
+        values = {"conditions": conditions, "initial": _plain(initial), "terminal": _plain(terminal),
+                  "periodic": _plain(periodic), "meaning": "", "role": "", "at": "", "latex": "", "name": ""}
+        for name, value in (values | common).items():
+            object.__setattr__(self, name, value)
+
+    def __hash__(self):
+        return id(self)
+
+    def rows(self, along: set[sm.Symbol]) -> list[Row]:
+        """The conditions, as expressions of ``.initial`` and ``.terminal`` values of the quantities `along`."""
+        first, last = ({s: f(s) for s in along} for f in (initial, terminal))
+        found = [row_of(c) for c in self.conditions]
+        for ends, table in ((self.initial, first), (self.terminal, last)):
+            for quantity, value in ends.items():
+                expr, (low, high) = sm.sympify(quantity).xreplace(table), _interval(value)
+                found.append(Row(expr, low, high) if low is not None else Row(expr - high, 0.0, 0.0))
+        return found + [Row(sm.sympify(x).xreplace(last) - sm.sympify(y).xreplace(first), 0.0, 0.0)
+                        for x, y in self.periodic.items()]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Objective(Component):
+    """What an Optimization makes small; an Identification adds it to the squared output error.
+
+    >>> m.cost = Objective(running=m.force**2)
+    >>> m.quick = Objective(terminal=m.time)
+
+    Parameters
+    ----------
+    running : integrated over the motion (Lagrange term).
+    terminal : its value at the end (Mayer term); may contain ``.initial`` values and parameters.
+    """
+
+    running: sm.Expr = 0
+    terminal: sm.Expr = 0
+
+
+def _plain(ends) -> dict:
+    """Parts as keys would compare by their fields: their symbols are the keys."""
+    if ends is not None and not isinstance(ends, Mapping):
+        raise ModelError(f"a Boundary needs a dictionary of quantity -> value, not {ends!r}: initial={{m.x: 0}}")
+    return {sm.sympify(k): v for k, v in (ends or {}).items()}
+
+
+def _interval(value) -> tuple:
+    """(lower, upper) of a value that is a number or a pair; (None, expression) of any other."""
+    if isinstance(value, (tuple, list)):
+        low, high = (float(v) for v in value)
+        return low, high
+    value = sm.sympify(value)
+    return (float(value), float(value)) if value.is_number else (None, value)
+
+
+def row_of(condition, lower: float | None = None, upper: float | None = None) -> Row:
+    """A comparison, or an expression with its bounds, as one Row."""
+    try:
+        condition = sm.sympify(condition)
+    except (sm.SympifyError, TypeError, AttributeError):
+        raise ModelError(f"a condition must be a comparison or an expression, not {condition!r}") from None
+    if condition in (sm.true, sm.false):
+        raise ModelError(f"a condition is always {condition}: compare parts of the model, for instance m.x <= 1 "
+                         "(== compares the parts themselves: use sympy.Eq)")
+    if not isinstance(condition, Relational):
+        both = lower is None and upper is None
+        return Row(condition, 0.0 if both else -inf if lower is None else float(lower),
+                   0.0 if both else inf if upper is None else float(upper))
+    if lower is not None or upper is not None:
+        raise ModelError(f"the condition {condition} is a comparison already: give no lower and upper besides")
+    if isinstance(condition, sm.Ne):
+        raise ModelError(f"the condition {condition} cannot be a constraint; use <=, >= or sympy.Eq")
+    small, large = (condition.lhs, condition.rhs) if isinstance(condition, (sm.Eq, sm.Le, sm.Lt)) else (condition.rhs, condition.lhs)
+    if isinstance(condition, sm.Eq):
+        return Row(small, float(large), float(large)) if large.is_number else Row(small - large, 0.0, 0.0)
+    if isinstance(small, sm.Abs) and large.is_number:
+        return Row(small.args[0], -float(large), float(large))
+    if large.is_number:
+        return Row(small, -inf, float(large))
+    return Row(large, float(small), inf) if small.is_number else Row(small - large, -inf, 0.0)

@@ -1,0 +1,101 @@
+"""Arithmetic for parts that stand for a quantity: each operator acts on the part's SymPy symbol."""
+
+from __future__ import annotations
+
+import sympy as sm
+
+from symid.errors import ModelError
+
+
+def symbol(name: str) -> sm.Symbol:
+    """The one SymPy symbol that stands for the part called `name`, in every model."""
+    return sm.Symbol(name, real=True)
+
+
+def initial(s: sm.Symbol) -> sm.Symbol:
+    """The symbol of the value of `s` at the first node, for conditions at the ends."""
+    return symbol(f"{s}(start)")
+
+
+def terminal(s: sm.Symbol) -> sm.Symbol:
+    """The symbol of the value of `s` at the last node, for conditions at the ends."""
+    return symbol(f"{s}(end)")
+
+
+class Quantity:
+    """A part that behaves as a SymPy symbol in arithmetic, in comparisons and in SymPy functions."""
+
+    def _sympy_(self) -> sm.Symbol:
+        return self.symbol
+
+    def __add__(self, other):
+        return self.symbol + _sympified(other)
+
+    def __radd__(self, other):
+        return _sympified(other) + self.symbol
+
+    def __sub__(self, other):
+        return self.symbol - _sympified(other)
+
+    def __rsub__(self, other):
+        return _sympified(other) - self.symbol
+
+    def __mul__(self, other):
+        return self.symbol * _sympified(other)
+
+    def __rmul__(self, other):
+        return _sympified(other) * self.symbol
+
+    def __truediv__(self, other):
+        return self.symbol / _sympified(other)
+
+    def __rtruediv__(self, other):
+        return _sympified(other) / self.symbol
+
+    def __pow__(self, other):
+        return self.symbol ** _sympified(other)
+
+    def __rpow__(self, other):
+        return _sympified(other) ** self.symbol
+
+    def __neg__(self):
+        return -self.symbol
+
+    def __pos__(self):
+        return self.symbol
+
+    def __abs__(self):
+        return sm.Abs(self.symbol)
+
+    def __le__(self, other):
+        return sm.Le(self.symbol, _sympified(other))
+
+    def __lt__(self, other):
+        return sm.Lt(self.symbol, _sympified(other))
+
+    def __ge__(self, other):
+        return sm.Ge(self.symbol, _sympified(other))
+
+    def __gt__(self, other):
+        return sm.Gt(self.symbol, _sympified(other))
+
+
+class AlongTime(Quantity):
+    """A quantity that changes along the motion and so has a value at both of its ends."""
+
+    @property
+    def initial(self) -> sm.Symbol:
+        """Its value at the first node, for a Boundary or the terminal part of an Objective."""
+        return initial(self.symbol)
+
+    @property
+    def terminal(self) -> sm.Symbol:
+        """Its value at the last node."""
+        return terminal(self.symbol)
+
+
+def _sympified(other) -> sm.Expr:
+    try:
+        return sm.sympify(other)
+    except (sm.SympifyError, AttributeError, TypeError):
+        raise ModelError(f"{other!r} cannot stand in an equation; use parts of the model, numbers and SymPy expressions") from None
