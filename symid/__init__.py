@@ -14,7 +14,8 @@ _WHERE = {
     "symid.recording": ("Recording", "read_recording"),
     "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
     "symid.analysis": ("Stability", "Uncertainty", "compare", "stability", "stability_of", "uncertainty"),
-    "symid.discrepancy": ("Diagnosis", "diagnose", "diagnose_case", "read_case", "rig_case"),
+    "symid.discrepancy": ("Diagnosis", "diagnose"),
+    "symid.cases": ("diagnose_case", "read_case", "rig_case"),
     "symid.identification": ("Cluster", "Identification", "LocalPool", "Solution", "Solve", "Study"),
 }
 _MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}

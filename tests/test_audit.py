@@ -8,14 +8,14 @@ import pytest
 from conftest import pendulum
 from scipy.signal import butter, filtfilt
 
-from symid.discrepancy.audit import audit, white_noise
-from symid.discrepancy.baseline import fit_baseline
-from symid.discrepancy.data import Data, Episode
-from symid.discrepancy.diagnosis import Effect
-from symid.discrepancy.halves import Half, HalfVerdict, _reason, _said, survivals, verdicts
-from symid.discrepancy.robust import with_robust_errors
-from symid.discrepancy.suspects import Suspect
-from symid.discrepancy.words import _finding, _verdicts_of_halves, law_name, place_name, quantity, sentence
+from symid.discrepancy.locate.audit import audit, white_noise
+from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.prove.halves import Half, HalfVerdict, _reason, _said, survivals, verdicts
+from symid.discrepancy.say.diagnosis import Effect
+from symid.discrepancy.say.words import _finding, _verdicts_of_halves, law_name, place_name, quantity, sentence
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, Segment
+from symid.estimation.robust_errors import with_robust_errors
 from symid.mechanics import LIBRARY, rig_model
 from symid.recording import Recording
 from symid.simulation import simulator
@@ -28,7 +28,7 @@ SINGLE = {"m1_kg": 0.12, "a1_m": 0.15, "I1_kg_m2": 9e-4}
 def audited(angle, given=None, noise=None):
     model = rig_model(SINGLE)
     r = Recording("r", TIME, {"link1_angle": angle}, {"link1_angle": "rad"}, noise=noise or {})
-    return audit(model, r, (Episode(TIME, angle[:, None], {}),), given)
+    return audit(model, r, (Segment(TIME, angle[:, None], {}),), given)
 
 
 def test_noise_is_told_from_the_highest_frequencies():
@@ -71,8 +71,8 @@ def fits(colour: float, seeds=range(24)):
         e = np.random.default_rng(seed).standard_normal(len(time))
         for k in range(1, len(e)):
             e[k] += colour * e[k - 1]
-        data = Data((Episode(time, y + 0.01 * e[:, None], {"drive": drive}),), np.array([0.01]), driven=False)
-        fit = fit_baseline(model, data, {"damping": 0.4})
+        data = Data((Segment(time, y + 0.01 * e[:, None], {"drive": drive}),), np.array([0.01]), driven=False)
+        fit = fit_model(model, data, {"damping": 0.4})
         out.append((fit.values["damping"], fit.errors["damping"], with_robust_errors(fit, data).errors["damping"]))
     return np.array(out).T
 
@@ -91,18 +91,18 @@ def test_errors_from_blocks_are_no_smaller_and_alike_where_noise_is_white():
 
 
 # ---- halves ----------------------------------------------------------------------------------
-def swings(torque_of_half, episodes=6, named="coulomb_friction"):
+def swings(torque_of_half, segments=6, named="coulomb_friction"):
     """A pendulum in pieces whose dry friction may differ between the halves: the suspect named, fits with and without it, data."""
     term, model = LIBRARY["coulomb_friction"].at("joint1"), rig_model(SINGLE)
     sim, rng, found = simulator(model.with_term(term)), np.random.default_rng(1), []
     time = np.arange(0, 4, 0.01)
-    for k in range(episodes):
-        torque = torque_of_half[2 * k // episodes]
+    for k in range(segments):
+        torque = torque_of_half[2 * k // segments]
         y = sim.simulate({term.parameter_name("torque_Nm"): torque}, np.array([0.9 - 0.05 * k, 0.0]), time, substeps=2).y
-        found.append(Episode(time + 4 * k, y + 5e-4 * rng.standard_normal(y.shape), {}))
+        found.append(Segment(time + 4 * k, y + 5e-4 * rng.standard_normal(y.shape), {}))
     data = Data(tuple(found), np.array([5e-4]), driven=False)
     said = LIBRARY[named].at("joint1")
-    return [Suspect(said)], fit_baseline(model.with_term(said), data), fit_baseline(model, data), data
+    return [Suspect(said)], fit_model(model.with_term(said), data), fit_model(model, data), data
 
 
 def test_an_effect_that_acts_all_the_time_survives_on_both_halves():
@@ -142,10 +142,10 @@ def test_the_words_say_whether_the_halves_agree():
 
 
 def test_one_recording_is_cut_in_its_middle():
-    e = Episode(TIME, MOTION[:, None], {"drive": MOTION})
+    e = Segment(TIME, MOTION[:, None], {"drive": MOTION})
     a, b = Data((e,), np.ones(1), True).halves()
-    assert len(a.episodes[0].time) + len(b.episodes[0].time) == len(TIME) and b.span[0] == pytest.approx(30.0)
-    assert list(b.episodes[0].inputs["drive"]) == list(MOTION[3000:])
+    assert len(a.segments[0].time) + len(b.segments[0].time) == len(TIME) and b.span[0] == pytest.approx(30.0)
+    assert list(b.segments[0].inputs["drive"]) == list(MOTION[3000:])
 
 
 def test_reasons_name_the_quantity_without_its_unit():

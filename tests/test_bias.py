@@ -6,15 +6,15 @@ import numpy as np
 import pytest
 from test_discrepancy import TRUE, cart, data_of, recorded
 
-from symid.discrepancy import bias
-from symid.discrepancy.baseline import fit_baseline
-from symid.discrepancy.bias import REPEATS, unbiased
+from symid.estimation import bias
+from symid.estimation.bias import REPEATS, unbiased
+from symid.estimation.cold_start import fit_model
 
 
 @cache
 def fitted():
     data = data_of(recorded(3))
-    return fit_baseline(cart(), data), data
+    return fit_model(cart(), data), data
 
 
 def with_repeats(monkeypatch, shift, spread):

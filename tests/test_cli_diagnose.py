@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 
 from symid import plots
+from symid.cases import diagnose_case, read_case
 from symid.cli import main
 from symid.conceal import draw_case, write_case
-from symid.discrepancy import diagnose_case, established_suspects, read_case
-from symid.discrepancy.latent import latent_torques
+from symid.discrepancy import established_suspects
+from symid.discrepancy.locate.latent import latent_torques
 from symid.mechanics import LIBRARY
 from symid.report import diagnosis_html, write_diagnosis_report
 from symid.report.diagnosis import experiment
@@ -110,13 +111,13 @@ def test_figures_show_the_numbers_of_the_finding(finding):
 def test_a_hidden_torque_is_located_in_time_place_size_and_sign():
     """A push at the ankle: there, then, as large, and not at the hip."""
     case = draw_case("standing", [("external_push", "ankle", {"peak_Nm": 40.0, "start_s": 20.0, "duration_s": 0.6})], (8, 0))
-    from symid.discrepancy.baseline import fit_baseline
-    from symid.discrepancy.data import Data, episodes_between
-    from symid.discrepancy.freerun import free_run
+    from symid.estimation.cold_start import fit_model
+    from symid.estimation.data import Data, segments_between
+    from symid.estimation.free_run import free_run
     s = case.setup
-    episodes = episodes_between(s.model, case.recording.time, dict(case.recording.channels), s.windows[0])
-    data = Data(episodes, np.full(2, s.sensor_noise), True)
-    fit = fit_baseline(s.model, data, dict(s.parameters))
+    segments = segments_between(s.model, case.recording.time, dict(case.recording.channels), s.windows[0])
+    data = Data(segments, np.full(2, s.sensor_noise), True)
+    fit = fit_model(s.model, data, dict(s.parameters))
     ankle, hip = latent_torques(fit, free_run(fit, data))
     assert (ankle.place, ankle.unit, hip.place) == ("ankle", "N*m", "hip")
     peak = int(np.argmax(np.abs(ankle.torque)))

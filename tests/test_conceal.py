@@ -12,17 +12,25 @@ from agreement import assert_same_document, assert_same_table
 from conftest import pendulum
 
 import symid.model as si
+from symid.cases import read_case
 from symid.cli import main
 from symid.conceal import (
-    Setup, Unsuitable, conceal, draw_case, rig_facts, setup_from_facts, standing_facts, with_equivalents, write_case,
+    Setup,
+    Unsuitable,
+    conceal,
+    draw_case,
+    rig_facts,
+    setup_from_facts,
+    standing_facts,
+    with_equivalents,
+    write_case,
 )
 from symid.conceal.fit import fit_free, simulate_free
 from symid.conceal.magnitudes import OTHER, RANGES, draw_terms, draw_values, parse_effect
 from symid.conceal.shipped import SHIPPED, shipped_case
 from symid.conceal.write import csv_text, next_name, sealed_document
-from symid.discrepancy import read_case
-from symid.discrepancy.data import episodes_between
 from symid.errors import SymidError
+from symid.estimation.data import segments_between
 from symid.mechanics import CANONICAL, LIBRARY
 
 SHORT_RIG = ("rig", [("sensor_offset", "sensor:link1", {"offset_rad": 0.004})], (3, 0))
@@ -59,7 +67,7 @@ def test_a_case_is_read_by_the_diagnosis_as_it_was_made(tmp_path, standing, offs
         found = read_case(write_case(case, tmp_path, name))
         assert found.model.fingerprint == case.setup.model.fingerprint
         assert (found.fit_window, found.held_out_window) == case.setup.windows
-        assert found.episode_length == case.setup.segment and found.settling == case.setup.settling
+        assert found.segment_length == case.setup.segment and found.settling == case.setup.settling
         for channel, values in case.recording.channels.items():
             np.testing.assert_allclose(found.recording[channel], values, atol=6e-6)
         assert found.recording.time[-1] == case.setup.fit + case.setup.held_out
@@ -100,9 +108,9 @@ def test_the_model_misses_as_much_as_the_answer_says(standing):
     """Visibility again, by fitting the model to the noise-free recording from another start."""
     s = standing.setup
     quiet = dict(standing.recording.channels) | dict(zip(("ankle_angle", "hip_angle"), standing.clean.T, strict=True))
-    episodes = episodes_between(s.model, standing.recording.time, quiet, s.windows[0])
+    segments = segments_between(s.model, standing.recording.time, quiet, s.windows[0])
     start = {k: v * 1.05 for k, v in s.parameters.items()}
-    missed = fit_free(s.model, episodes, start, np.zeros((1, 4))).rms(episodes, s.settling)
+    missed = fit_free(s.model, segments, start, np.zeros((1, 4))).rms(segments, s.settling)
     recorded = np.column_stack([standing.recording[k] for k in ("ankle_angle", "hip_angle")])
     noise = np.sqrt(np.mean((recorded - standing.clean) ** 2))
     assert missed / noise == pytest.approx(standing.visibility, rel=0.01)
@@ -114,11 +122,11 @@ def test_the_model_misses_as_much_as_the_answer_says(standing):
 def test_a_fit_recovers_what_was_simulated():
     setup = small_setup(sway=0.0, sensor_noise=0.0)
     case = conceal(setup, {}, seed=1)
-    episodes = episodes_between(setup.model, case.recording.time, dict(case.recording.channels), setup.windows[0])
-    fit = fit_free(setup.model, episodes, {"damping": 1.0}, np.zeros((1, 2)))
+    segments = segments_between(setup.model, case.recording.time, dict(case.recording.channels), setup.windows[0])
+    fit = fit_free(setup.model, segments, {"damping": 1.0}, np.zeros((1, 2)))
     assert fit.values["damping"] == pytest.approx(0.4, rel=2e-4)   # the input is known at samples only
-    assert fit.rms(episodes) < 1e-4
-    again = simulate_free(setup.model, episodes, fit.values, fit.initial)
+    assert fit.rms(segments) < 1e-4
+    again = simulate_free(setup.model, segments, fit.values, fit.initial)
     np.testing.assert_array_equal(again.simulated[0], fit.simulated[0])
 
 

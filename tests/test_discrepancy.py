@@ -10,19 +10,31 @@ import sympy as sm
 from conftest import pendulum, pendulum_recording
 
 import symid as si
-from symid.discrepancy import Suspect, diagnose, established_suspects, read_case
-from symid.discrepancy.baseline import fit_baseline
-from symid.discrepancy.data import Data, episodes_between
+from symid.cases import read_case
+from symid.discrepancy import Suspect, diagnose, established_suspects
 from symid.discrepancy.diagnose import _reexamined
-from symid.discrepancy.explanation import Explanation, fit_with, sure
-from symid.discrepancy.gain import HOLD, kalman_gain
-from symid.discrepancy.remainder import remainder
-from symid.discrepancy.search import explore
-from symid.discrepancy.words import quantity
+from symid.discrepancy.locate.remainder import remainder
+from symid.discrepancy.model.hypothesis import Hypothesis, fit_with
+from symid.discrepancy.name.search import explore
+from symid.discrepancy.prove.certain import sure
+from symid.discrepancy.say.words import quantity
 from symid.errors import DiagnosisError
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, segments_between
+from symid.estimation.kalman import HOLD, kalman_gain
 from symid.mechanics import LIBRARY
 from symid.model import (
-    Constant, Equation, Input, Law, LawParameter, Model, Noise, Output, Parameter, Port, State,
+    Constant,
+    Equation,
+    Input,
+    Law,
+    LawParameter,
+    Model,
+    Noise,
+    Output,
+    Parameter,
+    Port,
+    State,
 )
 from symid.simulation import Linearised, synthetic_recording
 
@@ -53,8 +65,8 @@ def recorded(seed=1, term=None, values=None, gust=0.05, duration=60):
 
 
 def data_of(recording, driven=True, window=(0.0, 40.0), length=None) -> Data:
-    episodes = episodes_between(cart(), recording.time, dict(recording.channels), window, length)
-    return Data(episodes, np.array([SENSOR]), driven)
+    segments = segments_between(cart(), recording.time, dict(recording.channels), window, length)
+    return Data(segments, np.array([SENSOR]), driven)
 
 
 FEW = ("coulomb_friction", "cubic_stiffness", "input_gain", "input_delay", "external_push", "viscous_friction",
@@ -79,7 +91,7 @@ def friction_found():
 def test_the_fit_finds_the_truth_within_its_own_errors():
     z = []
     for seed in range(8):
-        fit = fit_baseline(cart(), data_of(recorded(seed)))
+        fit = fit_model(cart(), data_of(recorded(seed)))
         z += [(fit.values[k] - TRUE[k]) / fit.errors[k] for k in TRUE]
         # Drawn every 10 ms, seen every 20 ms.
         assert fit.process[0] == pytest.approx(0.05, rel=0.3)
@@ -87,14 +99,14 @@ def test_the_fit_finds_the_truth_within_its_own_errors():
 
 
 def test_surprises_of_the_right_model_are_white():
-    fit = fit_baseline(cart(), data_of(recorded(3)))
-    assert max(t.surprise for t in remainder(fit, data_of(recorded(3)))) < 4
+    fit = fit_model(cart(), data_of(recorded(3)))
+    assert max(t.minus_log10_p for t in remainder(fit, data_of(recorded(3)))) < 4
 
 
 def test_free_runs_of_pieces_without_random_forces():
     data = data_of(recorded(2, gust=0.0), driven=False, length=4.0)
-    fit = fit_baseline(cart(), data)
-    assert len(data.episodes) == 10 and fit.gain is None
+    fit = fit_model(cart(), data)
+    assert len(data.segments) == 10 and fit.kalman_gain is None
     assert fit.values["stiffness"] == pytest.approx(TRUE["stiffness"], abs=4 * fit.errors["stiffness"])
 
 
@@ -111,14 +123,14 @@ def test_forces_that_change_within_a_sample_move_position_and_speed_apart():
     linear = Linearised(A, G, C, np.zeros((2, 0)), np.zeros((1, 0)), np.zeros(0), np.zeros(0, int))
     step, sd, rng = 10 * HOLD, 3.0, np.random.default_rng(1)
     gain = kalman_gain(linear, step, np.array([sd]), np.array([1e-4]))
-    x, guess, surprise = np.zeros(2), np.zeros(2), []
+    x, guess, innovations = np.zeros(2), np.zeros(2), []
     for _ in range(20000):
         for force in sd * rng.standard_normal(10):
             x = np.array([x[0] + HOLD * x[1] + HOLD**2 / 2 * force, x[1] + HOLD * force])
         guess = np.array([guess[0] + step * guess[1], guess[1]])
-        surprise.append(x[0] + 1e-4 * rng.standard_normal() - guess[0])
-        guess = guess + gain[:, 0] * surprise[-1]
-    e = np.array(surprise)
+        innovations.append(x[0] + 1e-4 * rng.standard_normal() - guess[0])
+        guess = guess + gain[:, 0] * innovations[-1]
+    e = np.array(innovations)
     assert abs(e[1:] @ e[:-1] / (e @ e)) < 4 / len(e)**0.5
 
 
@@ -141,18 +153,18 @@ def test_friction_is_named_placed_and_measured():
 def test_effects_that_could_as_well_be_nothing_are_left_out():
     friction, gain = (Suspect(LIBRARY[n].at(p)) for n, p in (("coulomb_friction", "cart"), ("input_gain", "input")))
     data = data_of(recorded(4, friction.term, {"torque_Nm": 0.35}))
-    base = fit_baseline(cart(), data)
+    base = fit_model(cart(), data)
     start = base.values | friction.named({"torque_Nm": 0.3}) | gain.named({"gain": 1.0})
     both = fit_with([gain, friction], base, base, data, start)
     assert sure(both, base, data).suspects == (friction,)
-    alone = Explanation((gain,), fit_with([gain], base, base, data, start).fit, 0.0)
+    alone = Hypothesis((gain,), fit_with([gain], base, base, data, start).fit, 0.0)
     assert sure(alone, base, data) is alone
 
 
 def test_a_suspect_that_no_longer_earns_its_place_is_dropped():
     friction, cubic, gain = (Suspect(LIBRARY[n].at(p)) for n, p in (("coulomb_friction", "cart"), ("cubic_stiffness", "cart"), ("input_gain", "input")))
     data = data_of(recorded(4, friction.term, {"torque_Nm": 0.35}))
-    base = fit_baseline(cart(), data)
+    base = fit_model(cart(), data)
     start = base.values | friction.named({"torque_Nm": 0.3}) | cubic.named({"k3_Nm_rad3": 0.0}) | gain.named({"gain": 1.0})
     three = fit_with([friction, cubic, gain], base, base, data, start)
     assert _reexamined(three, [], base, data).suspects == (friction, gain)
@@ -226,12 +238,12 @@ def test_physics_of_no_list_is_unexplained_and_placed():
 
 def test_hopeless_suspects_gain_nothing():
     data = data_of(recorded(8))
-    fit = fit_baseline(cart(), data)
+    fit = fit_model(cart(), data)
     found = explore(fit, data, few())
     assert found and max(c.score for c in found) < 5
     # What the model's own unknowns say already is never an explanation.
     own = [c for c in found if c.suspect.term.name in ("viscous_friction", "torsional_spring")]
-    assert all(abs(c.gain) < 1.0 for c in own)
+    assert all(abs(c.log_ratio) < 1.0 for c in own)
 
 
 def test_the_answer_is_in_the_stated_format(tmp_path):
@@ -262,7 +274,7 @@ def test_windows_and_channels_are_checked():
     with pytest.raises(DiagnosisError, match="fewer than 8 samples"):
         diagnose(cart(), recording, fit_window=(100.0, 120.0))
     with pytest.raises(DiagnosisError, match="no channel 'position'"):
-        episodes_between(cart(), recording.time, {"shaker": recording["shaker"]}, (0, 10))
+        segments_between(cart(), recording.time, {"shaker": recording["shaker"]}, (0, 10))
 
 
 @pytest.mark.parametrize("text, words", [
@@ -285,7 +297,7 @@ def test_practice_cases(case, name):
     folder = Path(__file__).parents[2] / "shared" / "concealed" / "cases" / case
     if not folder.exists():
         pytest.skip(f"no practice cases at {folder.parent}")
-    from symid.discrepancy import diagnose_case
+    from symid.cases import diagnose_case
     assert diagnose_case(read_case(folder)).effects[0].name == name
 
 

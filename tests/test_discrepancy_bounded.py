@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from test_discrepancy import SENSOR, TRUE, cart, data_of, recorded
 
-from symid.discrepancy.bounded import growth, growth_normal, runs_away
-from symid.discrepancy.data import Data, Episode
-from symid.discrepancy.fit import Fitter
+from symid.estimation.data import Data, Segment
+from symid.estimation.fit import Fitter
+from symid.estimation.growth import growth, growth_normal, runs_away
 
 
 def values(fitter, **changed):
@@ -41,7 +41,7 @@ def test_a_fit_does_not_end_in_a_loop_that_runs_away(seed, monkeypatch):
     # A drift that the model lacks looks like a motion that grows; samples that correct it hide that it would not stop.
     time = np.arange(0, 30, 0.02)
     drift = np.cumsum(np.random.default_rng(seed).standard_normal(len(time))) * 1e-3
-    data = Data((Episode(time, drift[:, None], {"shaker": 0 * time}),), np.array([SENSOR]), True)
+    data = Data((Segment(time, drift[:, None], {"shaker": 0 * time}),), np.array([SENSOR]), True)
 
     def grown():
         fitter = Fitter(cart(-1e3), data)
@@ -49,5 +49,5 @@ def test_a_fit_does_not_end_in_a_loop_that_runs_away(seed, monkeypatch):
         return growth(fitter, np.array([fit.values[k] for k in fitter.sim.parameters]), np.zeros((1, 2)))
 
     assert grown() < 1
-    monkeypatch.setattr("symid.discrepancy.fit.runs_away", lambda *_: False)
+    monkeypatch.setattr("symid.estimation.fit.runs_away", lambda *_: False)
     assert grown() > 20

@@ -9,11 +9,11 @@ from test_discrepancy import cart, data_of, few, finding, recorded
 
 from symid.conceal import conceal, draw_case, rig_facts, setup_from_facts
 from symid.discrepancy import established_suspects
-from symid.discrepancy.baseline import fit_baseline
-from symid.discrepancy.data import Data, episodes_between
-from symid.discrepancy.fit import Fitter
-from symid.discrepancy.flexible import flexible_fits, flexible_terms
-from symid.discrepancy.search import NEAR, explore
+from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
+from symid.discrepancy.name.search import NEAR, explore
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, segments_between
+from symid.estimation.fit import Fitter
 from symid.mechanics import LIBRARY
 from symid.model import Law, LawParameter
 
@@ -40,14 +40,14 @@ BENT = Law("bent_input", "excitation", (LawParameter("size_s2_m", "s^2/m"),), _b
 ])
 def test_the_best_flexible_law_stands_where_something_acts(term, values):
     data = data_of(recorded(7, term, values))
-    base = fit_baseline(cart(), data)
+    base = fit_model(cart(), data)
     best = flexible_fits(base, data, flexible_terms(base, data))[0]
     assert best.suspect.term.location == term.location and best.score > 50
 
 
 def test_flexible_laws_do_not_pay_where_nothing_is_missing():
     data = data_of(recorded(5))
-    base = fit_baseline(cart(), data)
+    base = fit_model(cart(), data)
     assert max(c.score for c in flexible_fits(base, data, flexible_terms(base, data))) < 0
 
 
@@ -57,9 +57,9 @@ def integral():
     term = LIBRARY["integral_feedback"].at("hip")
     case = draw_case("standing", [(term.name, term.location, {})], (5, 0))
     model = case.setup.model
-    data = Data(episodes_between(model, case.recording.time, dict(case.recording.channels), case.setup.windows[0]),
+    data = Data(segments_between(model, case.recording.time, dict(case.recording.channels), case.setup.windows[0]),
                 np.full(2, case.setup.sensor_noise), driven=True)
-    return data, fit_baseline(model, data), term, case.terms[term]["gain_Nm_rad_s"]
+    return data, fit_model(model, data), term, case.terms[term]["gain_Nm_rad_s"]
 
 
 def test_a_joint_and_the_link_that_moves_alike_are_one_place():
@@ -74,7 +74,7 @@ def test_a_distorted_sensor_is_unexplained_and_placed():
 
 def test_suspects_near_the_best_are_converged():
     data = data_of(recorded(4, LIBRARY["coulomb_friction"].at("cart"), {"torque_Nm": 0.35}))
-    found = explore(fit_baseline(cart(), data), data, few())
+    found = explore(fit_model(cart(), data), data, few())
     near = [c for c in found if c.score > found[0].score - NEAR]
     assert near and all(c.fit.converged for c in near)
 
@@ -85,12 +85,12 @@ def test_a_late_sensor_shows_what_was_before_the_episode():
     term = LIBRARY["sensor_delay"].at("sensor:link2")
     case = conceal(setup, {term: {"delay_s": 0.006}}, seed=3)
     model = setup.model.with_term(term)
-    data = Data(episodes_between(model, case.recording.time, dict(case.recording.channels), setup.windows[0], setup.segment),
+    data = Data(segments_between(model, case.recording.time, dict(case.recording.channels), setup.windows[0], setup.segment),
                 np.full(2, setup.sensor_noise), driven=False)
     fitter = Fitter(model, data)
-    start = fit_baseline(setup.model, data)
+    start = fit_model(setup.model, data)
     fit = fitter.fit(start.values | {term.parameter_name("delay_s"): 0.005}, start.initial, start.process)
-    first = np.array([s[0, 1] for s in fit.surprise])
+    first = np.array([s[0, 1] for s in fit.innovations])
     assert np.abs(first).max() < 5 * np.sqrt(fit.covariance[1, 1])
 
 
@@ -105,6 +105,6 @@ def test_an_integral_is_found_although_it_hides_at_zero_gain():
 
 def test_a_fit_goes_on_where_another_ended():
     data = data_of(recorded(3))
-    fit = fit_baseline(cart(), data)
+    fit = fit_model(cart(), data)
     again = Fitter(cart(), data).again(fit)
     assert again.iterations <= 2 and again.loglik2 == pytest.approx(fit.loglik2, abs=0.05)

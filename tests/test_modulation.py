@@ -3,10 +3,10 @@
 import sympy as sm
 from test_discrepancy import cart, data_of, finding, recorded
 
-from symid.discrepancy.baseline import fit_baseline
-from symid.discrepancy.modulation import modulated
-from symid.discrepancy.remainder import REMAINDER, remainder
-from symid.discrepancy.screen import Screen
+from symid.discrepancy.locate.modulation import modulated
+from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.locate.remainder import REMAINDER, remainder
+from symid.estimation.cold_start import fit_model
 from symid.model import Law, LawParameter
 
 
@@ -25,12 +25,12 @@ def breathing(seed, size):
 def test_a_spring_that_comes_and_goes_is_noticed_and_chance_is_not():
     for seed in range(4):
         data = data_of(breathing(seed, 3.0))
-        found = remainder(fit_baseline(cart(), data), data)[0]
+        found = remainder(fit_model(cart(), data), data)[0]
         assert (found.place, found.what) == ("cart", "a stiffness or damping that comes and goes")
-        assert found.surprise > REMAINDER
+        assert found.minus_log10_p > REMAINDER
         data = data_of(breathing(seed, 0.0))
-        chance = [t for t in remainder(fit_baseline(cart(), data), data) if "comes and goes" in t.what]
-        assert len(chance) == 1 and chance[0].surprise < 2
+        chance = [t for t in remainder(fit_model(cart(), data), data) if "comes and goes" in t.what]
+        assert len(chance) == 1 and chance[0].minus_log10_p < 2
 
 
 def test_it_makes_the_finding_unexplained():
@@ -40,9 +40,9 @@ def test_it_makes_the_finding_unexplained():
 
 def test_pieces_with_a_start_of_their_own_are_not_tested():
     data = data_of(recorded(2, gust=0.0), driven=False, length=4.0)
-    assert modulated(Screen(fit_baseline(cart(), data), data)) == []
+    assert modulated(Projection(fit_model(cart(), data), data)) == []
 
 
 def test_a_recording_of_less_than_a_second_is_not_tested():
     data = data_of(recorded(2), window=(0.0, 0.6))
-    assert modulated(Screen(fit_baseline(cart(), data), data)) == []
+    assert modulated(Projection(fit_model(cart(), data), data)) == []

@@ -8,7 +8,7 @@ from conftest import pendulum, pendulum_recording
 
 from symid.errors import SolveError
 from symid.identification import Identification
-from symid.identification.search import search_start
+from symid.identification.starts.search import search_start
 from symid.nlp import check_derivatives, soften, with_ridge
 from symid.transcription import Episodes
 
@@ -95,12 +95,12 @@ def _standing(shared, episodes: int) -> Identification:
 
 
 def test_two_episodes_let_an_unstable_loop_win_and_three_do_not(shared):
-    """The article's table 3: the soft start meets the unstable loop, the searched one the stable loop."""
+    """The article's table 3: the relaxed start meets the unstable loop, the searched one the stable loop."""
     two = _standing(shared, 2)
-    soft, searched = (two.solve_from(two.start(kind), max_iterations=100) for kind in ("soft", "search"))
-    assert soft.solved and searched.solved
-    assert soft.objective < 0.95 * searched.objective
-    assert two.transcription.layout.parameters(soft.z)[0] < 880 < two.transcription.layout.parameters(searched.z)[0]
+    relaxed, searched = (two.solve_from(two.start(kind), max_iterations=100) for kind in ("relaxed", "search"))
+    assert relaxed.solved and searched.solved
+    assert relaxed.objective < 0.95 * searched.objective
+    assert two.transcription.layout.parameters(relaxed.z)[0] < 880 < two.transcription.layout.parameters(searched.z)[0]
 
 
 def test_default_start_of_several_episodes_is_searched_where_no_simulation_follows(shared):
@@ -113,4 +113,4 @@ def test_many_starts_of_several_episodes_are_searched_for(problem):
     from symid.identification.study import start_kinds
     assert start_kinds(problem, 3) == ["search"] * 3
     assert start_kinds(replace(problem, episodes=Episodes()), 2) == ["random"] * 2
-    assert start_kinds(problem, 1, "soft") == ["soft"]
+    assert start_kinds(problem, 1, "relaxed") == ["relaxed"]

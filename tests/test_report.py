@@ -3,7 +3,6 @@
 import re
 import sys
 from html.parser import HTMLParser
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -155,12 +154,3 @@ def test_a_problem_shows_what_will_be_solved_and_builds_nothing():
         for part in ("driven pendulum", "damping", "0 s to 2 s", "angle (weight 2)", "midpoint", "3, multisine noise, seed 5"):
             assert part in text
     assert "transcription" not in vars(problem)
-
-
-def test_drawing_is_the_only_thing_fetched_by_name_from_a_higher_floor():
-    """What `test_floors` cannot see in imports: modules that are named in a string."""
-    package = Path(si.__file__).parent
-    named = {(str(p.relative_to(package)), m) for p in package.rglob("*.py")
-             for m in re.findall(r'import_module\("(symid\.[\w.]+)"', p.read_text())}
-    assert named == {("identification/solution.py", "symid.plots"), ("discrepancy/diagnosis.py", "symid.report"),
-                     ("__init__.py", "symid.mechanics")}

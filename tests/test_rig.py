@@ -6,14 +6,15 @@ from importlib import import_module
 import numpy as np
 import pytest
 
+from symid.cases import diagnose_case, read_case, rig_case
+from symid.cases.case import parts_of, with_base_acceleration
 from symid.cli import main
-from symid.discrepancy import Suspect, diagnose, diagnose_case, established_suspects, read_case, rig_case
-from symid.discrepancy.baseline import fit_baseline
-from symid.discrepancy.case import parts_of, with_base_acceleration
-from symid.discrepancy.comb import comb
-from symid.discrepancy.data import Data, Episode, episodes_of, piece_length
-from symid.discrepancy.screen import Screen
+from symid.discrepancy import Suspect, diagnose, established_suspects
+from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.name.comb import comb
 from symid.errors import DiagnosisError, ModelError, RecordingError, SymidError
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, Segment, piece_length, segments_of
 from symid.mechanics import LIBRARY, BenchDoublePendulum, model_of, rig_model
 from symid.recording import Recording, read_recording
 from symid.simulation import simulator
@@ -116,29 +117,29 @@ def test_labels_are_found_and_refused_by_name(rig):
 
 def test_windows_of_time_go_through_segments_and_stop_at_their_ends(rig):
     recording, model = read_recording(rig / "recording.csv"), rig_model(SINGLE)
-    pieces = episodes_of(model, recording, (2.0, 9.0))
+    pieces = segments_of(model, recording, (2.0, 9.0))
     assert [(e.time[0], e.time[-1]) for e in pieces] == [(2.0, 3.99), (4.0, 7.99), (8.0, 9.0)]
     with pytest.raises(DiagnosisError, match="no segment of recording has 8 samples"):
-        episodes_of(model, recording, (100.0, 110.0))
+        segments_of(model, recording, (100.0, 110.0))
 
 
 def test_time_that_begins_anew_asks_for_labels(rig):
     r = read_recording(rig / "recording.csv")
     again = Recording("again", r.time % 4.0, dict(r.channels), dict(r.units), segment=r.segment, split=r.split)
     with pytest.raises(DiagnosisError, match="time begins anew .* column split instead: fit, held_out"):
-        episodes_of(rig_model(SINGLE), again, (0.0, 3.0))
-    assert len(episodes_of(rig_model(SINGLE), again, "fit")) == 6
+        segments_of(rig_model(SINGLE), again, (0.0, 3.0))
+    assert len(segments_of(rig_model(SINGLE), again, "fit")) == 6
 
 
 def test_long_segments_are_cut_and_many_samples_thinned():
     time = np.arange(0, 60, 0.001)
     r = Recording("long", time, {"link1_angle": np.sin(2 * np.pi * time)}, {"link1_angle": "rad"})
     model = rig_model(SINGLE)
-    whole = episodes_of(model, r, (0.0, 60.0))
+    whole = segments_of(model, r, (0.0, 60.0))
     assert piece_length(whole) == pytest.approx(5.0, rel=0.05)
-    data = Data(episodes_of(model, r, (0.0, 60.0), 5.0), np.array([1e-3]), driven=False)
+    data = Data(segments_of(model, r, (0.0, 60.0), 5.0), np.array([1e-3]), driven=False)
     thin = data.thinned()
-    assert len(thin.episodes) == 12 and 6000 <= thin.samples <= 8000 + 12
+    assert len(thin.segments) == 12 and 6000 <= thin.samples <= 8000 + 12
     assert Data(whole, np.array([1e-3]), driven=True).thinned().samples == 60000
 
 
@@ -231,13 +232,13 @@ def test_a_frequency_is_found_between_the_simulated_ones():
     """Pieces four seconds long, twenty apart: a fine grid of frequencies from a coarse one."""
     term, model = LIBRARY["periodic_torque"].at("joint1"), rig_model(SINGLE)
     true, sim = {"amplitude_Nm": 2e-4, "frequency_Hz": 0.6437, "phase_rad": 0.4}, simulator(model.with_term(term))
-    episodes = []
+    segments = []
     for k in range(6):
         time = np.arange(0, 4, 0.02) + 20 * k
         run = sim.simulate({term.parameter_name(q): v for q, v in true.items()}, np.array([0.5 - 0.05 * k, 0.0]), time, substeps=4)
-        episodes.append(Episode(time, run.y + 2e-4 * np.random.default_rng(k).standard_normal(run.y.shape), {}))
-    data = Data(tuple(episodes), np.array([2e-4]), driven=False)
-    screen, suspect = Screen(fit_baseline(model, data), data), Suspect(term)
+        segments.append(Segment(time, run.y + 2e-4 * np.random.default_rng(k).standard_normal(run.y.shape), {}))
+    data = Data(tuple(segments), np.array([2e-4]), driven=False)
+    screen, suspect = Projection(fit_model(model, data), data), Suspect(term)
     best = comb(screen, suspect, sim, 3.0)[0]
     assert best["frequency_Hz"] == pytest.approx(true["frequency_Hz"], abs=0.006)
 

@@ -15,11 +15,11 @@ import numpy as np
 import pandas as pd
 
 from symid.analysis.eigenvalues import growth, slopes_at
-from symid.discrepancy.baseline import fit_baseline
-from symid.discrepancy.data import Data, episodes_of
 from symid.errors import SymidError
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, segments_of
 from symid.identification import Identification
-from symid.identification.search import noisy_rows
+from symid.identification.starts.search import noisy_rows
 from symid.ipopt_solver import solve_nlp
 from symid.mechanics import FullStatePD
 from symid.model import Model
@@ -193,7 +193,7 @@ def _constraint_per_noise(problem: Identification) -> float:
 def _prediction_error(problem: Identification, torque_noise: float):
     model, recording = problem.model, problem.recordings[0]
     noise = np.full(len(model.outputs), SENSOR_NOISE)
-    fit = fit_baseline(model, Data(episodes_of(model, recording, (0.0, FIT), None), noise, True))
+    fit = fit_model(model, Data(segments_of(model, recording, (0.0, FIT), None), noise, True))
     return {k: fit.values[k] for k in model.parameters}, True
 
 

@@ -71,7 +71,7 @@ def _provenance(source: Path, finding) -> dict[str, str]:
 
 
 def _of_case(directory: Path, arguments: argparse.Namespace):
-    from symid.discrepancy import diagnose_case, read_case
+    from symid.cases import diagnose_case, read_case
     from symid.errors import DiagnosisError
 
     given = [f"--{k.replace('_', '-')}" for k in OF_A_RECORDING if getattr(arguments, k) is not None]
@@ -81,7 +81,7 @@ def _of_case(directory: Path, arguments: argparse.Namespace):
 
 
 def _of_rig(path: Path, arguments: argparse.Namespace):
-    from symid.discrepancy import diagnose_case, rig_case
+    from symid.cases import diagnose_case, rig_case
     from symid.errors import DiagnosisError
 
     given = [f"--{k}" for k in ("body", "controller") if getattr(arguments, k) is not None]
@@ -96,9 +96,9 @@ def _of_rig(path: Path, arguments: argparse.Namespace):
 
 
 def _of_person(path: Path, arguments: argparse.Namespace):
+    from symid.cases.case import parts_of
     from symid.cli.options import build_model
     from symid.discrepancy import diagnose
-    from symid.discrepancy.case import parts_of
     from symid.errors import DiagnosisError
     from symid.recording import read_recording
 

@@ -9,8 +9,8 @@ import numpy as np
 
 from symid.conceal.fit import FreeFit, fit_free, simulate_free
 from symid.conceal.setup import SWAY, Setup
-from symid.discrepancy.data import Episode, episodes_between
 from symid.errors import SymidError
+from symid.estimation.data import Segment, segments_between
 from symid.mechanics import CANONICAL
 from symid.model import Model, Term
 from symid.recording import Recording
@@ -127,15 +127,15 @@ def _refuse_excursion(setup: Setup, model: Model, outputs: np.ndarray) -> None:
 
 
 # ---- what the model without the effects makes of it ---------------------------------------------
-def episodes_of(setup: Setup, model: Model, recording: Recording, window) -> tuple[Episode, ...]:
-    return episodes_between(model, recording.time, dict(recording.channels), window, setup.segment)
+def segments_of(setup: Setup, model: Model, recording: Recording, window) -> tuple[Segment, ...]:
+    return segments_between(model, recording.time, dict(recording.channels), window, setup.segment)
 
 
-def first_states(model: Model, episodes: Sequence[Episode]) -> np.ndarray:
+def first_states(model: Model, segments: Sequence[Segment]) -> np.ndarray:
     """(E, n) initial states to begin from: what outputs show, and their slopes for rates."""
     shown = {str(y.expr): i for i, y in enumerate(model.outputs.values())}
-    rates, out = model.rates(), np.zeros((len(episodes), len(model.states)))
-    for e, row in zip(episodes, out, strict=True):
+    rates, out = model.rates(), np.zeros((len(segments), len(model.states)))
+    for e, row in zip(segments, out, strict=True):
         slope = np.gradient(e.recorded[:3], e.time[:3], axis=0)[0]
         for j, name in enumerate(model.states):
             if name in shown:
@@ -149,9 +149,9 @@ def first_states(model: Model, episodes: Sequence[Episode]) -> np.ndarray:
 
 def _missed(setup: Setup, model: Model, values: Mapping[str, float], quiet: Recording) -> float:
     """Rms of what `model`, fitted to the noise-free recording, cannot absorb."""
-    episodes = episodes_of(setup, model, quiet, setup.windows[0])
+    segments = segments_of(setup, model, quiet, setup.windows[0])
     try:
-        return fit_free(model, episodes, values, first_states(model, episodes)).rms(episodes, setup.settling)
+        return fit_free(model, segments, values, first_states(model, segments)).rms(segments, setup.settling)
     except SymidError as error:
         raise Unsuitable(str(error)) from None
 
@@ -193,9 +193,9 @@ def _process_noise(setup: Setup, record: _Recorder, clean: np.ndarray, missed: f
 def _reference(setup: Setup, recording: Recording, quiet: Recording, clean: np.ndarray) -> dict[str, dict[str, float]]:
     """Errors on both windows of the fitted model and of the truth, as ``rms_rad`` of the fit measure."""
     model = setup.model
-    train, later = (episodes_of(setup, model, recording, w) for w in setup.windows)
-    start = first_states(model, episodes_of(setup, model, quiet, setup.windows[0]))
-    after = first_states(model, episodes_of(setup, model, quiet, setup.windows[1]))
+    train, later = (segments_of(setup, model, recording, w) for w in setup.windows)
+    start = first_states(model, segments_of(setup, model, quiet, setup.windows[0]))
+    after = first_states(model, segments_of(setup, model, quiet, setup.windows[1]))
     fit = fit_free(model, train, setup.parameters, start)
     anew = fit_free(model, later, fit.values, after, free=()).rms(later)
     held_out = min(anew, _continued(setup, fit, recording)) if setup.segment is None else anew
@@ -209,5 +209,5 @@ def _reference(setup: Setup, recording: Recording, quiet: Recording, clean: np.n
 
 def _continued(setup: Setup, fit: FreeFit, recording: Recording) -> float:
     """Error on the held-out window of the fit run carried on."""
-    whole = episodes_of(setup, setup.model, recording, (0.0, setup.fit + setup.held_out))
+    whole = segments_of(setup, setup.model, recording, (0.0, setup.fit + setup.held_out))
     return simulate_free(setup.model, whole, fit.values, fit.initial).rms(whole, setup.fit)

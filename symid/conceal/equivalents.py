@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from symid.conceal.conceal import Concealed, episodes_of, first_states, outputs_of
+from symid.conceal.conceal import Concealed, first_states, outputs_of, segments_of
 from symid.conceal.fit import fit_free
 from symid.discrepancy import Suspect
 from symid.errors import SymidError
@@ -61,15 +61,15 @@ def _alternatives(case: Concealed, truth: Term, white) -> list[tuple[Term, float
 def _distance(case: Concealed, model, values, term: Term, white) -> float:
     model = model.with_term(term)
     suspect, best = Suspect(term), np.inf
-    episodes = episodes_of(case.setup, model, case.quiet, case.setup.windows[0])
+    segments = segments_of(case.setup, model, case.quiet, case.setup.windows[0])
     moment = case.setup.fit / 2
     for start in suspect.starts(off=False)[:STARTS]:
         start = {k: moment if k in ("start_s", "time_s") else v for k, v in start.items()}
         try:
-            fit = fit_free(model, episodes, values | suspect.named(start), first_states(model, episodes), white=white, most=EVALUATIONS)
+            fit = fit_free(model, segments, values | suspect.named(start), first_states(model, segments), white=white, most=EVALUATIONS)
         except SymidError:
             continue
-        best = min(best, sum(float(np.sum(white(e.recorded - y) ** 2)) for e, y in zip(episodes, fit.simulated, strict=True)))
+        best = min(best, sum(float(np.sum(white(e.recorded - y) ** 2)) for e, y in zip(segments, fit.simulated, strict=True)))
     return best
 
 

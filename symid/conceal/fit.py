@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import least_squares
 
-from symid.discrepancy.data import Episode
 from symid.errors import SymidError
+from symid.estimation.data import Segment
 from symid.model import Model
 from symid.simulation import simulator
 
@@ -22,23 +22,23 @@ DIVERGED = 1e3
 
 @dataclass(frozen=True, eq=False)
 class FreeFit:
-    """Parameters, one initial state per episode (E, n), and what they simulate, (N, m) per episode."""
+    """Parameters, one initial state per segment (E, n), and what they simulate, (N, m) per segment."""
 
     values: dict[str, float]
     initial: np.ndarray
     simulated: tuple[np.ndarray, ...]
 
-    def rms(self, episodes: Sequence[Episode], settling: float = 0.0) -> float:
-        """Root mean square of recorded minus simulated, without the first seconds of the first episode."""
-        begin = episodes[0].time[0] + settling
-        errors = [(e.recorded - y)[e.time >= begin] for e, y in zip(episodes, self.simulated, strict=True)]
+    def rms(self, segments: Sequence[Segment], settling: float = 0.0) -> float:
+        """Root mean square of recorded minus simulated, without the first seconds of the first segment."""
+        begin = segments[0].time[0] + settling
+        errors = [(e.recorded - y)[e.time >= begin] for e, y in zip(segments, self.simulated, strict=True)]
         return float(np.sqrt(np.mean(np.vstack(errors) ** 2)))
 
 
-def fit_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, float], initial: np.ndarray,
+def fit_free(model: Model, segments: Sequence[Segment], values: Mapping[str, float], initial: np.ndarray,
              free: Sequence[str] | None = None, white: Callable[[np.ndarray], np.ndarray] = lambda errors: errors,
              most: int = 60) -> FreeFit:
-    """Fit parameters (all, or those in `free`) and initial states to free simulations of `episodes`.
+    """Fit parameters (all, or those in `free`) and initial states to free simulations of `segments`.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def fit_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, flo
     """
     sim = simulator(model)
     names = list(sim.parameters if free is None else free)
-    E, n, q = len(episodes), len(sim.states), len(names)
+    E, n, q = len(segments), len(sim.states), len(names)
     low = np.array([model.parameters[k].bounds[0] for k in names] + [-np.inf] * (E * n))
     high = np.array([model.parameters[k].bounds[1] for k in names] + [np.inf] * (E * n))
     start = np.clip(np.concatenate([[values[k] for k in names], np.ravel(initial)]), low, high)
@@ -61,11 +61,11 @@ def fit_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, flo
         return [sim.simulate(p, x0, e.time, e.inputs, substeps=_substeps(e), keep="outputs",
                              sensitivity=names if sensitivities else (),
                              initial_sensitivity=sim.states if sensitivities else ())
-                for e, x0 in zip(episodes, z[q:].reshape(E, n), strict=True)]
+                for e, x0 in zip(segments, z[q:].reshape(E, n), strict=True)]
 
     def errors(z):
         return np.concatenate([white(np.nan_to_num(t.y - e.recorded, nan=DIVERGED)).ravel()
-                               for t, e in zip(run(z, False), episodes, strict=True)])
+                               for t, e in zip(run(z, False), segments, strict=True)])
 
     def slopes(z):
         blocks = [white(np.nan_to_num(t.dy)).reshape(-1, q + n) for t in run(z, True)]
@@ -83,13 +83,13 @@ def fit_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, flo
                    tuple(t.y for t in run(z, False)))
 
 
-def simulate_free(model: Model, episodes: Sequence[Episode], values: Mapping[str, float], initial: np.ndarray) -> FreeFit:
+def simulate_free(model: Model, segments: Sequence[Segment], values: Mapping[str, float], initial: np.ndarray) -> FreeFit:
     """What these values simulate, without fitting anything."""
     sim = simulator(model)
     runs = [sim.simulate(values, x0, e.time, e.inputs, substeps=_substeps(e), keep="outputs")
-            for e, x0 in zip(episodes, initial, strict=True)]
+            for e, x0 in zip(segments, initial, strict=True)]
     return FreeFit(dict(values), np.asarray(initial), tuple(t.y for t in runs))
 
 
-def _substeps(episode: Episode) -> int:
-    return max(1, int(np.ceil(episode.step / 0.0101)))
+def _substeps(segment: Segment) -> int:
+    return max(1, int(np.ceil(segment.step / 0.0101)))

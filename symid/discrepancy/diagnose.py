@@ -8,31 +8,32 @@ from functools import cache
 
 import numpy as np
 
-from symid.discrepancy.audit import audit
-from symid.discrepancy.baseline import fit_baseline
-from symid.discrepancy.bias import unbiased
-from symid.discrepancy.data import Data, episodes_of
-from symid.discrepancy.diagnosis import Diagnosis
-from symid.discrepancy.explanation import MOST_EFFECTS, Explanation, fit_with, polished, steady, sure
-from symid.discrepancy.fit import Fit
-from symid.discrepancy.flexible import flexible_fits, flexible_terms
-from symid.discrepancy.freerun import free_run
-from symid.discrepancy.halves import survivals, verdicts
-from symid.discrepancy.judge import judge, rivals
-from symid.discrepancy.mechanism import explain_mechanism
-from symid.discrepancy.remainder import REMAINDER, remainder
-from symid.discrepancy.robust import with_robust_errors
-from symid.discrepancy.search import LIGHT, Candidate, explore
-from symid.discrepancy.suspects import Suspect, established_suspects
-from symid.discrepancy.words import Story, words
+from symid.discrepancy.locate.audit import audit
+from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
+from symid.discrepancy.locate.remainder import REMAINDER, remainder
+from symid.discrepancy.model.hypothesis import MOST_EFFECTS, Candidate, Hypothesis, fit_with, polished
+from symid.discrepancy.model.suspects import Suspect, established_suspects
+from symid.discrepancy.name.mechanism import explain_mechanism
+from symid.discrepancy.name.search import LIGHT, explore
+from symid.discrepancy.prove.certain import steady, sure
+from symid.discrepancy.prove.halves import survivals, verdicts
+from symid.discrepancy.say.diagnosis import Diagnosis
+from symid.discrepancy.say.judge import judge, rivals
+from symid.discrepancy.say.words import Story, words
 from symid.errors import DiagnosisError
+from symid.estimation.bias import unbiased
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, segments_of
+from symid.estimation.fit import Fit
+from symid.estimation.free_run import free_run
+from symid.estimation.robust_errors import with_robust_errors
 from symid.identification import Solution
 from symid.model import Model
 from symid.recording import Recording
 from symid.threads import one_blas_thread
 
 ACCEPT = 10.0
-"""A suspect is accepted when its score, the likelihood gain beyond BIC, exceeds this."""
+"""A suspect is accepted when its score, the log-likelihood ratio beyond BIC, exceeds this."""
 DOUBT = 10.0
 """A hypothesis must beat what established suspects reach by this much to make the finding unexplained."""
 BEYOND = 25.0
@@ -50,7 +51,7 @@ RIVAL_SHARE = 0.3
 def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
              fit_window: tuple[float, float] | str | None = None, held_out: tuple[float, float] | str | None = None,
              sensor_noise: float | Mapping[str, float] | None = None,
-             episode_length: float | None = None, driven: bool = True, settling: float = 0.0,
+             segment_length: float | None = None, driven: bool = True, settling: float = 0.0,
              start: Mapping[str, float] | None = None, suspects: Sequence[Suspect] | None = None, mechanism: bool = False,
              threads: int = 2, progress: Callable[[str], None] = lambda text: None) -> Diagnosis:
     """Compare a model with a recording and say what physics the model leaves out.
@@ -63,7 +64,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
         segments have each an initial state of their own; the held-out one is used once, at the end.
     sensor_noise : standard deviation of the sensors, one or by channel; if left out what the recording
         states, or else what its highest frequencies show.
-    episode_length : seconds of one piece with an initial state of its own; None for one piece.
+    segment_length : seconds of one piece with an initial state of its own; None for one piece.
     driven : whether random forces act at the model's noises besides the recorded inputs.
     settling : seconds that the fit measure leaves out at the start of the fit window.
     start : values [SI] of some parameters from which the first fit begins.
@@ -79,26 +80,26 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     model = subject.model if isinstance(subject, Solution) else subject
     if recording is None or fit_window is None:
         raise DiagnosisError("diagnose: a model alone is not enough; give the recording and fit_window=(t0, t1)")
-    episodes = episodes_of(model, recording, fit_window, episode_length)
-    checked = audit(model, recording, episodes, sensor_noise)
-    data = Data(episodes, checked.noise, driven, checked.rounding, checked.weight(episodes[0].step)).thinned()
-    base = fit_baseline(model, data, dict(start or {}))
+    segments = segments_of(model, recording, fit_window, segment_length)
+    checked = audit(model, recording, segments, sensor_noise)
+    data = Data(segments, checked.noise, driven, checked.rounding, checked.weight(segments[0].step)).thinned()
+    base = fit_model(model, data, dict(start or {}))
     progress(f"the model as given is fitted ({base.iterations} iterations)")
     pool = list(established_suspects(model) if suspects is None else suspects)
-    anything = cache(lambda: _anything(base, data))
+    flexible = cache(lambda: _flexible(base, data))
     if mechanism:
         *parts, ranking = explain_mechanism(base, data, pool, threads, progress)
-        found = Explanation(*parts)
-        anything = cache(lambda: _anything(found.fit, data))
+        found = Hypothesis(*parts)
+        flexible = cache(lambda: _flexible(found.fit, data))
     else:
-        found, ranking = _explain(base, data, pool, anything, threads, progress)
+        found, ranking = _explain(base, data, pool, flexible, threads, progress)
     found = polished(found, data)
     left = remainder(found.fit, data)
     progress("tested for a remainder")
-    doubtful = len(found.suspects) > 1 or not found.established or left[0].surprise > REMAINDER
-    if not mechanism and doubtful and _beaten(found, anything(), data):
-        found, left = anything(), remainder(anything().fit, data)
-    white = not checked.filtered and all(t.locates or t.surprise <= REMAINDER for t in left)
+    doubtful = len(found.suspects) > 1 or not found.established or left[0].minus_log10_p > REMAINDER
+    if not mechanism and doubtful and _beaten(found, flexible(), data):
+        found, left = flexible(), remainder(flexible().fit, data)
+    white = not checked.filtered and all(t.locates or t.minus_log10_p <= REMAINDER for t in left)
     if not white:
         kept = steady(found, base, data)
         if kept is not None:
@@ -110,16 +111,16 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     elif found.established:
         names = [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters]
         found = replace(found, fit=unbiased(found.fit, data, names, threads))
-    verdict, effects, equivalent = judge(found, ranking, left, base, data, anything)
+    verdict, effects, equivalent = judge(found, ranking, left, base, data, flexible)
     survived = survivals(found.suspects, found.fit, base, data, white)
     halves = () if white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking))
     runs = {"baseline_train": free_run(base, data, settling), "augmented_train": free_run(found.fit, data, settling)}
     if held_out is not None:
         # Segments that were set apart are judged whole.
-        later = data.with_episodes(episodes_of(model, recording, held_out, None if isinstance(held_out, str) else episode_length))
+        later = data.with_segments(segments_of(model, recording, held_out, None if isinstance(held_out, str) else segment_length))
         runs |= {"baseline_heldout": free_run(base, later), "augmented_heldout": free_run(found.fit, later)}
     text = words(Story(verdict, effects, equivalent, ranking, left, runs, checked, survived, halves, white,
-                       base.gain is not None, data.weight))
+                       base.kalman_gain is not None, data.weight))
     return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text, checked, survived, halves)
 
 
@@ -134,50 +135,50 @@ def _of_solution(solution: Solution, recording, fit_window, start):
 
 
 # ---- explaining ------------------------------------------------------------------------------
-def _explain(base: Fit, data: Data, pool: list[Suspect], anything: Callable[[], Explanation], threads: int,
-             progress) -> tuple[Explanation, list[Candidate]]:
+def _explain(base: Fit, data: Data, pool: list[Suspect], flexible: Callable[[], Hypothesis], threads: int,
+             progress) -> tuple[Hypothesis, list[Candidate]]:
     """The best explanation by one or several suspects, and the ranking of single ones."""
     single = explore(base, data, pool, threads=threads, progress=progress)
-    best = Explanation((), base, 0.0)
-    alone = _preferred([Explanation((c.suspect,), c.fit, c.score) for c in single])
+    best = Hypothesis((), base, 0.0)
+    alone = _preferred([Hypothesis((c.suspect,), c.fit, c.score) for c in single])
     if alone is None or alone.score < ACCEPT:
         return best, single
     best = alone
-    while len(best.suspects) < MOST_EFFECTS[base.gain is not None]:
-        if len(best.suspects) > 1 and (not best.established and _enough(best, data) or _beaten(best, anything(), data)):
+    while len(best.suspects) < MOST_EFFECTS[base.kalman_gain is not None]:
+        if len(best.suspects) > 1 and (not best.established and _enough(best, data) or _beaten(best, flexible(), data)):
             break
         progress(f"found {', '.join(str(s.term) for s in best.suspects)}; looking for more")
         more = _extended(best, data, pool, threads, progress)
         if more is None:
             break
         more = _reexamined(more, single, base, data)
-        if len(best.suspects) == 1 and not _beaten(more, anything(), data) and remainder(more.fit, data)[0].surprise > QUIET:
+        if len(best.suspects) == 1 and not _beaten(more, flexible(), data) and remainder(more.fit, data)[0].minus_log10_p > QUIET:
             more = _reexamined(_beam(more, best, single, data, pool, threads, progress), single, base, data)
         best = more
-    hypothesis = _preferred([Explanation((c.suspect,), c.fit, c.score) for c in single if not c.suspect.established])
+    hypothesis = _preferred([Hypothesis((c.suspect,), c.fit, c.score) for c in single if not c.suspect.established])
     if hypothesis is not None and best.established and hypothesis.score > best.score + DOUBT:
         best = hypothesis
     return best, single
 
 
-def _anything(base: Fit, data: Data) -> Explanation:
+def _flexible(base: Fit, data: Data) -> Hypothesis:
     """The best flexible law at one place: whatever acts there, named or not."""
     best = flexible_fits(base, data, flexible_terms(base, data))[0]
-    return Explanation((best.suspect,), best.fit, best.score)
+    return Hypothesis((best.suspect,), best.fit, best.score)
 
 
-def _beaten(found: Explanation, anything: Explanation, data: Data) -> bool:
+def _beaten(found: Hypothesis, flexible: Hypothesis, data: Data) -> bool:
     """Whether a flexible law at one place explains more than all that has a name: what acts there is in no list."""
-    return _enough(anything, data) and anything.score > max(found.score, 0.0) + DOUBT
+    return _enough(flexible, data) and flexible.score > max(found.score, 0.0) + DOUBT
 
 
-def _enough(found: Explanation, data: Data) -> bool:
+def _enough(found: Hypothesis, data: Data) -> bool:
     """Whether what it leaves of a free motion is not far above the sensors' noise: else more than one thing is missing."""
-    rms = np.sqrt(np.mean(np.vstack(found.fit.surprise) ** 2, axis=0))
-    return found.fit.gain is not None or bool(np.all(rms < FAR * data.sensor_noise))
+    rms = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
+    return found.fit.kalman_gain is not None or bool(np.all(rms < FAR * data.sensor_noise))
 
 
-def _preferred(found: list[Explanation]) -> Explanation | None:
+def _preferred(found: list[Hypothesis]) -> Hypothesis | None:
     """The best established explanation, or a hypothesis that beats it beyond doubt."""
     found = sorted(found, key=lambda e: -e.score)
     named = next((e for e in found if e.established), None)
@@ -186,27 +187,27 @@ def _preferred(found: list[Explanation]) -> Explanation | None:
     return found[0] if found[0].score > named.score + DOUBT else named
 
 
-def _extended(best: Explanation, data: Data, pool, threads, progress) -> Explanation | None:
+def _extended(best: Hypothesis, data: Data, pool, threads, progress) -> Hypothesis | None:
     """`best` with one more suspect, if one is accepted."""
     others = [s for s in pool if s.term not in {t.term for t in best.suspects}]
     found = explore(best.fit, data, others, effort=LIGHT, threads=threads, progress=progress)
-    more = [Explanation((*best.suspects, c.suspect), c.fit, best.score + c.score) for c in found
+    more = [Hypothesis((*best.suspects, c.suspect), c.fit, best.score + c.score) for c in found
             if c.score > (ACCEPT if c.suspect.established and len(best.suspects) == 1 else BEYOND)]
     return _preferred(more)
 
 
-def _beam(pair: Explanation, best: Explanation, single: list[Candidate], data: Data, pool, threads, progress) -> Explanation:
+def _beam(pair: Hypothesis, best: Hypothesis, single: list[Candidate], data: Data, pool, threads, progress) -> Hypothesis:
     """The best pair that begins with any of the good single suspects: the best single one may belong to none."""
     rivals = [c for c in single if c.suspect.established and c.suspect != best.suspects[0]
               and c.score > max(ACCEPT, RIVAL_SHARE * best.score)][:BEAM]
     pairs = [pair]
     for c in rivals:
         progress(f"looking for what would complete {c.suspect.term}")
-        pairs.append(_extended(Explanation((c.suspect,), c.fit, c.score), data, pool, threads, progress))
+        pairs.append(_extended(Hypothesis((c.suspect,), c.fit, c.score), data, pool, threads, progress))
     return _preferred([p for p in pairs if p is not None])
 
 
-def _reexamined(found: Explanation, single: list[Candidate], base: Fit, data: Data) -> Explanation:
+def _reexamined(found: Hypothesis, single: list[Candidate], base: Fit, data: Data) -> Hypothesis:
     """Earlier suspects are left out in turn, and other good single ones tried in the place of the first: greedy choices mislead."""
     first, kept = found.suspects[0], list(found.suspects[1:])
     tried = [fit_with([s for s in found.suspects if s is not earlier], found.fit, base, data) for earlier in found.suspects[:-1]]

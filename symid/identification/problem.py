@@ -15,9 +15,9 @@ from symid.errors import TranscriptionError
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution, StartRow
-from symid.identification.rehearsal import rehearsed_start
-from symid.identification.search import can_search, search_start, soft_start
-from symid.identification.starts import default_start, given_start, random_start
+from symid.identification.starts.default import default_start, given_start, random_start
+from symid.identification.starts.search import can_search, relaxed_start, search_start
+from symid.identification.starts.stable import stable_start
 from symid.identification.study import Solve, Study, start_kinds
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model
@@ -117,8 +117,8 @@ class Identification:
         kind : "default" (made from the recording; for several episodes that no simulation follows,
             searched as below), "random" (recorded motion, parameters uniform
             within their bounds), "search" (random, then searched until simulations follow the
-            recording: for several episodes), "soft" (random, then identified with process noise that
-            is estimated, too), "rehearsed" (searched for among loops that do not fall from states around
+            recording: for several episodes), "relaxed" (random, then identified with process noise that
+            is estimated, too), "stable" (searched for among loops that do not fall from states around
             the recorded ones), parameter values by name, a Solution of a similar problem, or a free
             vector as it is.
         """
@@ -129,7 +129,7 @@ class Identification:
             return z if simulated or not can_search(self) else search_start(self, seed, number)
         if kind == "random":
             return random_start(self.transcription, seed, number)
-        searches = {"search": search_start, "soft": soft_start, "rehearsed": rehearsed_start}
+        searches = {"search": search_start, "relaxed": relaxed_start, "stable": stable_start}
         if isinstance(kind, str) and kind in searches:
             return searches[kind](self, seed, number)
         return given_start(self.transcription, kind)

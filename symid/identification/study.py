@@ -18,8 +18,8 @@ from symid.errors import SolveError
 from symid.identification.dispatch import in_turn, on_executor
 from symid.identification.identity import digest
 from symid.identification.pool import Cluster, LocalPool
-from symid.identification.search import can_search
 from symid.identification.solution import Solution, StartRow, build_solution
+from symid.identification.starts.search import can_search
 from symid.identification.store import StudyDirectory
 from symid.identification.worker import Outcome
 from symid.ipopt_solver import Iteration

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.signal import welch
 
-from symid.discrepancy.words import law_name
+from symid.discrepancy.say.words import law_name
 from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened, shown_unit
 
 if TYPE_CHECKING:
     from symid.discrepancy import Diagnosis
-    from symid.discrepancy.freerun import FreeRun
-    from symid.discrepancy.latent import Latent
+    from symid.discrepancy.locate.latent import Latent
+    from symid.estimation.free_run import FreeRun
 
 ZOOM = 8.0
 """Seconds shown of each window: more and the curves cannot be told apart."""
@@ -91,7 +91,7 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
 
 
 def plot_scores(diagnosis: Diagnosis) -> Picture:
-    """How much better the recording is explained with each single suspect, less the price of its parameters."""
+    """How much better the recording is explained with each single suspect, less the penalty of its parameters."""
     shown = diagnosis.ranking[:MOST_SUSPECTS]
     figure = Picture(figsize=(9.5, 0.28 * max(len(shown), 2) + 0.9), layout="constrained")
     axes = figure.subplots()
@@ -108,7 +108,7 @@ def plot_scores(diagnosis: Diagnosis) -> Picture:
     axes.set_yticks(places, [law_name(c.suspect.term.name, c.suspect.term.location) for c in shown], fontsize=8.5)
     axes.invert_yaxis()
     axes.set_xlim(0, 1.12 * max([*scores, 1.0]))
-    axes.set_xlabel("score of each suspect alone: growth of twice the log-likelihood less the price of its parameters", fontsize=9)
+    axes.set_xlabel("score of each suspect alone: growth of twice the log-likelihood less the penalty of its parameters", fontsize=9)
     opened(axes)
     return figure
 

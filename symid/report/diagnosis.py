@@ -6,7 +6,7 @@ from math import degrees
 from pathlib import Path
 
 from symid.discrepancy import Diagnosis
-from symid.discrepancy.latent import latent_torques
+from symid.discrepancy.locate.latent import latent_torques
 from symid.files import write_atomically
 from symid.plots import plot_before_after, plot_latent, plot_scores, plot_spectra
 from symid.report.page import facts, figure, heading, number, page, paragraph, table
@@ -113,9 +113,9 @@ def _fits(d: Diagnosis) -> str:
             rows.append([title, _short(degrees(before)), _short(degrees(after)), round(100 * (1 - after / before), 1)])
     later = d.runs.get("augmented_heldout")
     if later is not None and len(later.lengths) > 1:
-        before = d.runs["baseline_heldout"].of_episodes()
+        before = d.runs["baseline_heldout"].of_segments()
         rows += [[f"  held out, segment from {t:.1f} s", _short(degrees(b)), _short(degrees(a)), round(100 * (1 - a / b), 1)]
-                 for (t, b), (_, a) in zip(before, later.of_episodes(), strict=True)][:MOST]
+                 for (t, b), (_, a) in zip(before, later.of_segments(), strict=True)][:MOST]
     head = ["free simulation", "model as given, RMS [deg]", "improved, RMS [deg]", "error removed [%]"]
     return table(head, rows) if d.effects else table(head[:2], [row[:2] for row in rows])
 
@@ -127,26 +127,26 @@ def _where(d: Diagnosis) -> list[str]:
     after = latent_torques(d.final, d.runs["augmented_train"]) if d.effects else ()
     caption = ("The force that would have to be added at each place to make the free run follow the recording, with two standard "
                "errors; it holds what random forces contribute as well.")
-    if d.baseline.gain is None:
+    if d.baseline.kalman_gain is None:
         caption += " It rests on one mean linearisation, so where the motion is large it is a rough picture."
     return [figure(plot_latent(before, after), caption)]
 
 
 def _ranking(d: Diagnosis) -> str:
-    rows = [[_plain(c.suspect.term.name), c.suspect.term.location, round(c.score, 1), round(c.gain, 1),
+    rows = [[_plain(c.suspect.term.name), c.suspect.term.location, round(c.score, 1), round(c.log_ratio, 1),
              "" if c.suspect.established else "hypothesis"] for c in d.ranking[:MOST]]
-    return table(["suspect", "place", "score", "gain", ""], rows)
+    return table(["suspect", "place", "score", "log-likelihood ratio", ""], rows)
 
 
 def _remainder(d: Diagnosis) -> str:
-    rows = [[t.place, t.what, float(t.gain), t.size, _odds(t.surprise)] for t in d.remainder[:5]]
+    rows = [[t.place, t.what, float(t.log_ratio), t.size, _odds(t.minus_log10_p)] for t in d.remainder[:5]]
     return table(["place", "test for", "statistic", "degrees of freedom", "by chance 1 in"], rows) if rows else paragraph("Not tested.")
 
 
-def _odds(surprise: float) -> str:
-    if surprise < 6:
-        return f"{10 ** surprise:,.0f}"
-    return ("over " if surprise > 300 else "") + "10" + f"{min(surprise, 300):.0f}".translate(_RAISED)
+def _odds(minus_log10_p: float) -> str:
+    if minus_log10_p < 6:
+        return f"{10 ** minus_log10_p:,.0f}"
+    return ("over " if minus_log10_p > 300 else "") + "10" + f"{min(minus_log10_p, 300):.0f}".translate(_RAISED)
 
 
 def _parameters(d: Diagnosis) -> str:

@@ -14,7 +14,7 @@ from symid import mechanics
 from symid.analysis import Stability, stability_of
 from symid.errors import SolveError
 from symid.identification import Finished, Identification, Solution, Solve, StartRow, Study
-from symid.identification.rehearsal import SOLVED_SURVIVES, survival
+from symid.identification.starts.stable import SOLVED_SURVIVES, survival
 from symid.model import Model
 from symid.recording import Recording
 from symid.reproduce.article import HELD_OUT, RANGE, TORQUE_NOISE, WINDOW, Case
@@ -25,7 +25,7 @@ NETWORK_RIDGE = 4e-4
 """Weight of the network's squared weights: w/20 have a standard deviation of a few tenths, and Ipopt a Hessian."""
 START_RIDGE = 0.1
 """Weight of their squared distance from the start where there is process noise: keeps them near a loop that survives."""
-SOLVER = {kind: {"max_iterations": 200, "dual_limit": 1e4} for kind in ("search", "soft", "rehearsed")} | {
+SOLVER = {kind: {"max_iterations": 200, "dual_limit": 1e4} for kind in ("search", "relaxed", "stable")} | {
     "random": {"max_iterations": 500}}
 DRAWS = 1000
 """Draws of process noise that belong to one seed: start k has number seed * DRAWS + k."""
@@ -69,11 +69,11 @@ def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recordi
 
     PD and full-state PD without noise begin with random gains, as in the article; all others with
     `identification.search`, because random ones seldom end at all. With two episodes the starts are
-    those of `search.soft_start`: an unstable loop can still win there, and would never be met.
+    those of `search.relaxed_start`: an unstable loop can still win there, and would never be met.
     Every start has a process noise of its own: the spread of the article's starts is the spread over
     draws, while all starts of one draw end in the same optimum. The network with noise begins with
-    `rehearsal.rehearsed_start`, and its best start is the best of those whose loop survives the
-    rehearsal: ten fitted seconds do not say whether a loop stands elsewhere, the model does.
+    `stable.stable_start`, and its best start is the best of those whose loop survives the
+    displaced states: ten fitted seconds do not say whether a loop stands elsewhere, the model does.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recordi
 
 
 def _survives(one: Identification) -> Callable[[StartRow], bool]:
-    """Whether the loop of a start survives the rehearsal, where starts are rehearsed; else every start does."""
+    """Whether the loop of a start survives displaced states, where starts are stable ones; else every start does."""
     if one.ridge_about != "start":
         return lambda row: True
     names = one.transcription.layout.parameter_names
@@ -116,7 +116,7 @@ def _survives(one: Identification) -> Callable[[StartRow], bool]:
 
 def _start_kind(case: Case) -> str:
     if case.controller == "NN" and case.episodes > 1:
-        return "rehearsed"
+        return "stable"
     if case.episodes == 1 and case.controller != "NN":
         return "random"
-    return "soft" if case.episodes == 2 else "search"
+    return "relaxed" if case.episodes == 2 else "search"

@@ -23,7 +23,7 @@ NOTES = (
     ("weights of the network", "within 5 of fitted ones", f"within 20, ridge {NETWORK_RIDGE:g} on (w/20)^2 without "
      f"noise; with noise ridge {START_RIDGE:g} on their distance from the start"),
     ("best start of the network", "least RMS", "with noise least RMS among those whose loop, simulated with the input of "
-     "the fitted window, as it is and made larger, from states around its own, does not fall (`identification.rehearsal`)"),
+     "the fitted window, as it is and made larger, from states around its own, does not fall (`identification.starts.stable`)"),
 )
 
 GOOD = 1.01

@@ -1,0 +1,179 @@
+"""What a user knows of one recording: case directories, and rigs with their parameters beside the recording."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from symid.discrepancy.diagnose import diagnose
+from symid.discrepancy.say.diagnosis import Diagnosis
+from symid.errors import DiagnosisError, SymidError
+from symid.estimation.data import piece_length, segments_of
+from symid.mechanics import model_of, rig_model
+from symid.mechanics.rig import BASES
+from symid.model import Model
+from symid.recording import Recording, read_recording, smooth_states
+
+Part = tuple[float, float] | str
+FIT_LABELS = ("fit", "train", "training", "identification")
+HELD_OUT_LABELS = ("held_out", "heldout", "held-out", "test", "testing", "validation")
+STILL = 1e-5
+"""A base that moves less than this, or is accelerated less, stands [m], [m/s^2]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """A model, a recording, and the parts of it in which to compare them.
+
+    Attributes
+    ----------
+    fit_window, held_out_window : start and end [s], or a label of the recording's split.
+    sensor_noise : standard deviation [SI], None where the recording must tell.
+    segment_length : seconds of one piece with an initial state of its own; None for one piece.
+    driven : whether random forces act on the system besides the recorded input.
+    settling : seconds at the start of the fit window that the fit measure leaves out.
+    mechanism : whether several laws may be missing at once, as in any real mechanism.
+    """
+
+    name: str
+    model: Model
+    recording: Recording
+    fit_window: Part
+    held_out_window: Part | None
+    sensor_noise: float | None
+    segment_length: float | None
+    driven: bool
+    settling: float
+    mechanism: bool = False
+
+
+def read_case(directory: str | Path) -> Case:
+    """Read a case directory, with ``recording.csv`` and ``case.json``.
+
+    Needed are ``system`` with what `model_of` needs, and the windows, unless the recording has a
+    column ``split``. Sensor noise is estimated where it is not stated.
+
+    Raises
+    ------
+    DiagnosisError : its ``case.json`` does not say what is needed.
+    """
+    directory = Path(directory)
+    path = directory / "case.json"
+    facts = _facts(path)
+    try:
+        model_of(facts)
+        recording = read_recording(directory / "recording.csv")
+        if facts["system"] == "rig":
+            recording = with_base_acceleration(recording)
+        model = model_of(facts, recording.channels)
+    except SymidError as error:
+        raise error if str(directory) in str(error) else DiagnosisError(f"{path}: {error}") from None
+    _check(facts, path)
+    given = (tuple(facts[k]) if k in facts else None for k in ("fit_window_s", "heldout_window_s"))
+    fit, held_out = parts_of(recording, *given, source=str(path))
+    common = {"name": facts.get("id", directory.name), "model": model, "recording": recording, "fit_window": fit,
+              "held_out_window": held_out, "sensor_noise": facts.get("angle_noise_rms_rad_approx")}
+    if facts["system"] == "standing":
+        return Case(**common, segment_length=None, driven=True, settling=3.0)
+    return Case(**common, segment_length=facts.get("segment_s") or _pieces(model, recording, fit), driven=False, settling=0.0,
+                mechanism=isinstance(fit, str))
+
+
+def rig_case(recording: str | os.PathLike, parameters: str | os.PathLike | Mapping[str, object], *, friction: Iterable[str] = (),
+             fit_window: Part | None = None, held_out: Part | None = None, sensor_noise: float | None = None) -> Case:
+    """A rig whose parameters are known, as a case: a chain of links that hangs from a mount.
+
+    Parameters
+    ----------
+    parameters, friction : as for `rig_model`.
+    fit_window, held_out : start and end [s] or labels of the column ``split``, whose labels for
+        fitting and holding out are taken where these are left out. Segments begin each from a
+        state of their own; a long motion is cut into pieces of a few swings.
+    sensor_noise : [rad]; told from the recording where left out.
+
+    Raises
+    ------
+    DiagnosisError : there is nothing to take for the window. RecordingError, ModelError : as for `rig_model`.
+    """
+    table = with_base_acceleration(read_recording(recording))
+    model = rig_model(parameters, table.channels, friction)
+    fit, later = parts_of(table, fit_window, held_out, source=str(recording))
+    return Case(table.name, model, table, fit, later, sensor_noise, _pieces(model, table, fit), driven=False, settling=0.0, mechanism=True)
+
+
+def diagnose_case(case: Case, **options) -> Diagnosis:
+    """`diagnose` with everything that the case says."""
+    return diagnose(case.model, case.recording, fit_window=case.fit_window, held_out=case.held_out_window,
+                    sensor_noise=case.sensor_noise, segment_length=case.segment_length, driven=case.driven,
+                    settling=case.settling, mechanism=case.mechanism, **options)
+
+
+def parts_of(recording: Recording, fit: Part | None, held_out: Part | None, source: str = "") -> tuple[Part, Part | None]:
+    """The two parts that are compared; those that the column ``split`` labels where they are not given."""
+    labels = [] if recording.split is None else list(dict.fromkeys(recording.split.tolist()))
+    source = source or recording.name
+    for part in (fit, held_out):
+        if isinstance(part, str) and part not in labels:
+            raise DiagnosisError(f"{source}: no segment is labelled '{part}'; labels of the column split: {', '.join(labels) or 'none'}")
+    if fit is None:
+        fit = next((k for k in FIT_LABELS if k in labels), None)
+        if fit is None:
+            found = f"its column split has the labels {', '.join(labels)}" if labels else "it has no column split"
+            raise DiagnosisError(f"{source}: which part is to be diagnosed? {found}; give a window of two times in seconds, or a label")
+    if held_out is None and isinstance(fit, str):
+        held_out = next((k for k in HELD_OUT_LABELS if k in labels and k != fit), None)
+    return fit, held_out
+
+
+def with_base_acceleration(recording: Recording) -> Recording:
+    """The recording with the acceleration of what carries the rig, from its position where that alone is recorded.
+
+    A base that stands still is left out.
+    """
+    for base in BASES:
+        position, acceleration = f"{base}_position", f"{base}_acceleration"
+        if acceleration in recording.channels:
+            moves = np.ptp(recording[acceleration]) > STILL
+            return recording if moves else recording.select(*(c for c in recording.channels if c != acceleration))
+        if position in recording.channels and np.ptp(recording[position]) > STILL:
+            return smooth_states(recording, position)
+    return recording
+
+
+def _pieces(model: Model, recording: Recording, fit: Part) -> float:
+    return piece_length(segments_of(model, recording, fit))
+
+
+def _check(facts: dict, path: Path) -> None:
+    """Windows, noise and length of a piece are usable where they are there."""
+    for key in ("fit_window_s", "heldout_window_s"):
+        if key in facts and not _is_window(facts[key]):
+            raise DiagnosisError(f"{path}: {key} must be a start and a later end in seconds, found {json.dumps(facts[key])}")
+    for key in ("angle_noise_rms_rad_approx", "segment_s"):
+        value = facts.get(key)
+        if value is not None and (isinstance(value, (bool, str)) or not value > 0):
+            raise DiagnosisError(f"{path}: {key} must be a number above zero, found {json.dumps(value)}; leave it out if it is unknown")
+
+
+def _is_window(window) -> bool:
+    return (isinstance(window, list) and len(window) == 2 and all(isinstance(t, (int, float)) for t in window)
+            and window[0] < window[1])
+
+
+def _facts(path: Path) -> dict:
+    try:
+        facts = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise DiagnosisError(f"{path.parent} is no case: it has no case.json") from None
+    except json.JSONDecodeError as error:
+        raise DiagnosisError(f"{path}: line {error.lineno} is not JSON: {error.msg}") from None
+    if not isinstance(facts, dict):
+        raise DiagnosisError(f"{path}: an object with the key 'system' is expected")
+    if "system" not in facts:
+        raise DiagnosisError(f"{path}: the key 'system' is missing")
+    return facts

@@ -1,0 +1,105 @@
+"""What the recording itself can be trusted for: the noise of its sensors, and whether it was filtered."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import comb
+
+import numpy as np
+from scipy.signal import welch
+
+from symid.estimation.data import Segment
+from symid.model import Model
+from symid.recording import Recording
+
+ORDER = 6
+"""Differences of this order leave noise and hardly any motion."""
+FALLING = 4.0
+"""A spectrum that still falls by this factor in the upper half of its band shows no floor of sensor noise."""
+ROUNDING = 1e-5
+"""A floor this small beside the motion is the rounding of a file and no sensor."""
+NOTHING = 1e-3
+"""Above the cutoff lies less than this part of the motion."""
+MOST_LEVELS = 0.5
+"""More different values than this part of the samples are no steps of an encoder."""
+UNKNOWN = 1e-3
+"""Noise of a sensor of which nothing can be known; the fit finds what matters, its ratio to the process noise."""
+
+
+@dataclass(frozen=True, eq=False)
+class Audit:
+    """Of each output in the model's order.
+
+    Attributes
+    ----------
+    noise : (m,) standard deviation of the sensor [SI]. stated : whether that was given.
+    cutoff : (m,) above this frequency the signal is empty, so it was low-pass filtered [Hz]; NaN where not.
+    rounding : (m,) step of the encoder [SI], 0 where values are not rounded visibly.
+    """
+
+    noise: np.ndarray
+    stated: bool
+    cutoff: np.ndarray
+    rounding: np.ndarray
+
+    def weight(self, step: float) -> float:
+        """Independent samples in each sample: a filtered signal has about as many a second as its cutoff.
+
+        The signal is empty from about twice the filter's bandwidth on, and a bandwidth carries two
+        independent samples a second for each Hz (Shannon 1949).
+        """
+        return min(1.0, step * float(np.nanmin(self.cutoff))) if self.filtered else 1.0
+
+    @property
+    def filtered(self) -> bool:
+        return bool(np.isfinite(self.cutoff).any())
+
+
+def audit(model: Model, recording: Recording, segments: tuple[Segment, ...], given: float | Mapping[str, float] | None) -> Audit:
+    """Sensor noise as stated, or else from the recording; and where its spectrum is empty."""
+    table = given if isinstance(given, Mapping) else recording.noise if given is None else {}
+    names = [y.channel for y in model.outputs.values()]
+    cutoff = np.array([_cutoff([e.recorded[:, i] for e in segments], segments[0].step) for i in range(len(names))])
+    rounding = np.array([_step(np.concatenate([e.recorded[:, i] for e in segments])) for i in range(len(names))])
+    if isinstance(given, (int, float)):
+        return Audit(np.full(len(names), float(given)), True, cutoff, rounding)
+    noise = [float(table[c]) if c in table else white_noise([e.recorded[:, i] for e in segments]) if np.isnan(cutoff[i]) else UNKNOWN
+             for i, c in enumerate(names)]
+    return Audit(np.array(noise), all(c in table for c in names), cutoff, rounding)
+
+
+def white_noise(pieces: list[np.ndarray]) -> float:
+    """Rms of white noise, from differences of an order that motion hardly reaches.
+
+    The squared binomial coefficients of order k add up to (2k)!/(k!)^2 (Anderson 1971, 3.4).
+    """
+    differences = [np.diff(x, ORDER) for x in pieces if len(x) > ORDER]
+    power = np.mean(np.concatenate(differences) ** 2) / comb(2 * ORDER, ORDER)
+    return float(np.sqrt(max(power, 1e-18 + 1e-12 * np.mean(np.concatenate(pieces) ** 2))))
+
+
+def _step(x: np.ndarray) -> float:
+    """The step of which all values are multiples (but for one offset), 0 where most values differ from each other."""
+    levels = np.unique(np.round(x, 8))
+    if not 3 <= len(levels) <= MOST_LEVELS * len(x):
+        return 0.0
+    gaps = np.diff(levels)
+    step = float(np.median(gaps[gaps < 1.5 * gaps.min()]))
+    counts = gaps / step
+    return step if np.all(np.abs(counts - np.round(counts)) < 0.1) else 0.0
+
+
+def _cutoff(pieces: list[np.ndarray], step: float) -> float:
+    """Frequency above which a signal is empty although its sampling would show noise there [Hz], or NaN."""
+    x = max(pieces, key=len)
+    if len(x) < 128:
+        return np.nan
+    # A window whose side lobes lie below the rounding of most files: what is seen is no leakage.
+    f, power = welch(x, 1 / step, window="blackmanharris", nperseg=min(len(x), max(128, int(5 / step))), detrend="linear")
+    total = np.cumsum(power[::-1])[::-1]
+    middle, top = (float(np.sqrt(np.median(power[(f > a * f[-1]) & (f <= b * f[-1])]))) for a, b in ((0.5, 0.65), (0.85, 0.99)))
+    floor = np.sqrt(top**2 * f[-1] / (total[1] * f[1] + 1e-300))
+    if middle < FALLING * top and floor > ROUNDING:
+        return np.nan
+    return float(f[np.argmax(total < NOTHING**2 * total[1])])

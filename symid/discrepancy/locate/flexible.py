@@ -1,0 +1,74 @@
+"""Flexible laws at every place: what could be explained there at most, whatever it is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from symid.discrepancy.model.hypothesis import Candidate, extended, penalty
+from symid.discrepancy.model.suspects import Suspect
+from symid.errors import SymidError
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit, Fitter
+from symid.mechanics.unknown_laws import unknown_force, unknown_input, unknown_sensor
+from symid.model import Model, Port, Term
+from symid.simulation import simulator
+
+MOST_ITERATIONS = 20
+
+
+def flexible_terms(fit: Fit, data: Data) -> list[Term]:
+    """A flexible term at every port, sensor and input, scaled by the motion of the fit."""
+    model, path, terms = fit.model, fitted_path(fit, data), []
+    for role in ("joint", "link"):
+        ports = [p for p in model.ports.values() if p.role == role]
+        scales = {p.at: (_size(along(path, p.position, model)), _size(along(path, p.rate, model))) for p in ports}
+        law = unknown_force(role, scales, data.span)
+        terms += [law.at(p.at) for p in ports if _first(model, p)]
+    recorded = np.vstack([e.recorded for e in data.segments])
+    scale = {y.at: _size(recorded[:, i]) for i, y in enumerate(model.outputs.values())}
+    law = unknown_sensor(scale, data.span)
+    terms += [law.at(y.at) for y in model.outputs.values() if y.role == "sensor"]
+    scale = {u.at: _size(np.concatenate([e.inputs[k] for e in data.segments])) for k, u in model.inputs.items()
+             if u.role == "excitation"}
+    law = unknown_input(scale, data.span)
+    return terms + [law.at(place) for place in scale]
+
+
+def _first(model: Model, port: Port) -> bool:
+    """Whether no earlier port acts alike, as the first joint does on the first link."""
+    alike = [p.name for p in model.ports.values() if (p.into, p.rate) == (port.into, port.rate)]
+    return alike[0] == port.name
+
+
+def _size(x: np.ndarray) -> float:
+    return float(np.sqrt(np.mean(x**2))) or 1.0
+
+
+def fitted_path(fit: Fit, data: Data) -> np.ndarray:
+    """(N, n) states of the fit, all segments one below the other."""
+    sim = simulator(fit.model)
+    return np.vstack([sim.simulate(fit.values, x0, e.time, e.inputs, gain=fit.kalman_gain, recorded=e.recorded).x
+                      for e, x0 in zip(data.segments, fit.initial, strict=True)])
+
+
+def along(path: np.ndarray, expr, model: Model) -> np.ndarray:
+    """(N,) a linear expression of the states along a path."""
+    return sum(float(expr.coeff(s.symbol)) * path[:, i] for i, s in enumerate(model.states.values()))
+
+
+def flexible_fits(base: Fit, data: Data, terms: Sequence[Term]) -> list[Candidate]:
+    """Each of these terms added to `base` and refitted, best score first."""
+    found = []
+    for term in terms:
+        suspect = Suspect(term, established=False)
+        try:
+            fitter = Fitter(base.model.with_term(term), data)
+            off = suspect.named({q.key: 0.0 for q in term.law.parameters})
+            fit = fitter.fit(base.values | off, extended(base.initial, fitter.sim), base.process, MOST_ITERATIONS, errors=False)
+        except SymidError:
+            continue
+        log_ratio = fit.loglik2 - base.loglik2
+        found.append(Candidate(suspect, fit, log_ratio, log_ratio - penalty([suspect], data, base, fit), 0.0))
+    return sorted(found, key=lambda c: -c.score)

@@ -1,0 +1,170 @@
+"""Locate: the torque that a model lacks, per equation and over time, by smoothing what it leaves.
+
+The error of a fitted model's free run obeys the model linearised along that run, driven by what
+is missing. With the missing torque as a random walk, a Kalman filter and the smoother of Rauch,
+Tung & Striebel (1965) give it with its standard error.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import comb
+
+import numpy as np
+from scipy.linalg import expm
+
+from symid.estimation.fit import Fit
+from symid.estimation.free_run import FreeRun
+from symid.estimation.kalman import linearised_along
+from symid.model import Model, Noise
+
+PACES = (0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
+"""Rates of the random walk that are tried, in torques that move an output by its error, per root second."""
+_ORDER = 6
+TURNING = 40
+"""The linearisation is the mean over so many states of the run."""
+
+
+@dataclass(frozen=True, eq=False)
+class Latent:
+    """Missing torque at one place: estimate and standard error over time, (N,) each [`unit`]."""
+
+    place: str
+    unit: str
+    time: np.ndarray
+    torque: np.ndarray
+    error: np.ndarray
+
+
+def latent_torques(fit: Fit, run: FreeRun) -> tuple[Latent, ...]:
+    """What is missing at each of the model's process noises, which stand where forces act.
+
+    Parameters
+    ----------
+    run : the fitted model's free run on the window that it was fitted to. The sensors' noise is read off it.
+    """
+    model: Model = fit.model
+    if not model.noises:
+        return ()
+    sim = fit.simulator
+    step = float(np.median(np.diff(run.time)))
+    linear = linearised_along(sim, np.array([fit.values[k] for k in sim.parameters]), _states(model, run, step), TURNING)
+    A, G, C = linear.without_delay()
+    residual = run.recorded - run.simulated
+    size = _moving(A, G, C, residual)
+    ends = np.cumsum([len(s) for s in fit.innovations])
+    pieces = list(zip([0, *ends[:-1]], ends, strict=True)) if ends[-1] == len(run.time) else [(0, len(run.time))]
+    torque, variance = _most_likely(A, G * size, C, residual, step, _sensor_noise(run.recorded), pieces)
+    error = np.sqrt(variance)
+    size = size * [_sign(model, w) for w in model.noises.values()]
+    return tuple(Latent(w.at or name, w.unit, run.time, torque[:, i] * size[i], error[:, i] * abs(size[i]))
+                 for i, (name, w) in enumerate(model.noises.items()))
+
+
+def _most_likely(A, G, C, residual, step, noise, pieces):
+    """Torques (N, w) and their variances, with the pace of the walk that makes the error most likely."""
+    n, w = G.shape
+    H, R = np.hstack([C, np.zeros((len(C), w))]), np.diag(noise**2)
+    spread = 10 * max(np.sqrt(np.mean(residual**2)), noise.max())
+    start = np.diag([spread] * n + [1.0] * w) ** 2
+    longest = max(end - begin for begin, end in pieces)
+    best = None
+    for pace in PACES:
+        F, Q = _walk(A, G, step, pace)
+        steps = _covariances(F, Q, H, R, start, longest)
+        value, before, after = _filtered(F, H, residual, pieces, steps)
+        if best is None or value > best[0]:
+            best = value, F, before, after, steps
+    x, variance = _smoothed(*best[1:4], pieces, best[4])
+    return x[:, n:], variance[:, n:]
+
+
+def _sign(model: Model, noise: Noise) -> float:
+    """-1 for a noise that enters the balances against the force at its joint."""
+    port = next((p for p in model.ports.values() if p.at == noise.at and p.role == "joint"), None)
+    if port is None:
+        return 1.0
+    equation, into = next(iter(port.into.items()))
+    return float(np.sign(float(model[equation].expr.coeff(noise.symbol) * into))) or 1.0
+
+
+def _sensor_noise(recorded: np.ndarray) -> np.ndarray:
+    """(m,) rms of white noise, from differences of an order that motion hardly reaches.
+
+    The squared binomial coefficients of order k add up to (2k)!/(k!)^2 (Anderson 1971, 3.4).
+    """
+    power = np.mean(np.diff(recorded, _ORDER, axis=0) ** 2, axis=0) / comb(2 * _ORDER, _ORDER)
+    return np.sqrt(np.maximum(power, 1e-18 + 1e-6 * np.mean(recorded**2, axis=0)))
+
+
+def _states(model: Model, run: FreeRun, step: float) -> np.ndarray:
+    """States along the run: what outputs show, and their slopes for rates; zero for others."""
+    shown = {str(y.expr): run.simulated[:, i] for i, y in enumerate(model.outputs.values())}
+    rates = model.rates()
+    return np.column_stack([shown[s] if s in shown else np.gradient(shown[rates[s]], step) if rates.get(s) in shown
+                            else np.zeros(len(run.time)) for s in model.states])
+
+
+def _moving(A, G, C, residual) -> np.ndarray:
+    """(w,) size of each torque that, held for a second, moves an output by its error."""
+    n = len(A)
+    block = np.zeros((n + G.shape[1],) * 2)
+    block[:n, :n], block[:n, n:] = A, G
+    moved = np.abs(C @ expm(block)[:n, n:]) / np.maximum(np.sqrt(np.mean(residual**2, axis=0)), 1e-12)[:, None]
+    return 1.0 / np.maximum(moved.max(0), 1e-12)
+
+
+def _walk(A, G, step: float, pace: float) -> tuple[np.ndarray, np.ndarray]:
+    """Transition and process covariance of state and torque over one sample, the torque a random walk."""
+    n, w = G.shape
+    block = np.zeros((n + w, n + w))
+    block[:n, :n], block[:n, n:] = A * step, G * step
+    Q = np.zeros_like(block)
+    Q[n:, n:] = np.eye(w) * pace**2 * step
+    return expm(block), Q
+
+
+def _covariances(F, Q, H, R, P, longest: int):
+    """Before and after each sample, with gain and covariance of the innovations, until they repeat."""
+    found, eye = [], np.eye(len(F))
+    for k in range(longest):
+        P = F @ P @ F.T + Q if k else P
+        S = H @ P @ H.T + R
+        K = np.linalg.solve(S, H @ P).T
+        after = (eye - K @ H) @ P @ (eye - K @ H).T + K @ R @ K.T   # Joseph's form stays positive
+        found.append((P, after, K, S))
+        if k and np.allclose(P, found[-2][0], rtol=1e-7, atol=0):
+            break
+        P = after
+    return found
+
+
+def _filtered(F, H, residual, pieces, steps):
+    """Log-likelihood, and states before and after each sample."""
+    before, after, value = np.zeros((len(residual), len(F))), np.zeros((len(residual), len(F))), 0.0
+    inverse = [(np.linalg.inv(S), np.linalg.slogdet(S)[1]) for *_, S in steps]
+    for begin, end in pieces:
+        x = np.zeros(len(F))
+        for k in range(begin, end):
+            i = min(k - begin, len(steps) - 1)
+            x = F @ x if k > begin else x
+            e = residual[k] - H @ x
+            value -= 0.5 * (e @ inverse[i][0] @ e + inverse[i][1])
+            before[k] = x
+            after[k] = x = x + steps[i][2] @ e
+    return value, before, after
+
+
+def _smoothed(F, before, after, pieces, steps):
+    """States and their variances given all samples of the piece (Rauch, Tung & Striebel 1965)."""
+    x, variance = after.copy(), np.empty_like(after)
+    back = [np.linalg.solve(steps[min(i + 1, len(steps) - 1)][0], F @ s[1]).T for i, s in enumerate(steps)]
+    for begin, end in pieces:
+        P = steps[min(end - 1 - begin, len(steps) - 1)][1]
+        variance[end - 1] = np.diag(P)
+        for k in range(end - 2, begin - 1, -1):
+            i = min(k - begin, len(steps) - 1)
+            x[k] += back[i] @ (x[k + 1] - before[k + 1])
+            P = steps[i][1] + back[i] @ (P - steps[min(i + 1, len(steps) - 1)][0]) @ back[i].T
+            variance[k] = np.diag(P)
+    return x, np.maximum(variance, 0.0)

@@ -1,0 +1,70 @@
+"""What is left of a fit once its own unknowns have explained all that they can, and how terms would change it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from symid.discrepancy.model.hypothesis import extended, padded
+from symid.discrepancy.model.suspects import Suspect
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit, Fitter, whitened
+from symid.simulation import Simulator
+
+
+class Projection:
+    """The innovations of one fit with everything that its own unknowns could explain taken out."""
+
+    def __init__(self, fit: Fit, data: Data):
+        self.fit, self.data = fit, data
+        fitter = Fitter(fit.model, data)
+        self.substeps = fitter.substeps
+        runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.kalman_gain, sensitivities=True)
+        self.white = np.sqrt(data.weight) * np.linalg.inv(np.linalg.cholesky(fit.covariance))
+        q, n = len(fitter.free), fit.initial.shape[1]
+        columns = []
+        for i, t in enumerate(runs):
+            J = self.whiten(t.dy)
+            wide = np.zeros((len(J), q + n * len(runs)))
+            wide[:, :q], wide[:, q + i * n:q + (i + 1) * n] = J[:, :q], J[:, q:]
+            columns.append(wide)
+        J = np.vstack(columns)
+        J /= np.maximum(np.sqrt((J**2).sum(0)), 1e-300)
+        U, s, _ = np.linalg.svd(J, full_matrices=False)
+        self.own = U[:, s > 1e-8 * s[0]]
+        self.rest = self.project(np.concatenate([self.whiten(s[:, :, None])[:, 0] for s in fit.innovations]))
+
+    def whiten(self, a: np.ndarray) -> np.ndarray:
+        """(N, m, q) -> (N m, q) with unit covariance."""
+        return whitened(self.white, a)
+
+    def project(self, a: np.ndarray) -> np.ndarray:
+        return a - self.own @ (self.own.T @ a)
+
+    def score(self, columns: np.ndarray, rest: np.ndarray | None = None) -> tuple[float, np.ndarray]:
+        """Gain of twice the log-likelihood forecast for (N m, q) columns, and their coefficients; of other innovations if given."""
+        rest = self.rest if rest is None else rest
+        a = self.project(columns)
+        kept = (a**2).sum(0) > 1e-8 * (columns**2).sum(0)
+        scale = np.sqrt((a**2).sum(0)) + 1e-300
+        a = np.where(kept, a / scale, 0.0)
+        c, *_ = np.linalg.lstsq(a.T @ a, a.T @ rest, rcond=1e-8)
+        return float(c @ (a.T @ rest)), c / scale
+
+    def response(self, suspect: Suspect, sim: Simulator, values: dict[str, float],
+                 each: Sequence[dict[str, float]] | None = None) -> np.ndarray | None:
+        """(N m, q) change of the predictions per unit of what can be switched off, at `values`, `each` of one segment."""
+        names = [suspect.term.parameter_name(q.key) for q in suspect.law.parameters if q.null is not None]
+        out = []
+        for e, x0, own in zip(self.data.segments, extended(self.fit.initial, sim), each or [{}] * len(self.data.segments), strict=True):
+            if not suspect.touches(values, e):
+                out.append(np.zeros((e.recorded.size, len(names))))
+                continue
+            p = self.fit.values | suspect.named(values | own)
+            t = sim.simulate(p, x0, e.time, e.inputs, substeps=self.substeps, gain=padded(self.fit.kalman_gain, sim),
+                             recorded=e.recorded, sensitivity=names, keep="outputs")
+            if t.diverged:
+                return None
+            out.append(self.whiten(t.dy))
+        return np.vstack(out)

@@ -1,0 +1,132 @@
+"""Is anything systematic left? Flexible laws at every place, and the whiteness of the innovations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.stats import chi2
+
+from symid.discrepancy.locate.flexible import flexible_terms
+from symid.discrepancy.locate.modulation import PARTS, modulated
+from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.model.hypothesis import extended, padded
+from symid.errors import SymidError
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit
+from symid.model import Term
+from symid.simulation import Simulator, simulator
+
+REMAINDER = 4.5
+"""-log10 of the probability by chance from which a remainder counts as systematic."""
+ROUNDINGS = 12
+"""So often the rounding of encoders is simulated."""
+WHITENING = 0.6
+"""Noise of this part of an encoder's step makes its rounding errors random (Widrow 1961)."""
+WHITENESS_LAGS = 25
+"""So many lags of the innovations' correlation enter the test of whiteness."""
+
+_WHAT = {"unknown_force": "a force that depends on position, speed, the past or time",
+         "unknown_sensor_error": "a distortion of what the sensor shows",
+         "unknown_input_error": "an excitation other than the recorded one"}
+
+
+@dataclass(frozen=True)
+class Test:
+    """One test for something left over.
+
+    Attributes
+    ----------
+    place : where it would act. what : in words. log_ratio : growth of twice the log-likelihood, or the
+    statistic. size : its degrees of freedom. tried : the largest of so many. minus_log10_p : -log10 of the probability by chance.
+    """
+
+    place: str
+    what: str
+    log_ratio: float
+    size: int
+    locates: bool = True
+    tried: int = 1
+
+    @property
+    def minus_log10_p(self) -> float:
+        return max(0.0, float(-chi2.logsf(self.log_ratio, self.size) / np.log(10) - np.log10(self.tried)))
+
+
+def remainder(fit: Fit, data: Data) -> list[Test]:
+    """All tests, the least probable first."""
+    projection, found = Projection(fit, data), []
+    rounded = _rounded(fit, data)
+    nulls = [projection.project(np.concatenate([projection.whiten(s[:, :, None])[:, 0] for s in null])) for null in rounded]
+    for term in flexible_terms(fit, data):
+        try:
+            sim = simulator(fit.model.with_term(term))
+        except SymidError:
+            continue
+        columns = _columns(projection, sim, term)
+        if columns is not None:
+            gain, coefficients = projection.score(columns)
+            size = int(np.count_nonzero(coefficients))
+            found.append(Test(term.location, _WHAT[term.name], gain / _excess([projection.score(columns, r)[0] for r in nulls], size), size))
+    found += [Test(place, "a stiffness or damping that comes and goes", gain, PARTS, tried=tried)
+              for place, gain, tried in modulated(projection)]
+    for o, y in enumerate(fit.model.outputs.values()):
+        statistic = _ljung_box(projection, fit.innovations, o) / _excess([_ljung_box(projection, r, o) for r in rounded], WHITENESS_LAGS)
+        found.append(Test(y.at, "innovations that follow from earlier ones", statistic, WHITENESS_LAGS, locates=False))
+    return sorted(found, key=lambda t: -round(t.minus_log10_p, 1))
+
+
+def _columns(projection: Projection, sim: Simulator, term: Term) -> np.ndarray | None:
+    names = [term.parameter_name(q.key) for q in term.law.parameters]
+    values, out = projection.fit.values | dict.fromkeys(names, 0.0), []
+    for e, x0 in zip(projection.data.segments, extended(projection.fit.initial, sim), strict=True):
+        t = sim.simulate(values, x0, e.time, e.inputs, substeps=projection.substeps, gain=padded(projection.fit.kalman_gain, sim),
+                         recorded=e.recorded, sensitivity=names, keep="outputs")
+        if t.diverged:
+            return None
+        out.append(projection.whiten(t.dy))
+    return np.vstack(out)
+
+
+def _ljung_box(projection: Projection, innovations: Sequence[np.ndarray], output: int) -> float:
+    """Ljung-Box (1978) statistic of one output's innovations over all segments, of those that can be independent."""
+    total, count = np.zeros(WHITENESS_LAGS), 0
+    power, every = 0.0, round(1 / projection.data.weight)
+    for s in innovations:
+        e = (s[::every] @ projection.white.T)[:, output]
+        count += len(e)
+        power += e @ e
+        total += [e[k:] @ e[:-k] for k in range(1, WHITENESS_LAGS + 1)]
+    r = total / power
+    lags = np.arange(1, WHITENESS_LAGS + 1)
+    return count * (count + 2) * float(np.sum(r**2 / (count - lags)))
+
+
+# ---- what rounding does to the tests -----------------------------------------------------------
+def _rounded(fit: Fit, data: Data) -> list[list[np.ndarray]]:
+    """Surprises of encoders that show the fitted motion and nothing else; none where steps are small beside the noise.
+
+    Where an encoder hardly jitters, its rounding errors follow each other in slow motion.
+    """
+    step = data.rounding
+    if fit.kalman_gain is not None or not np.any(step):
+        return []
+    jitter = np.sqrt(np.maximum(np.diag(fit.covariance) - step**2 / 12, 0.0))
+    if np.all(jitter > WHITENING * step):
+        return []
+    found = []
+    for seed in range(ROUNDINGS):
+        rng, safe, null = np.random.default_rng(seed), np.where(step > 0, step, 1.0), []
+        offset = rng.uniform(0, 1, len(step)) * step
+        for e, s in zip(data.segments, fit.innovations, strict=True):
+            shown = e.recorded - s + offset
+            noisy = shown + jitter * rng.standard_normal(s.shape)
+            null.append(np.where(step > 0, np.round(noisy / safe) * safe, noisy) - shown)
+        found.append(null)
+    return found
+
+
+def _excess(nulls: list[float], size: int) -> float:
+    """How many times larger than by chance a statistic is because of rounding alone."""
+    return max(1.0, float(np.mean(nulls)) / max(size, 1)) if nulls else 1.0

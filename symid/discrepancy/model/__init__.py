@@ -1,0 +1,1 @@
+"""Models with something added: suspects, refits, flexible laws."""

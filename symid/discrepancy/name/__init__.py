@@ -1,0 +1,1 @@
+"""Which known law it is."""

@@ -1,0 +1,100 @@
+"""Where a suspect that follows a clock would act: forecasts over a grid of its moments or frequencies."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.signal import fftconvolve
+
+from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.model.suspects import HIGHEST_FREQUENCY, Suspect
+from symid.discrepancy.name.comb import comb
+from symid.model import Model
+from symid.simulation import Simulator, simulator
+
+
+def scan(projection: Projection, suspect: Suspect, model: Model) -> list[tuple[float, dict[str, float]]]:
+    """Forecasts over the grid of the scanned parameter, best first, with start values."""
+    sim, found = simulator(model), []
+    strength = suspect.strength.key
+    if projection.data.driven and suspect.scanned.key == "start_s":
+        grid = slide(projection, suspect, sim)
+    elif projection.data.driven and suspect.scanned.key == "frequency_Hz":
+        grid = sweep(projection, suspect, sim)
+    elif suspect.scanned.key == "frequency_Hz":
+        grid = comb(projection, suspect, sim, HIGHEST_FREQUENCY)
+    else:
+        grid = suspect.grid(projection.data)
+    for values in grid:
+        quadratures = suspect.quadratures(values)
+        columns = [projection.response(suspect, sim, v) for v in quadratures]
+        if any(c is None for c in columns):
+            continue
+        gain, c = projection.score(np.hstack(columns))
+        if len(c) == 2:
+            turned = {strength: float(np.hypot(*c)), suspect.phase: float(np.arctan2(c[1], c[0]))}
+        else:
+            turned = {strength: suspect.strength.null + float(c[0])}
+        found.append((gain, values | turned))
+    low, high = suspect.strength.bounds
+    found = [(g, v) for g, v in found if low <= v[strength] <= high]
+    return sorted(found, key=lambda f: -f[0])
+
+
+def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 4) -> list[dict[str, float]]:
+    """The best starts of an event: its response is computed once per shape and slid over the innovations.
+
+    A loop that is nearly linear and does not change answers alike at all times; what this picks
+    is scored exactly afterwards.
+    """
+    (t0, t1), found = projection.data.span, []
+    step = projection.data.segments[0].step
+    rest = projection.rest.reshape(-1, len(projection.white))
+    for values in suspect.shapes():
+        middle = 0.5 * (t0 + t1)
+        column = projection.response(suspect, sim, values | {"start_s": middle})
+        if column is None:
+            continue
+        first = int((middle - t0) / step) - 1
+        kernel = column.reshape(rest.shape)[first:first + int(10 / step)]
+        score = sum(fftconvolve(rest[:, o], kernel[::-1, o])[len(kernel) - 1:] for o in range(rest.shape[1]))
+        gain = score**2 / (kernel**2).sum()
+        for k in _peaks(gain, int(0.5 / step), keep):
+            found.append((gain[k], values | {"start_s": float(t0 + (k + 1) * step)}))
+    return [v for _, v in sorted(found, key=lambda f: -f[0])[:2 * keep]]
+
+
+def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 6) -> list[dict[str, float]]:
+    """The best frequencies: the response is known from a few and interpolated, innovations by FFT."""
+    rest = projection.rest.reshape(-1, len(projection.white))
+    n, step = len(rest), projection.data.segments[0].step
+    time = np.arange(n) * step
+    known = np.geomspace(0.05, HIGHEST_FREQUENCY, 24)
+    answers = []
+    for f in known:
+        column = projection.response(suspect, sim, suspect.starts()[0] | {"frequency_Hz": float(f), suspect.phase: 0.0})
+        if column is None:
+            return []
+        late = slice(n // 5, None)
+        basis = np.column_stack([np.cos(2 * np.pi * f * time), np.sin(2 * np.pi * f * time)])[late]
+        c, *_ = np.linalg.lstsq(basis, column.reshape(rest.shape)[late], rcond=None)
+        answers.append(c[0] - 1j * c[1])
+    size = 4 * n
+    f = np.fft.rfftfreq(size, step)
+    use = (f > 1.0 / time[-1]) & (f < HIGHEST_FREQUENCY)
+    spectrum = np.fft.rfft(rest, size, axis=0)[use]
+    G = np.column_stack([np.interp(f[use], known, [a[o].real for a in answers])
+                         + 1j * np.interp(f[use], known, [a[o].imag for a in answers]) for o in range(rest.shape[1])])
+    gain = 2 * np.abs((G.conj() * spectrum).sum(1)) ** 2 / (n * (np.abs(G) ** 2).sum(1) + 1e-300)
+    return [suspect.starts()[0] | {"frequency_Hz": float(f[use][k])} for k in _peaks(gain, 6, keep)]
+
+
+def _peaks(values: np.ndarray, apart: int, keep: int) -> list[int]:
+    """Indices of the largest values that are at least `apart` from each other."""
+    values, found = values.copy(), []
+    for _ in range(keep):
+        k = int(np.argmax(values))
+        if not values[k] > 0:
+            break
+        found.append(k)
+        values[max(0, k - apart):k + apart + 1] = 0
+    return found

@@ -1,0 +1,1 @@
+"""Whether data that were not used agree."""

@@ -1,0 +1,161 @@
+"""Does a finding survive on each half of the recording alone?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import hypot
+
+import numpy as np
+
+from symid.discrepancy.locate.remainder import REMAINDER, remainder
+from symid.discrepancy.model.hypothesis import penalty
+from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.name.search import explore
+from symid.errors import SymidError
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit, Fitter
+from symid.estimation.robust_errors import with_robust_errors
+
+APART = 3.0
+"""Values from two halves that differ by more than so many of their standard errors contradict each other."""
+ITERATIONS = 15
+_UNITS = ("Nm", "Nms", "N", "rad", "rad2", "rad3", "s", "s2", "Hz", "kg", "m", "m2")
+
+
+@dataclass(frozen=True)
+class Half:
+    """One effect on one half of the fit window.
+
+    Attributes
+    ----------
+    span : start and end [s]. score : log-likelihood ratio that is lost without the effect, less its penalty.
+    parameters : key -> (value, standard error), SI.
+    """
+
+    span: tuple[float, float]
+    score: float
+    parameters: dict[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Survival:
+    """One effect on both halves. `reason` is empty where it survives."""
+
+    name: str
+    location: str
+    halves: tuple[Half, Half]
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class HalfVerdict:
+    """What one half of the fit window says alone: start and end [s], the verdict, and a suspect that explains more there, if any."""
+
+    span: tuple[float, float]
+    verdict: str
+    rival: Suspect | None = None
+
+
+def verdicts(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, rivals: Sequence[Suspect]) -> tuple[HalfVerdict, ...]:
+    """The verdict on each of two disjoint halves, with what was found and each of `rivals` in its place.
+
+    Empty where a half cannot be fitted.
+    """
+    found = []
+    for half, initial in zip(data.halves(), _states(fit, data), strict=True):
+        near = replace(fit, initial=initial)
+        given, whole = _refit([], near, base, half), _refit(suspects, near, base, half)
+        if given is None or whole is None:
+            return ()
+        score = whole.loglik2 - given.loglik2 - penalty(suspects, half, given, whole)
+        explained = score > 0 and bool(suspects)
+        verdict = "unexplained" if remainder(whole, half)[0].minus_log10_p > REMAINDER else "missing_physics" if explained else "adequate"
+        found.append(HalfVerdict(half.span, verdict, _better(rivals, score, given, half) if len(suspects) == 1 else None))
+    return tuple(found)
+
+
+def _better(rivals: Sequence[Suspect], score: float, given: Fit, half: Data) -> Suspect | None:
+    """The rival that explains a half better than the score of what was found, if one does."""
+    found = [c for c in explore(given, half, rivals, threads=1) if c.score > score] if rivals else []
+    return found[0].suspect if found else None
+
+
+def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool,
+              others: Sequence[Suspect] = ()) -> tuple[Survival, ...]:
+    """Every lasting effect of `suspects` refitted on two disjoint halves, each compared with the model that lacks only it.
+
+    Effects that last for a time only, or begin at one, are left out: a half need not contain them.
+
+    Parameters
+    ----------
+    others : all suspects in `fit`, where those asked for are not all.
+    white : whether innovations are white, so that plain standard errors are believed.
+    """
+    lasting = [s for s in suspects if s.scanned is None or s.scanned.key == "frequency_Hz"]
+    if not lasting or not fit.errors:
+        return ()
+    states, found = _states(fit, data), []
+    for half, initial in zip(data.halves(), states, strict=True):
+        found.append(_on_half(lasting, list(others or suspects), replace(fit, initial=initial), base, half, white))
+        if found[-1] is None:
+            return ()
+    pairs = zip(*found, strict=True)
+    return tuple(Survival(s.term.name, s.term.location, pair, _reason(pair)) for s, pair in zip(lasting, pairs, strict=True))
+
+
+def _states(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
+    """Where the initial states of the halves are looked for."""
+    if len(data.segments) > 1:
+        n = len(data.segments) // 2
+        return fit.initial[:n], fit.initial[n:]
+    fitter = Fitter(fit.model, data)
+    p = np.array([fit.values[k] for k in fitter.sim.parameters])
+    run, = fitter.run(p, fit.initial, fit.kalman_gain, sensitivities=False, keep="states")
+    return fit.initial, run.x[[len(run.x) // 2]]
+
+
+def _on_half(lasting: list[Suspect], suspects: list[Suspect], near: Fit, base: Fit, data: Data, white: bool) -> list[Half] | None:
+    """The lasting effects on one half, or None where the found model cannot be fitted to it."""
+    whole = _refit(suspects, near, base, data)
+    if whole is None:
+        return None
+    trusted, halves = whole if white else with_robust_errors(whole, data), []
+    for s in lasting:
+        less = _refit([t for t in suspects if t is not s], near, base, data)
+        score = np.inf if less is None else whole.loglik2 - less.loglik2 - penalty([s], data, less, whole)
+        names = {q.key: s.term.parameter_name(q.key) for q in s.law.parameters}
+        halves.append(Half(data.span, float(score), {key: (trusted.values[k], trusted.errors[k]) for key, k in names.items()}))
+    return halves
+
+
+def _refit(suspects: list[Suspect], near: Fit, base: Fit, data: Data) -> Fit | None:
+    """The base model with these suspects, from the values and states of a fit that has them all."""
+    model = base.model
+    for s in suspects:
+        model = model.with_term(s.term)
+    fitter = Fitter(model, data)
+    columns = [near.simulator.states.index(k) for k in fitter.sim.states]
+    try:
+        return fitter.fit({k: near.values[k] for k in fitter.sim.parameters}, near.initial[:, columns], near.process, ITERATIONS)
+    except SymidError:
+        return None
+
+
+def _reason(halves: tuple[Half, Half]) -> str:
+    """Why an effect does not survive, or nothing."""
+    for half, which in zip(halves, ("first", "second"), strict=True):
+        if half.score <= 0:
+            return f"the {which} half alone does not ask for it"
+    for key in halves[0].parameters:
+        (a, s), (b, r) = (h.parameters[key] for h in halves)
+        if abs(a - b) > APART * hypot(s, r):
+            return f"its {_said(key)} differs between the halves by {abs(a - b) / hypot(s, r):.0f} standard errors"
+    return ""
+
+
+def _said(key: str) -> str:
+    """A parameter's key without its unit: "time constant" of ``time_constant_s``."""
+    words = key.split("_")
+    kept = [w for w in words if w not in _UNITS]
+    return " ".join(kept if kept else words)

@@ -1,0 +1,175 @@
+"""The finding: what the model leaves out, where, how large, how sure."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from html import escape
+from importlib import import_module
+from math import isfinite
+from pathlib import Path
+
+from symid.discrepancy.locate.audit import Audit
+from symid.discrepancy.locate.remainder import Test
+from symid.discrepancy.model.hypothesis import Candidate
+from symid.discrepancy.prove.halves import HalfVerdict, Survival
+from symid.estimation.fit import Fit
+from symid.estimation.free_run import FreeRun
+from symid.files import write_atomically
+from symid.model import Model
+
+FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One piece of missing physics.
+
+    Attributes
+    ----------
+    parameters : key -> (value, standard error), SI.
+    window : start and end [s] of an effect that lasts only for a time, or that begins at one.
+    log_ratio : growth of twice the log-likelihood that is lost without it.
+    established : whether its name is an answer; else it says what something unexplained looks like.
+    """
+
+    name: str
+    location: str
+    parameters: dict[str, tuple[float, float]]
+    window: tuple[float, float] | None
+    log_ratio: float
+    sentence: str = ""
+    established: bool = True
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Diagnosis:
+    """What `diagnose` found.
+
+    Attributes
+    ----------
+    verdict : ``"missing_physics"``, ``"adequate"`` or ``"unexplained"``.
+    effects : what is missing; for ``unexplained`` one entry with the place and what it looks like.
+    ranking : all suspects that were refitted, by score. equivalent : those that explain as much.
+    baseline, final : fits before and after. improved : the model with the found terms.
+    runs : free simulations by ``baseline_train``, ``baseline_heldout``, ``augmented_train``, ``augmented_heldout``.
+    remainder : tests for something left over. words : the finding in sentences.
+    audit : noise of the sensors, and whether the recording was filtered. halves : each effect on two halves;
+    verdicts_of_halves : what either half alone says, where what is left is not random.
+    """
+
+    verdict: str
+    effects: tuple[Effect, ...]
+    ranking: tuple[Candidate, ...]
+    equivalent: tuple[Candidate, ...]
+    baseline: Fit
+    final: Fit
+    runs: dict[str, FreeRun]
+    remainder: tuple[Test, ...]
+    words: str
+    audit: Audit
+    halves: tuple[Survival, ...] = ()
+    verdicts_of_halves: tuple[HalfVerdict, ...] = ()
+
+    @property
+    def improved(self) -> Model:
+        return self.final.model
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Parameters of the improved model, SI."""
+        return self.final.values
+
+    def answer(self) -> dict:
+        """The finding as plain numbers and text, in the answer format."""
+        def rms(when: str) -> dict:
+            runs = {part: self.runs[f"{when}_{part}"] for part in ("train", "heldout") if f"{when}_{part}" in self.runs}
+            pieces = {f"{part}_rms_rad_of_segments": [r for _, r in run.of_segments()]
+                      for part, run in runs.items() if len(run.lengths) > 1}
+            return {f"{part}_rms_rad": run.rms for part, run in runs.items()} | pieces
+        return {
+            "format": FORMAT,
+            "verdict": self.verdict,
+            "effects": [{"name": e.name, "location": e.location,
+                         "time_window_s": None if e.window is None else list(e.window),
+                         "parameters": {k: _value(*v) for k, v in e.parameters.items()}}
+                        for e in self.effects],
+            "ranking": self._ranking(),
+            "equivalent": [{"name": c.suspect.term.name, "location": c.suspect.term.location,
+                            "why": f"explains the recording almost as well (score {c.score:.1f})"} for c in self.equivalent],
+            "confirmed": self.confirmed,
+            "fit": {"baseline": rms("baseline"), "augmented": rms("augmented")},
+            "halves": [self._half(s) for s in self.halves],
+            "verdicts_of_halves": [{"span_s": list(v.span), "verdict": v.verdict, "better_explained_by": None if v.rival is None else
+                                    {"name": v.rival.term.name, "location": v.rival.term.location}} for v in self.verdicts_of_halves],
+            "recording": self._recording(),
+            "remainder": [{"location": t.place, "what": t.what, "gain": t.log_ratio, "degrees_of_freedom": t.size,
+                           "minus_log10_probability": min(t.minus_log10_p, 300.0)} for t in self.remainder[:3]],
+            "words": self.words,
+        }
+
+    @property
+    def confirmed(self) -> bool | None:
+        """Whether the held-out window is simulated better with what was found; None where there is neither."""
+        if not self.effects or "augmented_heldout" not in self.runs or self.final is self.baseline:
+            return None
+        return self.runs["augmented_heldout"].rms < self.runs["baseline_heldout"].rms
+
+    @staticmethod
+    def _half(s: Survival) -> dict:
+        return {"name": s.name, "location": s.location, "survives": not s.reason, "reason": s.reason or None,
+                "halves": [{"span_s": list(h.span), "score": h.score if isfinite(h.score) else None,
+                            "parameters": {k: _value(*v) for k, v in h.parameters.items()}} for h in s.halves]}
+
+    def _recording(self) -> dict:
+        names = [y.channel for y in self.improved.outputs.values()]
+        return {"sensor_noise": dict(zip(names, map(float, self.audit.noise), strict=True)), "sensor_noise_stated": self.audit.stated,
+                "filtered_above_Hz": {k: f for k, f in zip(names, map(float, self.audit.cutoff), strict=True) if isfinite(f)}}
+
+    def _ranking(self) -> list[dict]:
+        """The effects that were found, then the other suspects by score."""
+        found = [{"name": e.name, "location": e.location, "score": e.log_ratio} for e in self.effects]
+        taken = {(e["name"], e["location"]) for e in found}
+        return found + [{"name": t.name, "location": t.location, "score": c.score} for c in self.ranking
+                        if ((t := c.suspect.term).name, t.location) not in taken]
+
+    def report(self, path: str | Path) -> Path:
+        """Write a self-contained HTML report with figures."""
+        # Reports stand on the roof, and a diagnosis must not need them: fetched by name when asked for.
+        return import_module("symid.report").write_diagnosis_report(self, path, f"Diagnosis of {self.baseline.model.name}")
+
+    def to_json(self, path: str | Path) -> Path:
+        """Write the answer; the file appears when it is whole."""
+        return write_atomically(path, json.dumps(self.answer(), indent=1))
+
+    def held_out_csv(self, path: str | Path) -> Path:
+        """Write the improved model's prediction of the held-out window, columns as in the recording."""
+        run = self.runs["augmented_heldout"]
+        names = [f"{y.channel}_rad" if y.unit == "rad" else y.channel for y in self.improved.outputs.values()]
+        rows = [["time_s", *names], *([f"{t:.6f}", *(f"{v:.9g}" for v in y)] for t, y in zip(run.time, run.simulated, strict=True))]
+        text = "".join(",".join(r) + "\n" for r in rows)
+        return write_atomically(path, text)
+
+    def __str__(self) -> str:
+        return self.words
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{e.name} at {e.location}" for e in self.effects)
+        return f"<Diagnosis: {self.verdict}{': ' * bool(found)}{found}>"
+
+    def _repr_html_(self) -> str:
+        cell = "style='text-align:left;padding:2px 14px 2px 0'"
+        rows = [["effect", "place", "value, SI (± standard error)"]] if self.effects else []
+        rows += [[e.name.replace("_", " "), e.location,
+                  ", ".join(f"{k} = {v:.4g} ± {s:.2g}" for k, (v, s) in e.parameters.items()) or e.sentence]
+                 for e in self.effects]
+        table = "".join("<tr>" + "".join(f"<{kind} {cell}>{escape(x)}</{kind}>" for x in row) + "</tr>"
+                        for row, kind in zip(rows, ["th"] + ["td"] * len(rows), strict=False))
+        verdict = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}[self.verdict]
+        said = "".join(f"<p>{escape(line)}</p>" for line in self.words.split("\n"))
+        return (f"<div style='max-width:46em'><p><b>{verdict}</b> &middot; {escape(self.baseline.model.name)}</p>{said}"
+                + (f"<table>{table}</table>" if rows else "") + "</div>")
+
+
+def _value(value: float, error: float) -> dict[str, float | None]:
+    return {"value": value, "std_error": error if isfinite(error) else None}

@@ -1,0 +1,91 @@
+"""From what was found and what is left to a verdict, its effects and their likes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from symid.discrepancy.locate.remainder import REMAINDER, Test
+from symid.discrepancy.model.hypothesis import MOST_EFFECTS, Candidate, Hypothesis
+from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.name.search import moment_profile
+from symid.discrepancy.say.diagnosis import Effect
+from symid.discrepancy.say.words import sentence
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit
+
+EQUIVALENT = 12.0
+"""Suspects whose score is so near explain the recording almost as well."""
+RIVALS = 3
+"""So many suspects are compared with the finding on each half."""
+
+
+def judge(found: Hypothesis, ranking: list[Candidate], left: list[Test], base: Fit, data: Data, flexible: Callable[[], Hypothesis]):
+    """Verdict, effects and equivalent candidates."""
+    effects = tuple(_effect(s, found, base, data) for s in found.suspects)
+    rest = _located(left) if left and left[0].minus_log10_p > REMAINDER else None
+    first = found.suspects[0] if len(found.suspects) == 1 else None
+    equivalent = tuple(c for c in ranking if first is not None and c.suspect.established and c.suspect.term != first.term
+                       and c.score > found.score - EQUIVALENT)
+    if not found.suspects and rest is None:
+        return "adequate", (), ()
+    if rest is not None and not found.suspects:
+        return "unexplained", (Effect("unknown", rest.place, {}, None, rest.log_ratio, rest.what, established=False),), ()
+    if not found.established:
+        unestablished = next(s for s in found.suspects if not s.established)
+        effects = tuple(sorted(effects, key=lambda e: (e.name, e.location) != (unestablished.term.name, unestablished.term.location)))
+        place = unestablished.term.location if rest is None else _voted(flexible(), effects[0], rest)
+        unknown = () if place == unestablished.term.location else (_unknown(place, left, rest, found),)
+        return "unexplained", (*unknown, *effects), ()
+    if rest is not None or base.kalman_gain is not None and len(effects) == MOST_EFFECTS[True]:
+        return "unexplained", (_unknown(_voted(flexible(), effects[0], rest), left, rest, found), *effects), equivalent
+    return "missing_physics", effects, equivalent
+
+
+def _voted(flexible: Hypothesis, effect: Effect, rest: Test | None) -> str:
+    """Where most of what tells it say that the unknown acts; where they all differ, what a flexible law says."""
+    votes = [flexible.suspects[0].term.location, effect.location, *([rest.place] if rest else [])]
+    return max(votes, key=votes.count)
+
+
+def _unknown(place: str, left: list[Test], rest: Test | None, found: Hypothesis) -> Effect:
+    seen = next((t for t in left if t.locates and t.place == place), rest)
+    what = seen.what if rest else "something that only several of the known effects together imitate"
+    return Effect("unknown", place, {}, None, rest.log_ratio if rest else found.score, what, established=False)
+
+
+def rivals(found: Hypothesis, ranking: list[Candidate]) -> list[Suspect]:
+    """The best named suspects that were not chosen."""
+    return [c.suspect for c in ranking if c.suspect.established and c.suspect.term not in {s.term for s in found.suspects}][:RIVALS]
+
+
+def _located(left: list[Test]) -> Test:
+    """The test that tells where a remainder acts: whiteness is a good alarm and a poor locator."""
+    places = [t for t in left if t.locates and t.minus_log10_p > 2.0]
+    return places[0] if places else left[0]
+
+
+def _moment(fit: Fit, data: Data, name: str, error: float) -> tuple[float, float]:
+    """Mean and deviation of a moment under its likelihood, which has many peaks."""
+    at = fit.values[name]
+    moments, values = moment_profile(fit, data, name, (at - 4.0, at + 4.0), 0.1)
+    weight = np.exp(0.5 * (values - values.max()))
+    mean = float(np.sum(weight * moments) / weight.sum())
+    return mean, float(np.hypot(error, np.sqrt(np.sum(weight * (moments - mean) ** 2) / weight.sum())))
+
+
+def _effect(suspect: Suspect, found: Hypothesis, base: Fit, data: Data) -> Effect:
+    fit, term = found.fit, suspect.term
+    parameters = {q.key: (fit.values[term.parameter_name(q.key)], fit.errors[term.parameter_name(q.key)])
+                  for q in suspect.law.parameters if term.parameter_name(q.key) in fit.errors}
+    window = None
+    if "start_s" in parameters:
+        begin = parameters["start_s"][0]
+        window = (begin, begin + parameters.get("duration_s", (0.5, 0.0))[0])
+    elif "time_s" in parameters:
+        at, error = _moment(fit, data, term.parameter_name("time_s"), parameters["time_s"][1])
+        parameters["time_s"] = (at, error)
+        window = (at - min(2 * error, 3.0), at + min(2 * error, 3.0))
+    log_ratio = fit.loglik2 - base.loglik2
+    return Effect(term.name, term.location, parameters, window, log_ratio, sentence(suspect, parameters), suspect.established)

@@ -1,0 +1,85 @@
+"""The model as it is given, fitted from nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from symid.errors import DiagnosisError, SymidError
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit, Fitter
+from symid.estimation.kalman import linearised_along
+from symid.model import Model
+from symid.simulation import simulator
+
+GROWING = (0.1, 0.4, 1.5)
+"""Seconds of each segment that are fitted first, so that free runs find their initial states."""
+CONFIDENT = 10.0
+"""The first process noise moves the outputs by this many sensor noises: the fit then leans on the data."""
+
+
+def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -> Fit:
+    """Fit `model` with all of its unknowns.
+
+    Parameters
+    ----------
+    start : SI values of some parameters; zero, or the middle of the bounds, elsewhere.
+
+    Raises
+    ------
+    DiagnosisError : no start leads to a run that stays finite.
+    """
+    sim = simulator(model)
+    values = {k: _first(p) for k, p in model.parameters.items()} | {k: v for k, v in (start or {}).items()
+                                                                    if k in model.parameters}
+    initial = np.array([_observed_state(model, e.recorded[0]) for e in data.segments])
+    fitter = Fitter(model, data)
+    if not fitter.driven:
+        return _grow(model, data, values, initial)
+    found, problem = [], None
+    for confident in (CONFIDENT, 0.2 * CONFIDENT):
+        process = confident * _equivalent_noise(sim, values, initial, fitter.step, data.sensor_noise)
+        try:
+            found.append(fitter.fit(values, initial, process))
+        except SymidError as error:
+            problem = error
+    if not found:
+        raise DiagnosisError(f"model '{model.name}' could not be fitted from any start; give start values. The last "
+                             f"attempt ended with: {problem}")
+    return max(found, key=lambda f: f.loglik2)
+
+
+def _grow(model: Model, data: Data, values: dict[str, float], initial: np.ndarray) -> Fit:
+    longest = max(len(e.time) for e in data.segments)
+    fixed = tuple(model.parameters)
+    for seconds in (*GROWING, np.inf):
+        length = int(min(longest, max(8, seconds / data.segments[0].step)))
+        head = data.with_segments(e.head(length) for e in data.segments)
+        fit = Fitter(model, head, fixed if seconds == GROWING[0] else ()).fit(values, initial, np.zeros(len(model.noises)))
+        values, initial = fit.values, fit.initial
+    return fit
+
+
+def _first(parameter) -> float:
+    low, high = parameter.bounds
+    if parameter.guess is not None:
+        return float(parameter.guess)
+    if low <= 0 <= high:
+        return 0.0
+    return float(0.5 * (low + high)) if np.isfinite(low + high) else float(low if np.isfinite(low) else high)
+
+
+def _observed_state(model: Model, recorded: np.ndarray) -> list[float]:
+    """Each state that a sensor shows as it is, from the sensor; the others zero."""
+    shown = {str(y.expr): v for y, v in zip(model.outputs.values(), recorded, strict=True)}
+    return [float(shown.get(name, 0.0)) for name in model.states]
+
+
+def _equivalent_noise(sim, values, initial, step: float, sensor: np.ndarray) -> np.ndarray:
+    """(w,) size of each noise that moves an output by its sensor noise within a fifth of a second."""
+    linear = linearised_along(sim, np.array([values[k] for k in sim.parameters]), initial, points=1)
+    A, G, C = linear.without_delay()
+    state, moved = np.zeros_like(G), np.zeros((len(C), G.shape[1]))
+    for _ in range(max(1, int(0.2 / step))):
+        state = state + step * (A @ state + G)
+        moved = np.maximum(moved, np.abs(C @ state))
+    return 1.0 / np.maximum((moved / sensor[:, None]).max(0), 1e-12)

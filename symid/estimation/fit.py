@@ -1,0 +1,293 @@
+"""Fit a model to data by prediction errors: Gauss-Newton on exact sensitivities.
+
+Random forces that act on the system cannot be simulated, but each sample tells what they did:
+the state is moved by a Kalman gain after every sample (Ljung 1999, ch. 7; Mehra 1971), and the
+remaining innovations are white if the model is right. Without random forces the gain is zero and
+the fit is plain output error. The covariance of the innovations is concentrated out, so that
+-N log det of it is twice the log-likelihood.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from symid.errors import DiagnosisError, SymidError
+from symid.estimation.data import Data
+from symid.estimation.growth import growth, growth_normal, runs_away
+from symid.estimation.kalman import kalman_gain, linearised_along
+from symid.estimation.step import damped_step
+from symid.model import Model
+from symid.simulation import Simulator, simulator
+
+TOLERANCE = 0.02
+"""A fit has converged when twice the log-likelihood changes by less than this."""
+LONGEST_STEP = {True: 0.01, False: 0.005}
+"""The integrator takes no longer steps than this [s], with random forces and without: free motion shows dry friction's corners."""
+PATIENCE = 8
+"""So often the damping grows tenfold before an iteration gives up."""
+REACH = 0.03
+"""The motion at the start of an segment is continued backwards for so long [s], for signals that are late."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A model with all of its unknowns fitted.
+
+    Attributes
+    ----------
+    model : what was fitted. values : parameter -> SI.
+    initial : (E, n) state at the start of each segment.
+    process : (w,) standard deviations of the model's noises that the gain was made for.
+    kalman_gain : (n, m) or None. innovations : per segment (N, m), recorded minus predicted.
+    covariance : (m, m) of the innovations. loglik2 : twice the log-likelihood.
+    errors : parameter -> standard error, zero for what was held; empty where not asked for.
+    """
+
+    model: Model
+    values: dict[str, float]
+    initial: np.ndarray
+    process: np.ndarray
+    kalman_gain: np.ndarray | None
+    innovations: tuple[np.ndarray, ...]
+    covariance: np.ndarray
+    loglik2: float
+    errors: dict[str, float] = field(default_factory=dict)
+    iterations: int = 0
+    converged: bool = False
+
+    @property
+    def simulator(self) -> Simulator:
+        return simulator(self.model)
+
+
+@dataclass(eq=False)
+class _Point:
+    """One set of values on the way, with the gain that belongs to it and the path it was made for."""
+
+    p: np.ndarray
+    x0: np.ndarray
+    process: np.ndarray
+    kalman_gain: np.ndarray | None
+    path: np.ndarray
+    value: float
+
+
+class Fitter:
+    """Fits of one model to one set of data.
+
+    Parameters
+    ----------
+    fixed : parameters that keep their start value.
+    """
+
+    def __init__(self, model: Model, data: Data, fixed=()):
+        self.model, self.data = model, data
+        self.sim = simulator(model)
+        self.free = [p for p in self.sim.parameters if p not in fixed]
+        self.bounds = np.array([model.parameters[p].bounds for p in self.sim.parameters], dtype=float).reshape(-1, 2)
+        self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
+        self.driven = data.driven and bool(model.noises)
+        self.bounded = False
+        self.step = data.segments[0].step
+        self.substeps = max(1, int(np.ceil(self.step / (1.01 * LONGEST_STEP[self.driven]))))
+
+    # ---- one evaluation --------------------------------------------------------------
+    def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs"):
+        """Trajectories of all segments, or None if one diverged."""
+        out = []
+        for e, start in zip(self.data.segments, x0, strict=True):
+            t = self.sim.simulate(p, start, e.time, e.inputs, substeps=self.substeps, gain=gain, recorded=e.recorded,
+                                  sensitivity=self.free if sensitivities else (), keep=keep,
+                                  initial_sensitivity=self.sim.states if sensitivities else (),
+                                  history=self._history(p, start, e))
+            if t.diverged:
+                return None
+            out.append(t)
+        return out
+
+    def _history(self, p, start, segment):
+        """States just before an segment of a motion without random forces, where something reads them late."""
+        if self.driven or not self.model.delays:
+            return None
+        head = segment.head(3)
+        x = self.sim.simulate(p, start, head.time, head.inputs, substeps=self.substeps, keep="states").x
+        if not np.isfinite(x).all():
+            return None
+        ago = np.linspace(-REACH, 0.0, 7)[:, None]
+        slope, bend = (4 * x[1] - 3 * x[0] - x[2]) / (2 * self.step), (x[2] - 2 * x[1] + x[0]) / self.step**2
+        return segment.time[0] + ago[:, 0], x[0] + ago * slope + ago**2 / 2 * bend
+
+    def innovations(self, runs) -> list[np.ndarray]:
+        return [e.recorded - t.y for e, t in zip(self.data.segments, runs, strict=True)]
+
+    def score(self, innovations) -> tuple[float, np.ndarray]:
+        """Twice the log-likelihood and the covariance of the innovations."""
+        every = np.vstack(innovations)
+        cov = every.T @ every / len(every)
+        if not self.driven:
+            # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
+            cov = np.diag(np.diag(cov) + (1e-6 * self.data.sensor_noise) ** 2)
+        sign, logdet = np.linalg.slogdet(cov / np.outer(self.data.sensor_noise, self.data.sensor_noise))
+        return (-self.data.weight * len(every) * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), cov
+
+    def evaluate(self, p, x0, gain) -> float:
+        runs = self.run(p, x0, gain, sensitivities=False)
+        return -np.inf if runs is None else self.score(self.innovations(runs))[0]
+
+    def kalman_gain(self, p, process, path):
+        """Kalman gain at these values, linearised along a path of states; None without random forces."""
+        if not self.driven:
+            return None
+        return kalman_gain(linearised_along(self.sim, p, path), self.step, process, self.data.sensor_noise)
+
+    def path(self, p, x0, gain) -> np.ndarray:
+        """States along the trajectories, or the initial states if those diverge."""
+        runs = self.run(p, x0, gain, False, keep="states") if self.driven else None
+        return np.vstack([t.x for t in runs]) if runs else x0
+
+    # ---- the iteration ---------------------------------------------------------------
+    def fit(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray, iterations: int = 40,
+            tolerance: float = TOLERANCE, errors: bool = True, kalman_gain: np.ndarray | None = None) -> Fit:
+        """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if the start itself diverges.
+
+        `kalman_gain` is one that is known to hold the start together, of an earlier fit that ended there.
+        """
+        self.bounded = False
+        at = self._begin(start, initial, process, kalman_gain)
+        k, converged = self._descend(at, iterations, tolerance)
+        if self.driven and runs_away(self, at.p, at.x0):
+            self.bounded = True
+            at.value -= self._growth_penalty(at.p, at.path)
+            k, converged = self._descend(at, iterations, tolerance)
+        return self._result(at, k, converged, errors)
+
+    def _descend(self, at: _Point, iterations: int, tolerance: float) -> tuple[int, bool]:
+        """Move `at` uphill; how many iterations that took, and whether it converged."""
+        damping, converged, k = 1e-3, False, 0
+        for k in range(1, iterations + 1):
+            system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path)
+            if system is None:
+                break
+            new, step, damping = self._improved(at, system, damping)
+            if new is None:
+                # No step gains although little is left to gain: the Kalman gain's own change is not in the slopes.
+                converged = float(step @ system[1]) < 1.0
+                break
+            change = new.value - at.value
+            at.p, at.x0, at.process, at.kalman_gain, at.value = new.p, new.x0, new.process, new.kalman_gain, new.value
+            at.path = self.path(at.p, at.x0, at.kalman_gain)
+            if change < tolerance:
+                converged = True
+                break
+        return k, converged
+
+    def again(self, fit: Fit, iterations: int = 40) -> Fit:
+        """A fit that goes on from where `fit` of the same model ended."""
+        return self.fit(fit.values, fit.initial, fit.process, iterations, kalman_gain=fit.kalman_gain)
+
+    def _begin(self, start, initial, process, known) -> _Point:
+        p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
+        x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
+        path = self.path(p, x0, self.kalman_gain(p, process, x0) if known is None else known)
+        gain = self.kalman_gain(p, process, path)
+        value = self.evaluate(p, x0, gain)
+        if not np.isfinite(value) and known is not None:
+            gain, value = known, self.evaluate(p, x0, known)
+        if not np.isfinite(value):
+            raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
+        return _Point(p, x0, process, gain, path, value)
+
+    def _improved(self, at: _Point, system, damping: float) -> tuple[_Point | None, np.ndarray, float]:
+        """A better point, the last step tried, and the damping to go on with."""
+        for _ in range(PATIENCE):
+            step = damped_step(system, damping, self.bounds[self.index], at.p[self.index])
+            p, x0, process = self._moved(at.p, at.x0, at.process, step)
+            gain, value = self._tried(p, x0, process, at.path)
+            if value > at.value - 1e-9:
+                return _Point(p, x0, process, gain, at.path, value), step, 0.1 * damping
+            damping = max(damping * 10, 1e-6)
+        return None, step, damping
+
+    def _tried(self, p, x0, process, path):
+        """The gain and twice the log-likelihood at a trial point, -inf where it cannot be simulated."""
+        try:
+            gain = self.kalman_gain(p, process, path)
+            return gain, self.evaluate(p, x0, gain) - self._growth_penalty(p, path)
+        except SymidError:
+            return None, -np.inf
+
+    def _growth_penalty(self, p, path) -> float:
+        """What growth costs of twice the log-likelihood."""
+        return self.data.weight * growth(self, p, path) ** 2 if self.bounded else 0.0
+
+    def _moved(self, p, x0, process, step):
+        q, (E, n) = len(self.free), x0.shape
+        p1 = p.copy()
+        p1[self.index] += step[:q]
+        p1 = np.clip(p1, *self.bounds.T)
+        process1 = process * np.exp(np.clip(step[q:q + len(process)], -1.5, 1.5)) if self.driven else process
+        return p1, x0 + step[-E * n:].reshape(E, n), process1
+
+    def normal(self, p, x0, gain, process, path):
+        """Normal equations of shared unknowns (parameters, log noise) and initial states."""
+        runs = self.run(p, x0, gain, sensitivities=True)
+        if runs is None:
+            return None
+        innovations = self.innovations(runs)
+        _, cov = self.score(innovations)
+        white = np.linalg.inv(np.linalg.cholesky(cov))
+        noise = self._noise_columns(p, x0, process, path, innovations)
+        q, n, w, E = len(self.free), x0.shape[1], noise[0].shape[2], len(runs)
+        size = q + w + E * n
+        H, g = np.zeros((size, size)), np.zeros(size)
+        with np.errstate(over="ignore", invalid="ignore"):
+            for i, (t, s, extra) in enumerate(zip(runs, innovations, noise, strict=True)):
+                J = whitened(white, np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2))
+                r = (s @ white.T).reshape(-1)
+                where = np.r_[0:q + w, q + w + i * n:q + w + (i + 1) * n]
+                H[np.ix_(where, where)] += J.T @ J
+                g[where] += J.T @ r
+            if self.bounded:
+                own, pull = growth_normal(self, p, path)
+                H[:q, :q] += own
+                g[:q] += pull
+        # Sensitivities of an unstable predictor overflow before the run itself does.
+        return (H, g, q) if np.isfinite(H).all() and np.isfinite(g).all() else None
+
+    def _noise_columns(self, p, x0, process, path, innovations):
+        """Change of the innovations per unit of log noise, by differences through the gain."""
+        if not self.driven:
+            return [np.zeros((*s.shape, 0)) for s in innovations]
+        linear, columns = linearised_along(self.sim, p, path), []
+        for j in range(len(process)):
+            more = process.copy()
+            more[j] *= np.exp(0.1)
+            other = self.run(p, x0, kalman_gain(linear, self.step, more, self.data.sensor_noise), False)
+            columns.append([np.zeros_like(s) for s in innovations] if other is None else
+                           [(a - b) / 0.1 for a, b in zip(self.innovations(other), innovations, strict=True)])
+        return [np.stack([c[i] for c in columns], axis=2) for i in range(len(innovations))]
+
+    def _result(self, at: _Point, iterations: int, converged: bool, errors_too: bool) -> Fit:
+        system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path) if errors_too else None
+        innovations = self.innovations(self.run(at.p, at.x0, at.kalman_gain, sensitivities=False))
+        loglik2, cov = self.score(innovations)
+        errors = {}
+        if system is not None:
+            H, _, _ = system
+            d = np.sqrt(np.maximum(np.diag(H), 1e-300))
+            inverse = np.linalg.pinv(H / np.outer(d, d), rcond=1e-13) / np.outer(d, d)
+            errors = dict.fromkeys(self.sim.parameters, 0.0)
+            errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0) / self.data.weight)) for i, k in enumerate(self.free)}
+        values = dict(zip(self.sim.parameters, map(float, at.p), strict=True))
+        return Fit(self.model, values, at.x0, at.process, at.kalman_gain, tuple(innovations), cov, float(loglik2), errors,
+                   iterations, converged)
+
+
+def whitened(white: np.ndarray, a: np.ndarray) -> np.ndarray:
+    """(N, m, q) times the (m, m) matrix `white` along m, as (N m, q)."""
+    out = np.empty_like(a)
+    for i, row in enumerate(white):
+        out[:, i] = sum(f * a[:, j] for j, f in enumerate(row) if f != 0)
+    return out.reshape(-1, a.shape[2])

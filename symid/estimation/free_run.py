@@ -1,0 +1,81 @@
+"""Free simulation: driven by the recorded inputs only, from one fitted state per segment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from symid.errors import SymidError
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit, Fitter
+
+
+@dataclass(frozen=True, eq=False)
+class FreeRun:
+    """Time, recorded and simulated outputs of a window; `rms` over all outputs, without `settling` seconds.
+
+    `lengths` are the samples of each segment, which begins with a state of its own.
+    """
+
+    time: np.ndarray
+    recorded: np.ndarray
+    simulated: np.ndarray
+    rms: float
+    lengths: tuple[int, ...]
+
+    def of_segments(self) -> list[tuple[float, float]]:
+        """Start [s] and rms of each segment."""
+        ends = np.cumsum(self.lengths)
+        return [(float(self.time[a]), float(np.sqrt(np.mean((self.simulated - self.recorded)[a:b] ** 2))))
+                for a, b in zip([0, *ends[:-1]], ends, strict=True)]
+
+
+def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
+    """Simulate the segments of `data` with the fitted parameters, initial states fitted to `data`.
+
+    Several beginnings are tried, because a free initial state has more than one basin.
+    """
+    free = Data(data.segments, data.sensor_noise, driven=False)
+    fitter = Fitter(fit.model, free, fixed=tuple(fit.values))
+    runs = [r for r in (_run(fitter, fit, x0) for x0 in _beginnings(fit, data)) if r is not None]
+    time = np.concatenate([e.time for e in data.segments])
+    recorded = np.vstack([e.recorded for e in data.segments])
+    simulated = min(runs, key=lambda y: float(np.sum((y - recorded) ** 2))) if runs else np.full_like(recorded, np.nan)
+    use = np.arange(len(time)) >= int(settling / data.segments[0].step + 0.5)
+    return FreeRun(time, recorded, simulated, float(np.sqrt(np.mean((simulated - recorded)[use] ** 2))),
+                   tuple(len(e.time) for e in data.segments))
+
+
+def _run(fitter: Fitter, fit: Fit, x0: np.ndarray) -> np.ndarray | None:
+    try:
+        new = fitter.fit(fit.values, x0, fit.process)
+        p = np.array([new.values[k] for k in fitter.sim.parameters])
+        runs = fitter.run(p, new.initial, None, False)
+    except SymidError:
+        return None
+    return None if runs is None else np.vstack([t.y for t in runs])
+
+
+def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
+    """Initial states to begin from: the fit's own, or what its predictor knows after some samples."""
+    if len(fit.initial) == len(data.segments) and fit.innovations and len(fit.innovations[0]) == len(data.segments[0].time):
+        return [fit.initial]
+    shown = {str(y.expr): i for i, y in enumerate(fit.model.outputs.values())}
+    plain = np.zeros((len(data.segments), fit.initial.shape[1]))
+    for k, e in enumerate(data.segments):
+        for j, s in enumerate(fit.model.states):
+            if s in shown:
+                plain[k, j] = e.recorded[0, shown[s]]
+                continue
+    return [plain, *_short_fits(fit, data, plain)]
+
+
+def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:
+    """States fitted to the first second only, then to the whole: rates come out near enough."""
+    count = max(8, int(1.0 / data.segments[0].step))
+    head = Data(tuple(e.head(count) for e in data.segments), data.sensor_noise, driven=False)
+    try:
+        return [Fitter(fit.model, head, fixed=tuple(fit.values)).fit(fit.values, plain, fit.process).initial]
+    except SymidError:
+        return []

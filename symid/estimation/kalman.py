@@ -1,0 +1,71 @@
+"""How much of each sample's innovation belongs to the state: the stationary Kalman gain."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.linalg import LinAlgError, expm, solve_discrete_are
+
+from symid.simulation import Linearised, Simulator
+
+HOLD = 0.01
+"""Random forces last about this long [s]."""
+
+
+def linearised_along(simulator: Simulator, values: np.ndarray, states: np.ndarray, points: int = 16) -> Linearised:
+    """The mean of the linearisations at `points` states of a trajectory (statistical linearisation)."""
+    rows = states[np.isfinite(states).all(axis=1)]
+    rows = rows[np.linspace(0, len(rows) - 1, points).astype(int)] if len(rows) else states[:1]
+    return simulator.linearise(values, rows)
+
+
+def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray) -> np.ndarray:
+    """Gain that moves the state after a sample by gain @ (recorded - predicted).
+
+    (n, m), or (1 + k, n, m) where the model has delayed states: then also for the states 1 ... k
+    samples before, P (F - F K C)'^j C' S^-1 (fixed-lag smoothing; Anderson & Moore 1979, 7.3).
+
+    Parameters
+    ----------
+    step : seconds between samples; the process noise is held over `HOLD` seconds, or a whole part of the
+        sample nearest to that: forces that change within a sample move position and speed apart.
+    process : (w,) standard deviation of each noise of the model; sensor : (m,) of each output.
+    """
+    A, G, C = linear.without_delay()
+    F, Q = _moved(A, G, step, process)
+    n, R = len(A), np.diag(sensor**2)
+    scale = 1.0 / np.maximum(np.abs(np.diag(R)).mean(), 1e-300)
+    for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
+        try:
+            with np.errstate(over="ignore", invalid="ignore"):    # hopeless candidates overflow, and have no gain
+                P = solve_discrete_are((leak * F).T, C.T, Q * scale + 1e-12 * np.eye(n), R * scale)
+            return _gains(F, P, C, np.linalg.inv(C @ P @ C.T + R * scale), linear, step)
+        except (LinAlgError, ValueError):
+            continue
+    return np.zeros((len(linear.A), len(C)))
+
+
+def _moved(A, G, step: float, process: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Transition over a sample and the covariance of what the noise adds (Anderson & Moore 1979, 4.4)."""
+    n, w = G.shape
+    holds = max(1, round(step / HOLD))
+    block = np.zeros((n + w, n + w))
+    block[:n, :n], block[:n, n:] = A * step / holds, G * step / holds
+    exact = expm(block)
+    F, B = exact[:n, :n], exact[:n, n:] * process
+    one, Q = B @ B.T, np.zeros((n, n))
+    for _ in range(holds):
+        Q = F @ Q @ F.T + one
+    return np.linalg.matrix_power(F, holds), Q
+
+
+def _gains(F, P, C, inverse, linear: Linearised, step: float) -> np.ndarray:
+    own = len(linear.A)
+    now = P @ C.T @ inverse
+    lags = linear.lag[linear.late_state >= 0]
+    if len(lags) == 0:
+        return now[:own]
+    back, error, gains = P, (F - F @ now @ C).T, [now[:own]]
+    for _ in range(int(np.ceil(lags.max() / step)) + 1):
+        back = back @ error
+        gains.append((back @ C.T @ inverse)[:own])
+    return np.array(gains)

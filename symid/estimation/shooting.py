@@ -1,0 +1,105 @@
+"""A better start where the loop is stable: output error by simulation, without a nonlinear program.
+
+Single shooting with exact sensitivities takes a fraction of a second and ends close to the
+optimum of the collocation, which then needs a few iterations. It needs a loop that follows the
+recording somewhat: from a worse one, or an unstable one, it could end in another local optimum.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.optimize import OptimizeResult, least_squares
+
+from symid.estimation.bounds import parameter_bounds
+from symid.simulation import Trajectory, simulator
+from symid.transcription import Measured, Transcription
+
+MAX_EVALUATIONS = 15
+
+
+def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarray, list[np.ndarray]] | None:
+    """Parameters and states of every episode that fit the recordings' outputs, or None.
+
+    The search begins from each of the `candidates` (free parameters,) SI, and the best end is kept.
+    Process noise enters only the final simulation of each episode. None where parameters belong to
+    single recordings, where from every candidate the first simulation errs by more than the
+    recorded outputs vary, or where an episode cannot be simulated.
+    """
+    if len(t.layout.parameter_names) != len(t.model.parameters):
+        return None
+    shooting = _Shooting(t)
+    ends = [shooting.fit(z) for z in map(shooting.unknowns, candidates) if shooting.follows(z)]
+    if not ends:
+        return None
+    found = min(ends, key=lambda end: end.cost).x
+    runs = [shooting.run(found, r, noise=noise) for r, noise in zip(t.recording_of, _noise(t), strict=True)]
+    if any(run.diverged for run in runs):
+        return None
+    return (found * shooting.scale)[:len(t.layout.parameter_names)], [run.x for run in runs]
+
+
+class _Shooting:
+    """Output error as a function of z: scaled parameters, then the initial state of each recording."""
+
+    def __init__(self, t: Transcription):
+        self.t, self.simulator = t, simulator(t.model)
+        self.weights = np.sqrt(t.program.error_constants[-len(t.model.outputs):])
+        self.scale = np.concatenate([t.layout.parameter_scale, np.tile(t.layout.state_scale, len(t.measured))])
+        free = np.full(t.layout.n * len(t.measured), np.inf)
+        self.lower, self.upper = (np.concatenate([b, side]) / self.scale
+                                  for b, side in zip(parameter_bounds(t), (-free, free), strict=True))
+
+    def unknowns(self, parameters: np.ndarray) -> np.ndarray:
+        """z of these parameters (SI) and the recorded initial states, inside the bounds."""
+        z = np.concatenate([parameters, *(m.states[m.first] for m in self.t.measured)]) / self.scale
+        return np.clip(z, np.nextafter(self.lower, np.inf), np.nextafter(self.upper, -np.inf))
+
+    def _initial(self, r: int) -> slice:
+        first = len(self.t.layout.parameter_names) + self.t.layout.n * r
+        return slice(first, first + self.t.layout.n)
+
+    def run(self, z: np.ndarray, r: int, slopes: bool = False, noise: dict | None = None) -> Trajectory:
+        """Simulate recording `r`, with sensitivities to all unknowns of this recording if asked for."""
+        m, names = self.t.measured[r], self.t.layout.parameter_names
+        wanted = {"sensitivity": names, "initial_sensitivity": self.t.layout.state_names} if slopes else {}
+        values = z * self.scale
+        return self.simulator.simulate(
+            values[:len(names)], values[self._initial(r)], m.time[m.nodes], {k: u[m.nodes] for k, u in m.inputs.items()},
+            noise=noise, history=self._history(m), limit=100.0, **wanted)
+
+    def _history(self, m: Measured) -> tuple[np.ndarray, np.ndarray] | None:
+        """Recorded states before the window, for delayed signals."""
+        before = slice(0, m.first + 1)
+        return (m.time[before], m.states[before]) if self.t.model.delays and m.first else None
+
+    def residual(self, z: np.ndarray) -> np.ndarray:
+        errors = [(self.run(z, r).y - m.targets[m.nodes]) * self.weights for r, m in enumerate(self.t.measured)]
+        return np.nan_to_num(np.concatenate([e.ravel() for e in errors]), nan=1e3)
+
+    def jacobian(self, z: np.ndarray) -> np.ndarray:
+        blocks = []
+        for r in range(len(self.t.measured)):
+            dy = self.run(z, r, slopes=True).dy * self.weights[:, None]
+            block = np.zeros((dy.shape[0] * dy.shape[1], len(z)))
+            columns = np.r_[:len(self.t.layout.parameter_names), self._initial(r)]
+            block[:, columns] = np.nan_to_num(dy.reshape(len(block), -1)) * self.scale[columns]
+            blocks.append(block)
+        return np.concatenate(blocks)
+
+    def follows(self, z: np.ndarray) -> bool:
+        """Whether the simulation errs by less than the recorded outputs vary."""
+        spread = [np.var(m.targets[m.nodes] * self.weights, axis=0) for m in self.t.measured]
+        return bool(np.mean(self.residual(z) ** 2) < np.mean(spread))
+
+    def fit(self, z: np.ndarray) -> OptimizeResult:
+        return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
+                             max_nfev=MAX_EVALUATIONS, ftol=1e-3)
+
+
+def _noise(t: Transcription) -> list[dict[str, np.ndarray]]:
+    """Per episode the noise by name at all nodes; the last node's is not used."""
+    count = len(t.model.noises)
+    tables = [d.interval[:, d.interval.shape[1] - count:] for d in t.program.data]
+    return [dict(zip(t.model.noises, np.vstack([table, np.zeros((1, count))]).T, strict=True)) for table in tables]
