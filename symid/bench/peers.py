@@ -84,7 +84,7 @@ def for_peers(task: Task) -> PeerTask:
     (acceleration,) = m.inputs.values()
     return PeerTask(
         model=model, step=m.step, recorded=layout.states(z, 0), targets=m.targets[m.nodes],
-        acceleration=acceleration[m.nodes], noises=[d.interval[:, -len(model.noises):] for d in t.program.data],
+        acceleration=acceleration[m.nodes], noises=[d.noise for d in t.program.data],
         state_bounds=states, parameter_bounds=parameters / scale, parameter_scale=scale,
         row_scale=np.array([1.0 if e.endswith("kinematics") else TORQUE for e in model.equations]),
         start=layout.parameters(z) / scale)

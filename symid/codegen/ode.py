@@ -85,9 +85,10 @@ def _table(groups, outputs: int, model: Model, late, needs_rates: bool) -> str:
     sizes = [len(groups[k]) for k in "xluwpc"] + [outputs, int(needs_rates)]
     lists = [f"{name}_{g}" for name, gs in (("slopes", "xlpw"), ("observe_slopes", ("x", "l", "p", "xd")), ("lag_slopes", "p"))
              for g in gs]
-    entries = [*map(str, sizes), "late_kind", "late_index", "mass", "observe", "lags", "slopes", "observe_slopes",
+    entries = [*map(str, sizes), "late_kind", "late_index", "input_held", "mass", "observe", "lags", "slopes", "observe_slopes",
                "lag_slopes", *(f"{{{k}_count, {k}_row, {k}_col}}" for k in lists)]
-    return "\n".join([_ints("late_kind", kind), _ints("late_index", index), f"const Ode ode = {{{', '.join(entries)}}};"])
+    held = [int(u.hold == "zero") for u in model.inputs.values()]
+    return "\n".join([_ints("late_kind", kind), _ints("late_index", index), _ints("input_held", held), f"const Ode ode = {{{', '.join(entries)}}};"])
 
 
 def _ints(name: str, values) -> str:

@@ -32,8 +32,8 @@ class Loop:
         self.spread = [10 * np.std(m.targets[m.nodes], axis=0) for m in t.measured]
         self.variance = np.mean([np.var(m.targets[m.nodes] * self.weights, axis=0) for m in t.measured])
         count = len(t.model.noises)
-        self.noise = [dict(zip(t.model.noises, np.vstack([d.interval[:, d.interval.shape[1] - count:],
-                                                          np.zeros((1, count))]).T, strict=True)) for d in t.program.data]
+        self.noise = [dict(zip(t.model.noises, np.vstack([d.noise, np.zeros((1, count))]).T, strict=True))
+                      for d in t.program.data]
 
     def unknowns(self, parameters: np.ndarray, states: Sequence[np.ndarray] | None = None) -> np.ndarray:
         """z of these parameters (SI) and initial states of the recordings, as recorded by default."""

@@ -100,6 +100,5 @@ class _Shooting:
 
 def _noise(t: Transcription) -> list[dict[str, np.ndarray]]:
     """Per episode the noise by name at all nodes; the last node's is not used."""
-    count = len(t.model.noises)
-    tables = [d.interval[:, d.interval.shape[1] - count:] for d in t.program.data]
-    return [dict(zip(t.model.noises, np.vstack([table, np.zeros((1, count))]).T, strict=True)) for table in tables]
+    last = np.zeros((1, len(t.model.noises)))
+    return [dict(zip(t.model.noises, np.vstack([d.noise, last]).T, strict=True)) for d in t.program.data]

@@ -77,7 +77,7 @@ def _parameter_rows_of_inverse(t: Transcription, result: SolverResult, at_bound:
 def _influence(t: Transcription, episode: int, response: np.ndarray, slopes: np.ndarray) -> np.ndarray:
     """(K + 1, m, q) change of the scaled parameters per change of each recorded sample."""
     layout, weights = t.layout, t.program.error_constants[-len(t.model.outputs):]
-    nodes = np.stack([layout.node_view(np.ascontiguousarray(column), episode) for column in response.T], axis=-1)
+    nodes = np.stack([layout.sample_view(np.ascontiguousarray(column), episode) for column in response.T], axis=-1)
     return 2 * t.program.data[episode].step * np.einsum("j,kjs,ksq->kjq", weights, slopes, nodes)
 
 

@@ -62,13 +62,14 @@ def problem_identity(problem: Identification) -> dict[str, str]:
         "per_recording": digest(tuple(problem.per_recording)),
         "ridge": digest(problem.ridge if problem.ridge_about == "zero" else (problem.ridge, problem.ridge_about)),
         "backend": problem.backend,
+        "refine": str(problem.refine),
         "version of symid": version("symid"),
     }
 
 
 def _declared(model: Model) -> list[tuple]:
     """Numbers, units and channels of all parts; the expressions are in the model's own fingerprint."""
-    said = ("value", "bounds", "guess", "unit", "channel")
+    said = ("value", "bounds", "guess", "unit", "channel", "hold")
     return [(name, {k: getattr(part, k) for k in said if hasattr(part, k)}) for name, part in model.components.items()]
 
 

@@ -46,6 +46,8 @@ class Identification:
     weights : output name -> weight of its squared error, 1 by default.
     per_recording : names of parameters that differ between the recordings.
     backend : "auto", "c" or "numpy".
+    refine : collocation intervals in each sample interval: 2 halves the step of the mesh, and divides the
+        error of the midpoint rule by four and that of Hermite-Simpson by sixteen.
     ridge : weight, for each episode, of the sum of squared parameters, each divided by its larger
         bound, added to the objective; for parameters that the data do not determine alone, such
         as the weights of a neural network.
@@ -65,12 +67,15 @@ class Identification:
     weights: dict[str, float] = field(default_factory=dict)
     per_recording: Sequence[str] = ()
     backend: str = "auto"
+    refine: int = 1
     ridge: float = 0.0
     ridge_about: str = "zero"
 
     def __post_init__(self):
         many = self.recordings if isinstance(self.recordings, Sequence) else (self.recordings,)
         object.__setattr__(self, "recordings", tuple(many))
+        if int(self.refine) != self.refine or self.refine < 1:
+            raise TranscriptionError(f"refine={self.refine}: give a whole number of collocation intervals in a sample interval")
         if self.ridge_about not in ("zero", "start"):
             raise TranscriptionError(f"ridge_about={self.ridge_about!r}: a ridge pulls towards 'zero' or towards the 'start'")
 
@@ -91,7 +96,8 @@ class Identification:
             raise TranscriptionError(f"model '{self.model.name}' has no Output: declare what the recording shows")
         began = time.perf_counter()
         measured = [measure(self.model, r, w) for r, w in zip(self.recordings, self.windows, strict=True)]
-        made = transcribe(self.model, measured, self.scheme, self.episodes, self.weights, self.per_recording, self.backend)
+        made = transcribe(self.model, measured, self.scheme, self.episodes, self.weights, self.per_recording, self.backend,
+                          int(self.refine))
         made.seconds["build"] = time.perf_counter() - began
         return made
 

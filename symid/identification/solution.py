@@ -143,7 +143,7 @@ class Solution:
         t, frames = self.transcription, []
         for e, (y, d) in enumerate(outputs_and_targets(t, self.result.z)):
             m = t.measured[t.recording_of[e]]
-            columns = dict(zip(t.model.states, t.layout.states(self.result.z, e).T, strict=True))
+            columns = dict(zip(t.model.states, (t.layout.sample_view(self.result.z, e) * t.layout.state_scale).T, strict=True))
             for i, name in enumerate(t.model.outputs):
                 columns |= {name: y[:, i], f"{name} recorded": d[:, i]}
             frame = pd.DataFrame(columns, index=pd.Index(m.time[m.nodes], name="time_s"))
@@ -186,7 +186,7 @@ class Solution:
             "terms": [str(term) for term in self.model.terms],
             "constants": {c.name: c.value for c in self.model.constants.values()},
             "recordings": [{"name": m.name, "window_s": [float(m.time[m.first]), float(m.time[m.last])],
-                            "nodes": m.intervals + 1, "history": list(r.history)}
+                            "nodes": m.intervals * p.refine + 1, "history": list(r.history)}
                            for m, r in zip(t.measured, p.recordings, strict=True)],
             "scheme": p.scheme.name, "episodes": asdict(p.episodes) | {"by_word": dict(p.episodes.by_word)},
             "weights": dict(p.weights),
@@ -236,7 +236,7 @@ def build_solution(problem: Identification, result: SolverResult, starts: tuple[
 def _output_arguments(t: Transcription, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
     layout, outputs = t.layout, len(t.model.outputs)
     node = t.program.data[e].node
-    return (np.ascontiguousarray(layout.node_view(z, e)), z[layout.parameter_columns(e)],
+    return (np.ascontiguousarray(layout.sample_view(z, e)), z[layout.parameter_columns(e)],
             np.ascontiguousarray(node[:, :node.shape[1] - outputs]), t.program.error_constants[:-outputs])
 
 
@@ -251,8 +251,8 @@ def output_slopes(t: Transcription, z: np.ndarray) -> list[np.ndarray]:
     """Per episode (nodes, m, n) derivatives of the outputs to the scaled states."""
     kernel, slopes = compile_program(output_program(t.model), backend="numpy"), []
     local = kernel.jacobian_cols < kernel.n_local
-    for e, intervals in enumerate(t.layout.intervals):
-        dense = np.zeros((intervals + 1, kernel.m, t.layout.n))
+    for e, d in enumerate(t.program.data):
+        dense = np.zeros((len(d.node), kernel.m, t.layout.n))
         dense[:, kernel.jacobian_rows[local], kernel.jacobian_cols[local]] = \
             kernel.jacobian(*_output_arguments(t, z, e))[:, local]
         slopes.append(dense)

@@ -9,7 +9,9 @@ import sympy as sm
 
 from symid.errors import ModelError, SymidError
 from symid.model.conditions import Boundary, Constraint, Objective
-from symid.model.declare import Algebraic, Constant, Control, Equation, Expression, Output, Parameter, Port, State
+from symid.model.declare import (
+    HOLDS, Algebraic, Constant, Control, Equation, Expression, Input, Output, Parameter, Port, State,
+)
 from symid.model.dimensions import Mismatch, dimension_of
 from symid.model.model import TIME, Model, nearest
 from symid.model.quantity import initial, symbol, terminal
@@ -34,6 +36,8 @@ def violations(model: Model, units: bool = True) -> Iterator[str]:
 
 def _values(model: Model) -> Iterator[str]:
     for c in model.components.values():
+        if isinstance(c, Input) and c.hold not in HOLDS:
+            yield f"the input '{c.name}' has hold={c.hold!r}; known: {', '.join(map(repr, HOLDS))}"
         if isinstance(c, Constant) and not isfinite(c.value):
             yield f"constant '{c.name}' is {c.value}; give it a finite value [{c.unit}]"
         if isinstance(c, (State, Algebraic, Control, Parameter)):

@@ -18,6 +18,7 @@ from symid.errors import ModelError
 from symid.model.quantity import AlongTime, Quantity, symbol
 
 Bounds = tuple[float, float]
+HOLDS = ("smooth", "linear", "zero")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -96,10 +97,20 @@ class Control(AlongTime, Component):
 
 @dataclass(frozen=True, kw_only=True)
 class Input(Quantity, Component):
-    """A signal known from a recording. `channel` names the column, by default the input's name."""
+    """A signal known from a recording.
+
+    Parameters
+    ----------
+    channel : names the column, by default the input's name.
+    hold : what the signal does between its samples. "zero" keeps each sample until the next one, as a
+        digital-to-analogue converter does (zero-order hold; Astrom & Wittenmark 1997, section 2.3);
+        "linear" joins them by straight lines; "smooth" samples a smooth signal: straight lines where
+        the scheme is of second order on the samples themselves, else a cubic spline.
+    """
 
     unit: str
     channel: str = ""
+    hold: str = "smooth"
 
 
 @dataclass(frozen=True, kw_only=True)

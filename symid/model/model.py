@@ -264,6 +264,7 @@ class Model:
     def fingerprint(self) -> str:
         """Changes with the equations and conditions, their symbols and their order; not with values or bounds."""
         kinds = [(type(c).__name__, c.name) for c in self.components.values()]
+        kinds += [(u.name, u.hold) for u in self.inputs.values() if u.hold != "smooth"]
         text = repr((kinds, [sm.srepr(e) for e in (*self.residual(), *self.observed())],
                      [(str(k), str(d.of), sm.srepr(d.lag)) for k, d in self.delays.items()]))
         conditions = [c for c in self.components.values() if isinstance(c, (Constraint, Boundary, Objective))]

@@ -68,11 +68,13 @@ static int solve(int n, double *M, double *B, long nb)
 
 static void add(double a, const double *x, double *y, long n) { for (long k = 0; k < n; k++) y[k] += a * x[k]; }
 
-/* All inputs at time s: linear between samples, constant beyond the ends. slope may be null. */
+/* All inputs at time s: linear between samples or held, constant beyond the ends. slope may be null.
+ * k is the present interval: at its end a held input still has the value of its start. */
 static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
 {
     const Run *r = &v->r;
     if (NU == 0) return;
+    long present = k;
     if (k > r->N - 2) k = r->N - 2;
     if (k < 0) k = 0;
     while (k > 0 && s < r->t[k]) k--;
@@ -82,7 +84,13 @@ static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
     if (f < 0 || r->N < 2) f = 0;
     if (f > 1) f = 1;
     const double *a = r->u + k*NU, *b = r->N > 1 ? a + NU : a;
+    long held = present == k-1 && s - r->t[k] < 1e-9*h ? present : present > k && f == 1 ? r->N - 1 : k;
     for (int i = 0; i < NU; i++) {
+        if (v->m->input_held[i]) {
+            u[i] = r->u[held*NU+i];
+            if (slope) slope[i] = 0.0;
+            continue;
+        }
         u[i] = a[i] + f * (b[i] - a[i]);
         if (slope) slope[i] = out ? 0.0 : (b[i] - a[i]) / h;
     }

@@ -14,7 +14,7 @@ from symid.units import same_dimension
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """One recording as a model sees it; window = samples `first` to `last`, which are the nodes.
+    """One recording as a model sees it; window = samples `first` to `last`, between which the mesh lies.
 
     Parameters
     ----------
@@ -36,24 +36,50 @@ class Measured:
 
     @property
     def intervals(self) -> int:
+        """Sample intervals of the window; a mesh has `refine` collocation intervals in each."""
         return self.last - self.first
 
     @property
     def step(self) -> float:
+        """Sampling interval [s]."""
         return float(self.time[self.last] - self.time[self.first]) / self.intervals
 
     @property
     def nodes(self) -> slice:
+        """The window's samples."""
         return slice(self.first, self.last + 1)
 
-    def input_at(self, name: str, abscissa: float, smooth: bool) -> np.ndarray:
-        """(intervals,) the input at a point of each interval: linear between samples, or cubic."""
-        u = self.inputs[name]
-        if abscissa in (0.0, 1.0) or not smooth:
-            return (1 - abscissa) * u[self.first:self.last] + abscissa * u[self.first + 1:self.last + 1]
-        from scipy.interpolate import CubicSpline  # here: half of the schemes need no spline, and it is slow to import
-        t = self.time[self.first:self.last] + abscissa * self.step
-        return CubicSpline(self.time, u)(t)
+    def times(self, abscissa: float, refine: int) -> np.ndarray:
+        """(intervals * refine,) times [s] of a point of each collocation interval."""
+        fractions = (np.arange(refine) + abscissa) / refine
+        return (self.time[self.first:self.last, None] + self.step * fractions).ravel()
+
+    def mesh(self, refine: int) -> np.ndarray:
+        """(intervals * refine + 1,) times [s] of the mesh's nodes; every `refine`-th is a sample."""
+        return np.append(self.times(0.0, refine), self.time[self.last])
+
+    def input_at(self, name: str, abscissa: float, refine: int, hold: str) -> np.ndarray:
+        """(intervals * refine,) the input at a point of each collocation interval.
+
+        hold : "zero", "linear" or "cubic" (spline) between samples.
+        """
+        u, fractions = self.inputs[name], (np.arange(refine) + abscissa) / refine
+        now, after = u[self.first:self.last, None], u[self.first + 1:self.last + 1, None]
+        if hold == "zero":
+            return np.repeat(now, refine)
+        if hold == "linear" or (refine == 1 and abscissa in (0.0, 1.0)):
+            return ((1 - fractions) * now + fractions * after).ravel()
+        return spline(self.time, u)(self.times(abscissa, refine))
+
+    def on_mesh(self, samples: np.ndarray, refine: int) -> np.ndarray:
+        """(intervals * refine + 1, n) signals at the mesh's nodes, from those at the window's samples."""
+        return samples if refine == 1 else spline(self.time[self.nodes], samples)(self.mesh(refine))
+
+
+def spline(time: np.ndarray, values: np.ndarray):
+    """The cubic spline through samples, a function of time."""
+    from scipy.interpolate import CubicSpline  # here: half of the schemes need no spline, and it is slow to import
+    return CubicSpline(time, values)
 
 
 def measure(model: Model, recording: Recording, window: tuple[float, float] | None) -> Measured:

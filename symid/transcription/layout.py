@@ -27,7 +27,8 @@ class Layout:
         `parameter_names` has one entry per *free* parameter: a parameter that differs between
         recordings appears once for each, as ``name[recording]``.
     interior, points : of the scheme's stencil.
-    intervals : number of intervals of each episode.
+    intervals : number of collocation intervals of each episode.
+    refine : collocation intervals in a sample interval: every `refine`-th node is a sample.
     parameter_index : (episodes, q) which free parameter each kernel parameter is.
     state_scale (n,), parameter_scale (free parameters,), late_scale (L,) : z = value / scale.
     """
@@ -42,6 +43,7 @@ class Layout:
     state_scale: np.ndarray
     parameter_scale: np.ndarray
     late_scale: np.ndarray
+    refine: int = 1
 
     @property
     def n(self) -> int:
@@ -81,6 +83,10 @@ class Layout:
         """(intervals + 1, n) view into `z`: the scaled states at the nodes."""
         start, step = self.offsets[episode], z.strides[0]
         return as_strided(z[start:], (self.intervals[episode] + 1, self.n), (self.block * step, step))
+
+    def sample_view(self, z: np.ndarray, episode: int) -> np.ndarray:
+        """(samples, n) view into `z`: the scaled states at the nodes that are samples."""
+        return self.node_view(z, episode)[::self.refine]
 
     def late_view(self, z: np.ndarray, episode: int) -> np.ndarray:
         """(intervals, points, late signals) view into `z`."""

@@ -14,10 +14,19 @@ from symid.transcription.layout import Layout
 
 @dataclass(frozen=True, eq=False)
 class EpisodeData:
-    """Known numbers of one episode: (K, n_data) by interval, (K + 1, n_data) by node, step [s]."""
+    """Known numbers of one episode.
+
+    Parameters
+    ----------
+    interval : (intervals, n_data) of each collocation interval.
+    node : (samples, n_data) of each sample.
+    noise : (samples - 1, w) process noise, constant from sample to sample.
+    step : sampling interval [s].
+    """
 
     interval: np.ndarray
     node: np.ndarray
+    noise: np.ndarray
     step: float
 
 
@@ -71,7 +80,7 @@ class CollocationProgram:
         """Merged lower triangle; `_scatter` keeps where each kernel's values go."""
         keys = []
         for e in range(len(self.data)):
-            for kernel, view in ((self.interval, self.layout.local_view), (self.error, self.layout.node_view)):
+            for kernel, view in ((self.interval, self.layout.local_view), (self.error, self.layout.sample_view)):
                 columns = self._kernel_columns(kernel, e, view)
                 keys.append(self._keys(columns[:, kernel.hessian_rows], columns[:, kernel.hessian_cols]))
         keys += [self._keys(*signal.hessian_structure()) for signal in self.late]
@@ -89,7 +98,7 @@ class CollocationProgram:
         return self.layout.local_view(z, e), z[self.layout.parameter_columns(e)], self.data[e].interval, self.constants[e]
 
     def error_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
-        return self.layout.node_view(z, e), z[self.layout.parameter_columns(e)], self.data[e].node, self.error_constants
+        return self.layout.sample_view(z, e), z[self.layout.parameter_columns(e)], self.data[e].node, self.error_constants
 
     def objective(self, z: np.ndarray) -> float:
         return float(sum(d.step * self.error.residual(*self.error_arguments(z, e)).sum() for e, d in enumerate(self.data)))
@@ -99,7 +108,7 @@ class CollocationProgram:
         local = k.jacobian_cols < k.n_local
         for e, d in enumerate(self.data):
             slopes = d.step * k.jacobian(*self.error_arguments(z, e))
-            self.layout.node_view(out, e)[:, k.jacobian_cols[local]] = slopes[:, local]
+            self.layout.sample_view(out, e)[:, k.jacobian_cols[local]] = slopes[:, local]
             np.add.at(out, self.layout.parameter_columns(e)[k.jacobian_cols[~local] - k.n_local], slopes[:, ~local].sum(axis=0))
         return out
 
@@ -137,7 +146,7 @@ class CollocationProgram:
             lam = multipliers[self.row_starts[e]:self.row_starts[e + 1]].reshape(count, self.interval.m)
             self.interval.hessian_into(out, next(scatter), *self.interval_arguments(z, e), lam)
             self.error.hessian_into(out, next(scatter), *self.error_arguments(z, e),
-                                    np.full((count + 1, 1), objective_factor * d.step))
+                                    np.full((len(d.node), 1), objective_factor * d.step))
         for signal, index in zip(self.late, scatter, strict=True):
             out += np.bincount(index, signal.hessian(z, multipliers), minlength=len(out))
         return out

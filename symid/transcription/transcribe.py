@@ -12,7 +12,7 @@ from symid.codegen.interval import interval_program, late_signals, objective_pro
 from symid.errors import TranscriptionError
 from symid.model import Model, nearest
 from symid.nlp import NonlinearProgram
-from symid.transcription.data import Measured
+from symid.transcription.data import Measured, spline
 from symid.transcription.delays import LateSignal
 from symid.transcription.episodes import Episodes
 from symid.transcription.layout import Layout
@@ -51,24 +51,25 @@ class Transcription:
     def start(self, parameters: np.ndarray, states: Sequence[np.ndarray] | None = None) -> np.ndarray:
         """A free vector with these free parameters (SI) and the recorded trajectory, or `states`.
 
-        states : one (nodes, n) array per episode, SI.
+        states : one (samples, n) array per episode, SI.
         """
         if states is None:
             states = [self.measured[r].states[self.measured[r].nodes] for r in self.recording_of]
-        z = self.layout.fill(list(states), parameters)
+        states = [self.measured[r].on_mesh(x, self.layout.refine) for r, x in zip(self.recording_of, states, strict=True)]
+        z = self.layout.fill(states, parameters)
         self.program.settle_late(z)
         return np.clip(z, self.program.lower, self.program.upper)
 
 
 def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episodes: Episodes,
-               weights: dict[str, float], per_recording: Sequence[str], backend: str) -> Transcription:
+               weights: dict[str, float], per_recording: Sequence[str], backend: str, refine: int = 1) -> Transcription:
     """Compile the kernels, lay out the free vector, and gather the data of every episode."""
     model.check(units=False)
-    _refuse_late_outputs(model)
+    _refuse_late(model)
     interval = compile_program(interval_program(model, scheme.stencil), backend=backend)
     error = compile_program(objective_program(model), backend=backend)
-    layout, recording_of = _lay_out(model, measured, scheme, episodes, per_recording)
-    data = [_episode_data(model, scheme, measured[r], noise)
+    layout, recording_of = _lay_out(model, measured, scheme, episodes, per_recording, refine)
+    data = [_episode_data(model, scheme, measured[r], noise, refine)
             for r in range(len(measured)) for noise in episodes.draw(model, measured[r].intervals)]
     constants = _constants(model, scheme, interval, layout, measured, data, recording_of)
     program = CollocationProgram(
@@ -76,20 +77,25 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
         error_constants=_error_constants(model, layout, weights),
         late=tuple(_late_signals(model, scheme, layout, measured, recording_of, interval.m)),
         linked=_linked_episodes(episodes, recording_of), bounds=_bounds(model, layout),
-        row_names=_row_names(model, scheme), times=tuple(measured[r].time[measured[r].nodes] for r in recording_of))
+        row_names=_row_names(model, scheme), times=tuple(measured[r].mesh(refine) for r in recording_of))
     seconds = {k: interval.seconds.get(k, 0.0) + error.seconds.get(k, 0.0) for k in interval.seconds}
     return Transcription(model, scheme, episodes, tuple(measured), recording_of, layout, program, model.fingerprint, seconds)
 
 
-def _refuse_late_outputs(model: Model) -> None:
+def _refuse_late(model: Model) -> None:
     late = set(model.delays)
+    for d in model.delays.values():
+        if str(d.of) in model.inputs and model.inputs[str(d.of)].hold == "zero":
+            raise TranscriptionError(f"model '{model.name}' delays the input '{d.of}', which is held between samples: direct "
+                                     "collocation reads late signals through smooth weights; give hold='linear', or shift "
+                                     "the recorded channel by a known lag")
     for name, y in zip(model.outputs, model.observed(), strict=True):
         if y.free_symbols & late:
             raise TranscriptionError(f"output '{name}' of model '{model.name}' shows a delayed signal, which direct "
                                      "collocation does not handle; shift the recorded channel instead")
 
 
-def _lay_out(model, measured, scheme, episodes, per_recording) -> tuple[Layout, tuple[int, ...]]:
+def _lay_out(model, measured, scheme, episodes, per_recording, refine) -> tuple[Layout, tuple[int, ...]]:
     names = list(model.parameters)
     for p in per_recording:
         if p not in names:
@@ -107,25 +113,28 @@ def _lay_out(model, measured, scheme, episodes, per_recording) -> tuple[Layout, 
     layout = Layout(
         state_names=tuple(model.states), parameter_names=tuple(free), late_names=tuple(map(str, late)),
         interior=scheme.stencil.interior, points=scheme.stencil.points,
-        intervals=tuple(measured[r].intervals for r in recording_of), parameter_index=index[list(recording_of)],
+        intervals=tuple(measured[r].intervals * refine for r in recording_of), parameter_index=index[list(recording_of)],
         state_scale=np.array(list(states.values())), parameter_scale=scales,
-        late_scale=np.array([states.get(model.delays[y].of, 1.0) for y in late]))
+        late_scale=np.array([states.get(model.delays[y].of, 1.0) for y in late]), refine=refine)
     return layout, recording_of
 
 
-def _episode_data(model: Model, scheme: Scheme, m: Measured, noise: np.ndarray) -> EpisodeData:
+def _episode_data(model: Model, scheme: Scheme, m: Measured, noise: np.ndarray, refine: int) -> EpisodeData:
     """Known numbers of one episode, in the order of `interval_program` and `objective_program`."""
-    smooth = scheme.order > 2
+    smooth = "cubic" if scheme.order > 2 or refine > 1 else "linear"
+
     def at_point(name, c):
         if name == "t":
-            return m.time[m.first:m.last] + c * m.step
-        return m.input_at(name, c, smooth)
+            return m.times(c, refine)
+        hold = model.inputs[name].hold
+        return m.input_at(name, c, refine, smooth if hold == "smooth" else hold)
     columns = [at_point(str(u), c) for c in scheme.stencil.abscissae for u in used_data(model, model.residual())]
+    columns = np.column_stack(columns) if columns else np.zeros((m.intervals * refine, 0))
     shown = [m.time if str(u) == "t" else m.inputs[str(u)] for u in used_data(model, model.observed())]
     nodes = m.targets[m.nodes]
     return EpisodeData(
-        interval=np.ascontiguousarray(np.column_stack([*columns, noise])) if columns or noise.size else np.zeros((m.intervals, 0)),
-        node=np.ascontiguousarray(np.column_stack([*(u[m.nodes] for u in shown), nodes])), step=m.step)
+        interval=np.ascontiguousarray(np.hstack([columns, np.repeat(noise, refine, axis=0)])),
+        node=np.ascontiguousarray(np.column_stack([*(u[m.nodes] for u in shown), nodes])), noise=noise, step=m.step)
 
 
 def _scales(layout: Layout) -> tuple[np.ndarray, np.ndarray]:
@@ -138,12 +147,14 @@ def _constants(model, scheme, interval: Kernel, layout: Layout, measured, data, 
     equations = len(model.equations)
     def build(step, scale):
         return np.concatenate([values, [step], *_scales(layout), scale])
-    z = layout.fill([measured[r].states[measured[r].nodes] for r in recording_of], np.zeros(len(layout.parameter_names)))
-    first = interval.jacobian(layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
-                              build(data[0].step, np.ones(equations)))
+    first = measured[recording_of[0]]
+    states = [measured[r].on_mesh(measured[r].states[measured[r].nodes], layout.refine) for r in recording_of]
+    z, step = layout.fill(states, np.zeros(len(layout.parameter_names))), first.step / layout.refine
+    slopes = interval.jacobian(layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
+                               build(step, np.ones(equations)))
     of_states = (interval.jacobian_cols < interval.n_local) & (interval.jacobian_rows < equations * len(scheme.stencil.weights))
-    scale = equation_scale(interval.jacobian_rows[of_states], first[:, of_states], equations, data[0].step)
-    return tuple(build(d.step, scale) for d in data)
+    scale = equation_scale(interval.jacobian_rows[of_states], slopes[:, of_states], equations, step)
+    return tuple(build(d.step / layout.refine, scale) for d in data)
 
 
 def _error_constants(model: Model, layout: Layout, weights: dict[str, float]) -> np.ndarray:
@@ -187,16 +198,24 @@ def _late_signals(model, scheme, layout: Layout, measured, recording_of, interva
             for k, y in enumerate(late_signals(model)):
                 of, lag = str(model.delays[y].of), _lag(model, str(model.delays[y].lag))
                 is_state = of in states
-                samples = m.states[:, states.index(of)] if is_state else m.inputs[of]
+                samples, before = _on_whole_mesh(m, m.states[:, states.index(of)] if is_state else m.inputs[of], layout.refine)
                 column = layout.parameter_columns(e)[lag["parameter"]] if lag["parameter"] is not None else None
                 yield LateSignal(
-                    samples=samples / layout.late_scale[k], before=m.first, abscissa=float(c), lag=lag["value"],
-                    lag_bounds=lag["bounds"], step=m.step, row=row + np.arange(m.intervals),
+                    samples=samples / layout.late_scale[k], before=before, abscissa=float(c), lag=lag["value"],
+                    lag_bounds=lag["bounds"], step=m.step / layout.refine, row=row + np.arange(layout.intervals[e]),
                     late_column=late_columns[:, p, k],
                     node_columns=layout.node_view(np.arange(layout.size), e)[:, states.index(of)] if is_state else None,
                     lag_column=column,
                     lag_scale=1.0 if column is None else layout.parameter_scale[column - layout.offsets[-1]])
-                row += m.intervals
+                row += layout.intervals[e]
+
+
+def _on_whole_mesh(m: Measured, samples: np.ndarray, refine: int) -> tuple[np.ndarray, int]:
+    """The samples of a whole recording at the nodes of its mesh, and how many of these lie before the window."""
+    if refine == 1:
+        return samples, m.first
+    place = np.arange(len(samples))
+    return spline(place, samples)(np.arange(refine * (len(samples) - 1) + 1) / refine), refine * m.first
 
 
 def _lag(model: Model, text: str) -> dict:
