@@ -25,6 +25,9 @@ __all__ = ["mechanics", *sorted(_MODULE_OF)]
 def __getattr__(name: str):
     if name == "mechanics":
         return import_module("symid.mechanics")
+    if name == "__version__":
+        from importlib.metadata import version
+        return version("symid")
     if name not in _MODULE_OF:
         raise AttributeError(f"module 'symid' has no attribute '{name}'")
     return getattr(import_module(_MODULE_OF[name]), name)

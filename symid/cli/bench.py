@@ -8,6 +8,10 @@ import sys
 from symid.errors import SymidError
 
 SUMMARY = "measure symid on this machine, beside its peers where they are installed"
+EXAMPLES = (
+    "symid bench --quick",
+    "symid bench --recording walk.csv --body body.json --window 0 60 --json bench.json",
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 SUMMARY = "write recordings with concealed physics, and sealed answers, to test a diagnosis"
+EXAMPLES = ("symid conceal practice --system standing --random --count 4",)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

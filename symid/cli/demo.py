@@ -12,6 +12,10 @@ from symid.errors import RecordingError
 
 SUMMARY = "identify the synthetic recording in data/ and compare with what it was made with"
 FIT, HELD_OUT = (0.0, 100.0), (100.0, 120.0)
+EXAMPLES = (
+    "symid demo",
+    "symid demo --report first.html",
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

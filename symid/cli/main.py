@@ -13,14 +13,14 @@ from pkgutil import iter_modules
 import symid.cli as cli
 from symid.errors import SymidError
 
-# Every module of this package but these is a command: SUMMARY, add_arguments(parser), run(arguments) -> exit code.
+# Every module of this package but these is a command: SUMMARY, EXAMPLES, add_arguments(parser), run(arguments) -> exit code.
 NOT_COMMANDS = ("__main__", "main", "options")
 SOLVED, NOT_SOLVED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command: exit code 0 done or solved, 1 not solved, 2 bad input."""
-    parsed = _parser().parse_args(arguments)
+    parsed = build_parser().parse_args(arguments)
     warnings.showwarning = _show_warning
     try:
         return parsed.run(parsed)
@@ -40,7 +40,7 @@ def command_names() -> list[str]:
     return sorted(m.name for m in iter_modules(cli.__path__) if m.name not in NOT_COMMANDS)
 
 
-def _parser() -> argparse.ArgumentParser:
+def build_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="symid", description="Identify mechanical systems and their feedback controllers from recordings, "
         "and find the physics that a model left out.")
@@ -48,7 +48,9 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name in command_names():
         module = import_module(f"symid.cli.{name}")
-        command = commands.add_parser(name, help=module.SUMMARY, description=module.SUMMARY)
+        examples = "\n".join(["examples:", *(f"  {example}" for example in module.EXAMPLES)])
+        command = commands.add_parser(name, help=module.SUMMARY, description=module.SUMMARY, epilog=examples,
+                                      formatter_class=argparse.RawDescriptionHelpFormatter)
         module.add_arguments(command)
         command.set_defaults(run=module.run)
     return parser

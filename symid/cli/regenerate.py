@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 
 SUMMARY = "rewrite the generated C sources of the shipped models, or check that they are current"
+EXAMPLES = ("symid regenerate --check",)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -10,6 +10,10 @@ from symid.errors import RecordingError, SolveError
 
 SUMMARY = "run the article's twelve identifications and print every number beside the article's"
 BESIDE = "shared/recordings/standing_subject05"
+EXAMPLES = (
+    "symid reproduce --quick",
+    "symid reproduce --starts 10 --jobs 2",
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

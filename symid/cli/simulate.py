@@ -11,6 +11,7 @@ from symid.cli.options import add_model_arguments, build_model
 from symid.errors import RecordingError
 
 SUMMARY = "simulate a standing person under a known controller and write a recording"
+EXAMPLES = ("symid simulate made.csv --body body.json --controller fpd --parameters gains.json",)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

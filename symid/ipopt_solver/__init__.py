@@ -3,5 +3,6 @@
 from symid.ipopt_solver.evaluation import Iteration
 from symid.ipopt_solver.result import SolverResult, WorstConstraint
 from symid.ipopt_solver.solve import solve_nlp
+from symid.ipopt_solver.version import ipopt_version
 
-__all__ = ["Iteration", "SolverResult", "WorstConstraint", "solve_nlp"]
+__all__ = ["Iteration", "SolverResult", "WorstConstraint", "ipopt_version", "solve_nlp"]

@@ -1,0 +1,48 @@
+"""What a user is told before anything runs: examples that parse, completion, the state of the installation."""
+
+import shlex
+import subprocess
+from importlib import import_module
+
+import pytest
+
+import symid
+from symid.cli.main import build_parser, command_names, main
+
+
+@pytest.mark.parametrize("name", command_names())
+def test_every_command_shows_examples_that_parse(name, capsys):
+    module = import_module(f"symid.cli.{name}")
+    assert module.EXAMPLES
+    for example in module.EXAMPLES:
+        words = shlex.split(example.removeprefix('eval "$(').removesuffix(')"'))
+        assert words[:2] == ["symid", name]
+        build_parser().parse_args(words[1:])
+    with pytest.raises(SystemExit):
+        main([name, "--help"])
+    assert module.EXAMPLES[0] in capsys.readouterr().out
+
+
+def test_completion_is_a_script_that_bash_reads(capsys):
+    assert main(["completion", "bash"]) == 0
+    script = capsys.readouterr().out
+    assert "identify" in script and "--held-out" in script
+    assert subprocess.run(["bash", "-n"], input=script, text=True).returncode == 0
+
+
+def test_the_doctor_finds_a_working_installation(capsys):
+    assert main(["doctor"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == ["ok"] * len(lines) and "self-test" in lines[-1]
+
+
+def test_the_doctor_names_what_does_not_work(capsys, monkeypatch, tmp_path):
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("SYMID_CACHE_DIR", str(tmp_path / "file"))
+    assert main(["doctor"]) == 1
+    assert any(line.startswith("BAD  cache") for line in capsys.readouterr().out.splitlines())
+
+
+def test_the_package_tells_its_version():
+    from importlib.metadata import version
+    assert symid.__version__ == version("symid")
