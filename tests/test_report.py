@@ -13,6 +13,7 @@ from symid import plots
 from symid.plots import solution as solution_figures
 from symid.plots import style
 from symid.report import page, report_html, write_report
+from symid.units import with_error
 
 
 @pytest.fixture(scope="module")
@@ -67,7 +68,7 @@ def test_parameters_show_value_and_95_percent_interval(solution):
     (interval,) = [line for line in axes.lines if line.get_linewidth() == 2 and len(line.get_xdata()) == 2]
     np.testing.assert_allclose(interval.get_xdata(), [row.value - 1.96 * row.std_error, row.value + 1.96 * row.std_error])
     assert [line.get_xdata()[0] for line in axes.lines if line.get_marker() == "x"] == [0.4]
-    assert f"{row.value:.4g} ± {row.std_error:.2g}" in [t.get_text() for t in axes.texts]
+    assert with_error(row.value, row.std_error, digits=4) in [t.get_text() for t in axes.texts]
 
 
 def test_a_parameter_at_a_bound_is_marked_everywhere(at_bound):

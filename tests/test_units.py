@@ -20,12 +20,12 @@ from symid.units import (
 )
 
 
-@pytest.mark.parametrize("suffix", units._SUFFIXES)
+@pytest.mark.parametrize("suffix", units.si.SUFFIXES)
 def test_the_table_of_column_units_agrees_with_pint(suffix):
-    unit = units._SUFFIXES[suffix]
-    factor, _ = units._base_of(unit.text)
+    unit = units.si.SUFFIXES[suffix]
+    factor, _ = units.si.base_of(unit.text)
     assert unit.factor == pytest.approx(factor, rel=1e-14)
-    assert units._base_of(unit.si)[0] == 1.0
+    assert units.si.base_of(unit.si)[0] == 1.0
     assert dimension(unit.si) == dimension(unit.text)
 
 
@@ -99,7 +99,7 @@ def test_column_names_are_taken_apart(column, expected):
 
 @given(
     st.from_regex(r"[A-Za-z][A-Za-z0-9]{0,5}(_[a-z]{4,8}){0,2}", fullmatch=True),
-    st.sampled_from(sorted({u.text for u in units._SUFFIXES.values()})),
+    st.sampled_from(sorted({u.text for u in units.si.SUFFIXES.values()})),
 )
 def test_column_names_go_both_ways(name, unit):
     assert split_column_name(column_name(name, unit)) == (name, unit)

@@ -25,6 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from symid.identification import Identification
+    from symid.identification.fit import fit_text
     from symid.identification.show import headline
     from symid.recording import read_recording
     from symid.report import write_report
@@ -40,7 +41,8 @@ def run(arguments: argparse.Namespace) -> int:
     print(headline(solution), solution.message, sep="\n", end="\n\n")
     print(_beside_truth(solution, truth), end="\n\n")
     held_out = solution.fit_on(HELD_OUT)
-    print(f"Held-out {HELD_OUT[0]:g} to {HELD_OUT[1]:g} s, free run: RMS {held_out['rms_deg']['all']:.3g} deg")
+    units = {name: y.unit for name, y in solution.model.outputs.items()}
+    print(f"Held-out {HELD_OUT[0]:g} to {HELD_OUT[1]:g} s, free run: RMS error: {fit_text(held_out['rms'], units)}")
     print(f"Report with figures: {write_report(solution, arguments.report, held_out, truth)}")
     return 0
 

@@ -37,6 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from symid.files import write_json
     from symid.identification import Identification
+    from symid.identification.fit import fit_text
     from symid.recording import read_recording
     from symid.transcription import Episodes, measure, scheme_by_name
 
@@ -52,14 +53,14 @@ def run(arguments: argparse.Namespace) -> int:
     with chosen_executor(min(arguments.jobs, max(arguments.starts, 1)), arguments.cluster) as executor:
         solution = problem.solve(arguments.starts, seed=arguments.seed, executor=executor, store=arguments.store,
                                  on_iteration=show_iteration if arguments.starts == 1 else None,
-                                 on_start=_tell_start if arguments.starts > 1 else None,
+                                 on_start=_tell_start(model) if arguments.starts > 1 else None,
                                  max_iterations=arguments.max_iterations)
     document = solution.to_dict()
     print(solution)
     if arguments.held_out and solution.solved:
         document["fit"]["held_out"] = solution.fit_on(tuple(arguments.held_out))
-        rms = document["fit"]["held_out"]["rms_deg"]["all"]
-        print(f"Held-out {arguments.held_out[0]:g} to {arguments.held_out[1]:g} s, free run: RMS {rms:.4g} deg")
+        print(f"Held-out {arguments.held_out[0]:g} to {arguments.held_out[1]:g} s, free run: RMS error: "
+              + fit_text(document["fit"]["held_out"]["rms"], {name: y.unit for name, y in model.outputs.items()}))
     if arguments.json:
         write_json(arguments.json, document)
     if arguments.report:
@@ -68,6 +69,12 @@ def run(arguments: argparse.Namespace) -> int:
     return 0 if solution.solved else 1
 
 
-def _tell_start(row) -> None:
-    print(f"start {row.number + 1:3d}  {row.status}  RMS {row.rms:.6g}  {row.iterations} iterations  "
-          f"{row.seconds:.1f} s", file=sys.stderr, flush=True)
+def _tell_start(model):
+    from symid.identification.fit import common_unit, rms_text
+
+    unit = common_unit(y.unit for y in model.outputs.values())
+
+    def tell(row) -> None:
+        print(f"start {row.number + 1:3d}  {row.status}  RMS {rms_text(row.rms, unit)}  {row.iterations} iterations  "
+              f"{row.seconds:.1f} s", file=sys.stderr, flush=True)
+    return tell

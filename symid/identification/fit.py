@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
+
+from symid.units import quantity
 
 
 def fit_measures(names: Sequence[str], units: Sequence[str], model: np.ndarray, recorded: np.ndarray) -> dict:
@@ -31,3 +33,26 @@ def fit_measures(names: Sequence[str], units: Sequence[str], model: np.ndarray, 
         measures["vaf_percent"] = dict(zip(names, 100 * (1 - np.var(error, axis=0) / spread), strict=True))
         measures["r_squared"] = dict(zip(names, 1 - np.mean(error**2, axis=0) / spread, strict=True))
     return {k: {c: float(x) for c, x in v.items()} for k, v in measures.items()}
+
+
+def common_unit(units: Iterable[str]) -> str | None:
+    """The SI unit that all outputs share, or None where they differ: then one number over all of them means nothing."""
+    found = {unit or "1" for unit in units}
+    return found.pop() if len(found) == 1 else None
+
+
+def rms_text(rms: float, unit: str | None, digits: int = 4) -> str:
+    """An RMS error with its unit, degrees for angles; `unit` None for outputs of different units together."""
+    return f"{rms:.{digits}g} (different units together)" if unit is None else quantity(rms, unit=unit, digits=digits)
+
+
+def fit_text(rms: Mapping[str, float], units: Mapping[str, str]) -> str:
+    """RMS errors by output, each in its own unit; "all" only where all outputs have one unit.
+
+    rms : the table ``rms`` of `fit_measures` [SI]. units : output name -> SI unit.
+    """
+    shown = {name: quantity(rms[name], unit=unit or "1", digits=4) for name, unit in units.items()}
+    together = common_unit(units.values())
+    if together is not None and len(units) > 1:
+        shown["all"] = quantity(rms["all"], unit=together, digits=4)
+    return ", ".join(f"{name} {text}" for name, text in shown.items())

@@ -5,6 +5,8 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
+from symid.identification.fit import fit_text
+
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
     from symid.identification.solution import Solution
@@ -37,11 +39,10 @@ def problem_html(problem: Identification) -> str:
 
 def headline(solution: Solution) -> str:
     """One line: solved or not, how well, in how many iterations."""
-    unit = "rms_deg" if "rms_deg" in solution.fit else "rms"
-    fit = ", ".join(f"{k} {v:.4g}" for k, v in solution.fit[unit].items())
     word = "Solved" if solution.solved else "NOT SOLVED"
+    units = {name: y.unit for name, y in solution.model.outputs.items()}
     return (f"{word} in {solution.result.iterations} iterations and {solution.seconds['total']:.2f} s. "
-            f"RMS error [{'deg' if unit == 'rms_deg' else 'SI'}]: {fit}")
+            f"RMS error: {fit_text(solution.fit['rms'], units)}")
 
 
 def warnings(solution: Solution) -> list[str]:

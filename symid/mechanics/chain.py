@@ -166,12 +166,12 @@ class Chain:
             if self.absolute and i > 0:
                 into[f"{coordinates[i - 1]}_balance"] = -1
                 at, rate = at - angles[i - 1], rate - rates[i - 1]
-            setattr(model, joint, Port(position=at, rate=rate, into=into, role="joint", at=joint,
+            setattr(model, joint, Port(position=at, rate=rate, into=into, unit="N*m", role="joint", at=joint,
                                        meaning=f"torque at the {joint} between its two sides"))
         for i, link in enumerate(self.links):
             first = i if self.absolute else 0
             setattr(model, link.name, Port(
-                position=sum(angles[first:i + 1]), rate=sum(rates[first:i + 1]), role="link", at=link.name,
+                position=sum(angles[first:i + 1]), rate=sum(rates[first:i + 1]), unit="N*m", role="link", at=link.name,
                 into={f"{c}_balance": 1 for c in coordinates[first:i + 1]},
                 meaning=f"torque from outside on the {link.name}"))
 

@@ -10,6 +10,7 @@ import sympy as sm
 
 from symid.errors import ModelError
 from symid.model import Component, Constant, Law, LawParameter, Model, Port
+from symid.units import reduced
 
 FRICTION_SPEED = 0.05
 """Width [rad/s or m/s] of the smoothed jump of dry friction where a model states none."""
@@ -33,16 +34,29 @@ def port_at(model: Model, role: str, place: str) -> Port:
 
 def is_linear(model: Model, place: str) -> bool:
     """Whether a force [N] along a displacement acts at `place`, instead of a torque."""
-    return any(c.unit in ("N", "m") for role in ("joint", "link", "feedback_torque", "feedback_error")
+    return any(c.unit in ("N", "m", "m/s^2") for role in ("joint", "link", "feedback_torque", "feedback_error")
                for c in model.find(role, place))
 
 
 def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
-    """Let a law's parameters, stated for a rotation, fit a displacement: N m/rad reads N/m there."""
-    if is_linear(model, place):
+    """Let a law's parameters, stated for a rotation, fit what acts there: N m/rad reads N/m along a displacement.
+
+    In an equation that was divided by the mass, in m/s^2, it reads 1/s^2.
+    """
+    force = next((c.unit for c in model.find("joint", place) + model.find("link", place) if isinstance(c, Port)), "")
+    length = "m" if is_linear(model, place) else "rad"
+    force = force or ("N" if length == "m" else "N*m")
+    if (force, length) != ("N*m", "rad"):
         for key, s in vars(p).items():
             if key not in _ANGLES_ANYWHERE:
-                give_unit(model, s, lambda unit: unit.replace("N*m", "N").replace("rad", "m"))
+                give_unit(model, s, lambda unit: unit_along(unit, force, length))
+
+
+def unit_along(unit: str, force: str, length: str) -> str:
+    """The unit of a law's parameter, stated for a torque [N*m] and an angle, for another kind of force and coordinate."""
+    if force == "N":    # reads better than what pint would make of it
+        return unit.replace("N*m", "N").replace("rad", length)
+    return reduced(unit.replace("rad", length).replace("N*m", f"({force})"))
 
 
 def fixed(model: Model, name: str, value: float, unit: str, meaning: str) -> sm.Symbol:

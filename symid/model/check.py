@@ -12,7 +12,7 @@ from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
     HOLDS, Algebraic, Constant, Control, Equation, Expression, Input, Output, Parameter, Port, State,
 )
-from symid.model.dimensions import Mismatch, dimension_of
+from symid.model.dimensions import Mismatch, dimension_of, dimensions_of_symbols
 from symid.model.model import TIME, Model, nearest
 from symid.model.quantity import initial, symbol, terminal
 from symid.units import dimension, known_unit
@@ -136,23 +136,17 @@ def _unused(model: Model, residual) -> Iterator[str]:
 
 
 def _dimensions(model: Model) -> Iterator[str]:
-    table, second = {TIME: dimension("s")}, dimension("s")
+    table = dimensions_of_symbols(model)
     for c in model.components.values():
         if isinstance(c, _NO_SYMBOL):
             continue
         try:
-            table[c.symbol] = dimension(c.unit)
             if known_unit(c.unit).factor != 1.0:
                 yield f"'{c.name}' is in {c.unit}; inside a model use the SI unit {known_unit(c.unit).si}"
         except SymidError as error:
             yield f"'{c.name}': {error}"
-    for s in model.states.values():
-        if s.symbol in table:
-            table[symbol(s.name + "'")] = table[s.symbol] / second
     table |= {f(s): table[s] for s in along_time(model) & table.keys() for f in (initial, terminal)}
-    for late, delay in model.delays.items():
-        if delay.of in table:
-            table[late] = table[delay.of]
+    found_of = {}
     for c in model.components.values():
         for expr in _expressions(model, c) if not isinstance(c, Objective) else ():     # its weights are the user's
             if not expr.free_symbols <= table.keys():
@@ -162,6 +156,19 @@ def _dimensions(model: Model) -> Iterator[str]:
             except Mismatch as error:
                 yield f"units of {type(c).__name__.lower()} '{c.name}': {error}"
                 continue
+            found_of[c.name] = found
             if isinstance(c, (Expression, Output)) and c.symbol in table and c.expr != sm.S.Zero and found != table[c.symbol]:
                 yield (f"{type(c).__name__.lower()} '{c.name}' is declared in {c.unit or '1'}, but its expression "
                        f"has the dimension {found}")
+    for port in model.ports.values():
+        yield from _dimension_of_port(port, found_of)
+
+
+def _dimension_of_port(port: Port, found_of: dict) -> Iterator[str]:
+    if not port.unit and port.into:
+        yield (f"port '{port.name}' has no unit, and none follows from the equation '{next(iter(port.into))}': attach the "
+               "port after that equation, or give its unit")
+    for name in port.into if port.unit else ():
+        if name in found_of and found_of[name] != dimension(port.unit):
+            yield (f"port '{port.name}' is declared in {port.unit}, but the equation '{name}', which its force enters, has the "
+                   f"dimension {found_of[name]}")

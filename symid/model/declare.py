@@ -172,13 +172,14 @@ class Port(Component):
     ----------
     position, rate : expressions of the states, conjugate to the force.
     into : equation name -> coefficient with which a force along +rate enters that residual.
-    unit : unit of the force (``"N*m"`` at a joint).
+    unit : unit of the force (``"N*m"`` at a joint); where it is left out, that of the first
+        equation that the force enters, for which this must have been declared before.
     """
 
     position: sm.Expr
     rate: sm.Expr
     into: Mapping[str, float]
-    unit: str = "N*m"
+    unit: str = ""
 
     def __post_init__(self):
         object.__setattr__(self, "into", MappingProxyType(dict(self.into)))

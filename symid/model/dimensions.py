@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
+from typing import TYPE_CHECKING
 
 import sympy as sm
 from sympy.functions.elementary.piecewise import ExprCondPair
 
-from symid.units import dimension
+from symid.errors import SymidError
+from symid.model.declare import Port
+from symid.model.quantity import symbol
+from symid.units import base_unit, dimension
+
+if TYPE_CHECKING:
+    from symid.model.model import Model
 
 _SAME_AS_ARGUMENT = (sm.Abs, sm.Max, sm.Min)
 
@@ -51,3 +59,36 @@ def _common(parts, table, whole):
             raise Mismatch(f"'{seen[0][0]}' has the dimension {seen[0][1]}, but '{part}' has {found}: "
                            "they cannot be added")
     return seen[0][1] if seen else dimension("1")
+
+
+def dimensions_of_symbols(model: Model) -> dict[sm.Symbol, object]:
+    """Dimension of every symbol of a model whose unit is understood, time and delayed signals included."""
+    time = symbol("t")
+    table = {time: dimension("s")}
+    for c in model.components.values():
+        with suppress(SymidError):
+            if hasattr(c, "unit") and not isinstance(c, Port):
+                table[c.symbol] = dimension(c.unit)
+    for s in model.states.values():
+        if s.symbol in table:
+            table[s.dot] = table[s.symbol] / table[time]
+    return table | {late: table[d.of] for late, d in model.delays.items() if d.of in table}
+
+
+_FORCES = ("N", "m/s^2", "V", "A", "m/s", "m")
+_TORQUES = ("N*m", "rad/s^2", "V", "A", "rad/s", "rad")
+
+
+def unit_of(model: Model, expr: sm.Expr, about: sm.Expr) -> str:
+    """Unit text of `expr`; "" where dimensions do not fit.
+
+    about : the coordinate along which it acts: where this is an angle, N m and not J, rad/s^2 and not 1/s^2.
+    """
+    table = dimensions_of_symbols(model)
+    try:
+        found, place = dimension_of(expr, table), dimension_of(about, table)
+    except (Mismatch, KeyError):
+        return ""
+    usual = _TORQUES if place == dimension("1") else _FORCES
+    known = next((unit for unit in usual if dimension(unit) == found), None)
+    return known or base_unit(found)

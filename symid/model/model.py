@@ -82,7 +82,14 @@ class Model:
             changes |= {"running": sm.sympify(part.running), "terminal": sm.sympify(part.terminal)}
         if isinstance(part, Port):
             changes |= {"position": sm.sympify(part.position), "rate": sm.sympify(part.rate)}
+            changes["unit"] = part.unit or self._unit_of_force(part, changes["position"])
         return replace(part, **changes)
+
+    def _unit_of_force(self, port: Port, position: sm.Expr) -> str:
+        """Unit of the first equation that a port's force enters; "" where that cannot be told."""
+        from symid.model.dimensions import unit_of
+        equation = self.components.get(next(iter(port.into), ""))
+        return unit_of(self, equation.expr, about=position) if isinstance(equation, Equation) else ""
 
     def __getattr__(self, name: str) -> Component:
         try:

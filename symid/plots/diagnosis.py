@@ -9,7 +9,8 @@ import numpy as np
 from scipy.signal import welch
 
 from symid.discrepancy.say.words import law_name
-from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened, shown_unit
+from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened
+from symid.units import shown_unit, unit_symbol
 
 if TYPE_CHECKING:
     from symid.discrepancy import Diagnosis
@@ -73,7 +74,8 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
     before, after = diagnosis.runs["baseline_train"], diagnosis.runs["augmented_train"]
     outputs = list(diagnosis.baseline.model.outputs.values())
     figure = Picture(figsize=(9.5, 2.9), layout="constrained")
-    panels = figure.subplots(1, len(outputs), squeeze=False, sharey=True)[0]
+    comparable = len({output.unit for output in outputs}) == 1
+    panels = figure.subplots(1, len(outputs), squeeze=False, sharey=comparable)[0]
     rate = 1 / np.median(np.diff(before.time))
     length = min(len(before.time), int(10 * rate))
     for axes, output, i in zip(panels, outputs, range(len(outputs)), strict=True):
@@ -84,8 +86,9 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
             axes.loglog(f[1:], power[1:], color=color, lw=1.1, label=label)
         axes.set_title(output.channel.replace("_", " "), loc="left", fontsize=10)
         axes.set_xlabel("frequency [Hz]")
+        if axes is panels[0] or not comparable:
+            axes.set_ylabel(f"power of the error\n[{f'({unit})' if '/' in unit else unit}²/Hz]", fontsize=9)
         opened(axes)
-    panels[0].set_ylabel(f"power of the error\n[{unit}²/Hz]", fontsize=9)
     panels[-1].legend(frameon=False, fontsize=8.5)
     return figure
 
@@ -129,7 +132,7 @@ def plot_latent(before: Sequence[Latent], after: Sequence[Latent] = ()) -> Pictu
             axes.fill_between(one.time, low, high, color=color, alpha=0.18, lw=0)
             axes.plot(one.time, torque, color=color, lw=0.8, label=label)
         axes.set(xlim=(latent.time[0], latent.time[-1]), ylim=(-top * factor, top * factor))
-        axes.set_ylabel(f"{latent.place}\n[{prefix}{latent.unit.replace('*', ' ')}]", fontsize=9)
+        axes.set_ylabel(f"{latent.place}\n[{prefix}{unit_symbol(latent.unit)}]", fontsize=9)
         opened(axes)
     panels[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize=8.5, borderaxespad=0.1)
     panels[-1].set_xlabel("time [s]")

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from symid.identification import Solution
-from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened, shown_unit
+from symid.identification.fit import common_unit
+from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened
+from symid.units import shown_unit, unit_symbol, with_error
 
 
 def plot_fit(solution: Solution, episode: int = 0) -> Picture:
@@ -70,7 +72,7 @@ def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
                     if not low <= end <= high:
                         axes.plot(np.clip(end, low, high), y, marker=mark, color=MODEL, ms=6, clip_on=False)
             axes.plot(v, y, "o", color=MODEL, ms=5)
-            text = f"{v:.4g} ± {h / 1.96:.2g}" if np.isfinite(h) else f"{v:.4g}  (no standard error)"
+            text = with_error(v, h / 1.96, digits=4) + ("" if np.isfinite(h) else "  (no standard error)")
         if name in truth:
             axes.plot(truth[name], y, "x", color=INK, ms=7, mew=1.6, zorder=5)
         axes.annotate(text.replace("-", "\N{MINUS SIGN}"), (1.01, y), xycoords=("axes fraction", "data"), va="center", fontsize=8.5,
@@ -78,7 +80,7 @@ def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
     axes.set_yticks(places, table.index, fontsize=8.5)
     axes.set(xlim=(low, high), ylim=(-0.7, len(table) - 0.3))
     legend = "   ( × true value )" if truth else ""
-    axes.set_title(f"[{unit or '1'}]{legend}", loc="left", fontsize=9)
+    axes.set_title(f"[{unit_symbol(unit) or '1'}]{legend}", loc="left", fontsize=9)
     opened(axes)
 
 
@@ -96,7 +98,8 @@ def _limits(value: np.ndarray, half: np.ndarray, others: list[float]) -> tuple[f
 def plot_starts(solution: Solution) -> Picture:
     """How every start ended: its error in rank order, and how far its parameters are from the best's."""
     rows, names = sorted(solution.starts, key=lambda r: r.rms), list(solution.values)
-    unit, factor = shown_unit("rad" if "rms_deg" in solution.fit else "")
+    together = common_unit(y.unit for y in solution.model.outputs.values())
+    unit, factor = shown_unit(together or "1")
     figure = Picture(figsize=(9, max(3.2, 0.24 * len(names) + 1.2)), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=[1, 1.3])
     rank, error = np.arange(1, len(rows) + 1), np.array([r.rms for r in rows]) * factor
@@ -105,7 +108,7 @@ def plot_starts(solution: Solution) -> Picture:
         if chosen.any():
             left.plot(rank[chosen], error[chosen], "o", ms=6, label=label, ls="", **look)
     left.legend(frameon=False, fontsize=8.5)
-    left.set(xlabel="start, best first", ylabel=f"RMS error [{unit or 'SI'}]", xlim=(0.3, len(rows) + 0.7))
+    left.set(xlabel="start, best first", ylabel="RMS error" + (f" [{unit or '1'}]" if together else ", outputs of different units together"), xlim=(0.3, len(rows) + 0.7))
     left.xaxis.get_major_locator().set_params(integer=True)
     best = solution.starts[solution.best].parameters
     largest = {k: max(abs(r.parameters[k]) for r in rows) or 1.0 for k in names}

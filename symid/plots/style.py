@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import io
 
-import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
-from symid.units import known_unit
-
 INK, RECORDED, MODEL, WARN, QUIET = "#222222", "#9a9a9a", "#1f5fa8", "#c0392b", "#d9d9d9"
-DEGREE = np.pi / 180
 
 
 class Picture(Figure):
@@ -27,13 +23,6 @@ class Picture(Figure):
         buffer = io.BytesIO()
         Image.open(io.BytesIO(self.png(dpi=78))).convert("RGB").quantize(48).save(buffer, format="png", optimize=True)
         return buffer.getvalue()
-
-
-def shown_unit(unit: str) -> tuple[str, float]:
-    """The unit that a person reads, and the factor to it: degrees for angles."""
-    if unit and known_unit(unit).si.startswith("rad"):
-        return unit.replace("rad", "deg"), 1 / DEGREE
-    return unit, 1.0
 
 
 def opened(*all_axes) -> None:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from math import degrees
 from pathlib import Path
 
 from symid.discrepancy import Diagnosis
 from symid.discrepancy.locate.latent import latent_torques
+from symid.discrepancy.say.diagnosis import Effect
 from symid.files import write_atomically
+from symid.identification.fit import common_unit, rms_text
+from symid.mechanics.laws import parameter_name
 from symid.plots import plot_before_after, plot_latent, plot_scores, plot_spectra
 from symid.report.page import facts, figure, heading, number, page, paragraph, table
+from symid.units import quantity
 
 VERDICTS = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}
 MEANING = {"missing_physics": "the model leaves out what is named below",
@@ -62,19 +65,16 @@ def effects_table(d: Diagnosis) -> str:
     kept = {(s.name, s.location): "no" if s.reason else "yes" for s in d.halves}
     rows = []
     for e in d.effects:
-        values = "; ".join(f"{k} = {_with_error(v, s)}" for k, (v, s) in e.parameters.items())
+        values = "; ".join(f"{k} = {quantity(v, s, _unit(d, e, k))}" for k, (v, s) in e.parameters.items())
         when = "always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s"
         rows.append([_plain(e.name), e.location, when, kept.get((e.name, e.location), ""), values or e.sentence])
-    return table(["effect", "place", "when", "on both halves", "parameters (SI)"], rows)
+    return table(["effect", "place", "when", "on both halves", "parameters"], rows)
 
 
-def _with_error(value: float, error: float) -> str:
-    return f"{number(float(value))} ± {error:.2g}" if error > 0 else number(float(value))
-
-
-def _short(x: float) -> float:
-    """Four digits: more than a fit is good for."""
-    return float(f"{x:.4g}")
+def _unit(d: Diagnosis, effect: Effect, key: str) -> str:
+    """Unit of one parameter of an effect, as the improved model declares it; "1" for what is no parameter of it."""
+    part = d.improved.parameters.get(parameter_name(effect.name, effect.location, key))
+    return part.unit if part is not None else "1"
 
 
 def _plain(name: str) -> str:
@@ -106,17 +106,17 @@ def experiment(name: str) -> str:
 
 
 def _fits(d: Diagnosis) -> str:
-    rows = []
+    rows, unit = [], common_unit(y.unit for y in d.improved.outputs.values())
     for key, title in (("train", "fit window"), ("heldout", "held-out window, not used before")):
         if f"baseline_{key}" in d.runs:
             before, after = (d.runs[f"{k}_{key}"].rms for k in ("baseline", "augmented"))
-            rows.append([title, _short(degrees(before)), _short(degrees(after)), round(100 * (1 - after / before), 1)])
+            rows.append([title, rms_text(before, unit), rms_text(after, unit), round(100 * (1 - after / before), 1)])
     later = d.runs.get("augmented_heldout")
     if later is not None and len(later.lengths) > 1:
         before = d.runs["baseline_heldout"].of_segments()
-        rows += [[f"  held out, segment from {t:.1f} s", _short(degrees(b)), _short(degrees(a)), round(100 * (1 - a / b), 1)]
+        rows += [[f"  held out, segment from {t:.1f} s", rms_text(b, unit), rms_text(a, unit), round(100 * (1 - a / b), 1)]
                  for (t, b), (_, a) in zip(before, later.of_segments(), strict=True)][:MOST]
-    head = ["free simulation", "model as given, RMS [deg]", "improved, RMS [deg]", "error removed [%]"]
+    head = ["free simulation", "RMS error of the model as given", "of the improved model", "error removed [%]"]
     return table(head, rows) if d.effects else table(head[:2], [row[:2] for row in rows])
 
 

@@ -6,9 +6,11 @@ from pathlib import Path
 
 from symid.files import write_atomically
 from symid.identification import Solution
+from symid.identification.fit import common_unit, rms_text
 from symid.identification.show import headline, warnings
 from symid.plots import plot_fit, plot_parameters, plot_starts
 from symid.report.page import facts, figure, heading, number, page, paragraph, table
+from symid.units import unit_symbol
 
 
 def write_report(solution: Solution, path: str | Path, held_out: dict | None = None,
@@ -59,19 +61,21 @@ def _errors_note(solution: Solution) -> str:
 
 def _fit(solution: Solution, held_out: dict | None) -> str:
     fits = {"fit": solution.fit} | ({"held out, free run": held_out} if held_out else {})
+    units: dict[str, str | None] = {name: y.unit or "1" for name, y in solution.model.outputs.items()}
+    units["all"] = common_unit(y.unit for y in solution.model.outputs.values())
     rows = []
     for which, fit in fits.items():
         for channel in fit["rms"]:
-            rows.append([which, channel, *(number(fit[k].get(channel, float("nan"))) if k in fit else ""
-                                           for k in ("rms", "rms_deg", "vaf_percent", "r_squared"))])
-    return table(["window", "channel", "RMS [SI]", "RMS [deg]", "VAF [%]", "R²"],
-                 [[("" if x == "none" else x) for x in row] for row in rows])
+            shares = [number(fit[k][channel]) if channel in fit[k] else "" for k in ("vaf_percent", "r_squared")]
+            rows.append([which, channel, rms_text(fit["rms"][channel], units[channel]), *shares])
+    return table(["window", "channel", "RMS error", "VAF [%]", "R²"], rows)
 
 
 def _starts(solution: Solution) -> str:
-    rows = [[r.number + 1, r.kind, r.status, r.rms, r.iterations, round(r.seconds, 2),
+    unit = common_unit(y.unit for y in solution.model.outputs.values())
+    rows = [[r.number + 1, r.kind, r.status, rms_text(r.rms, unit), r.iterations, round(r.seconds, 2),
              "best" if i == solution.best else ""] for i, r in enumerate(solution.starts)]
-    return table(["start", "kind", "status", "RMS [SI]", "iterations", "seconds", ""], rows,
+    return table(["start", "kind", "status", "RMS error", "iterations", "seconds", ""], rows,
                  [not r.solved for r in solution.starts])
 
 
@@ -91,5 +95,6 @@ def _provenance(solution: Solution) -> str:
     for r in recordings:
         plain[f"recording {r['name']}"] = (f"{r['window_s'][0]:g} to {r['window_s'][1]:g} s, {r['nodes']} nodes; "
                                            + "; ".join(r["history"]))
-    plain["constants [SI]"] = ", ".join(f"{k} = {v:g}" for k, v in constants.items())
+    units = {k: unit_symbol(c.unit) for k, c in solution.model.constants.items()}
+    plain["constants"] = ", ".join(f"{k} = {v:g} {units[k]}".strip() for k, v in constants.items())
     return facts(plain)

@@ -1,21 +1,4 @@
-"""Units: text to SI factor, dimension checks, units in column names, array aliases.
-
-A thin layer over pint. Inside symid every number is SI; units are converted once, where a
-file or a user's number enters. The units that column names may carry stand in one table
-with their factors, so that reading a recording never waits for pint (0.5 s to import);
-every other unit text goes through pint.
-
-Legend of letters, used in all docstrings and array shapes:
-
-====  =======================================  ====  =======================================
-N     samples or nodes of a time grid          M     episodes
-n     states of a model                        m     channels that are compared (outputs)
-k     inputs known from a recording            q     unknown parameters
-w     noise inputs (process noise)             h     sampling interval or mesh step [s]
-x     state                                    x'    time derivative of the state
-u     known input                              p     parameter
-====  =======================================  ====  =======================================
-"""
+"""Text of a unit to its factor to SI and its dimension."""
 
 import difflib
 import functools
@@ -25,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from symid.errors import RecordingError, UnitError
+from symid.errors import UnitError
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -48,7 +31,7 @@ def _si(text: str) -> KnownUnit:
 
 
 # Where two suffixes mean the same unit, the first is the one that is written to files.
-_SUFFIXES: dict[str, KnownUnit] = {
+SUFFIXES: dict[str, KnownUnit] = {
     "1": _si("1"),
     "percent": KnownUnit("percent", "1", 0.01),
     "s": _si("s"),
@@ -88,12 +71,7 @@ _SUFFIXES: dict[str, KnownUnit] = {
     "A": _si("A"),
 }
 _GRAM = KnownUnit("g", "kg", 1e-3)
-_BY_TEXT = {unit.text: unit for unit in (_GRAM, *_SUFFIXES.values())}
-
-
-def known_suffixes() -> tuple[str, ...]:
-    """Endings that a column name may carry, `g` (see `split_column_name`) included."""
-    return (*_SUFFIXES, "g")
+_BY_TEXT = {unit.text: unit for unit in (_GRAM, *SUFFIXES.values())}
 
 
 def known_unit(text: str) -> KnownUnit:
@@ -104,10 +82,10 @@ def known_unit(text: str) -> KnownUnit:
     UnitError
         If the text is not a unit, or a unit with an offset such as degC.
     """
-    text = _normal(text)
+    text = normal(text)
     if text in _BY_TEXT:
         return _BY_TEXT[text]
-    factor, base = _base_of(text)
+    factor, base = base_of(text)
     return KnownUnit(text, text if factor == 1.0 else base, factor)
 
 
@@ -125,58 +103,12 @@ def dimension(text: str):
     Dimensions can be multiplied, divided, raised to a power, compared and printed:
     ``dimension("N*m*s/rad") == dimension("N") * dimension("m") * dimension("s")``.
     """
-    return _parsed(_normal(text)).dimensionality
+    return parsed(normal(text)).dimensionality
 
 
 def same_dimension(a: str, b: str) -> bool:
     """Whether two unit texts measure the same kind of quantity: "deg" and "rad", not "m"."""
-    return _normal(a) == _normal(b) or dimension(a) == dimension(b)
-
-
-def split_column_name(column: str) -> tuple[str, str]:
-    """Name and unit text of a column: ``"ankle_angle_deg" -> ("ankle_angle", "deg")``.
-
-    The longest known ending wins: ``"platform_acceleration_m_s2"`` ends in ``m_s2``. A bare
-    ``g`` ending means standard gravity after an acceleration and gram after a mass; it is
-    refused elsewhere. ``g0`` always means standard gravity.
-
-    Raises
-    ------
-    RecordingError
-        If the name ends in no known unit; the message names the nearest ones.
-    """
-    words = column.split("_")
-    for start in range(1, len(words)):
-        name, suffix = "_".join(words[:start]), "_".join(words[start:])
-        if suffix == "g":
-            return name, _meaning_of_g(column, name)
-        if suffix in _SUFFIXES and name:
-            return name, _SUFFIXES[suffix].text
-    raise RecordingError(
-        f"column '{column}' does not end in a known unit; {_nearest_suffixes(words)}. "
-        f"A column is named <name>_<unit>, for example ankle_angle_deg."
-    )
-
-
-def column_name(name: str, unit: str) -> str:
-    """Column name of a quantity, the inverse of `split_column_name`.
-
-    Raises
-    ------
-    RecordingError
-        If no column ending stands for the unit.
-    """
-    text = _normal(unit)
-    suffix = next((s for s, known in _SUFFIXES.items() if known.text == text), None)
-    if suffix is None:
-        parsed = _parsed(text)
-        suffix = next((s for s, known in _SUFFIXES.items() if _parsed(known.text) == parsed), None)
-    if suffix is None:
-        raise RecordingError(
-            f"'{name}' has the unit {unit}, which no column name can carry; "
-            f"known endings: {', '.join(_SUFFIXES)}"
-        )
-    return f"{name}_{suffix}"
+    return normal(a) == normal(b) or dimension(a) == dimension(b)
 
 
 def nearest(word: str, candidates, count: int = 3) -> list[str]:
@@ -186,27 +118,7 @@ def nearest(word: str, candidates, count: int = 3) -> list[str]:
     return [lowered[match] for match in found]
 
 
-def _meaning_of_g(column: str, name: str) -> str:
-    words = name.lower().split("_")
-    if any(word.startswith("accel") for word in words):
-        return "g0"
-    if "mass" in words:
-        return "g"
-    raise RecordingError(
-        f"column '{column}' ends in 'g', which may be gram or standard gravity; end it in "
-        f"'g0' for multiples of 9.80665 m/s^2, or convert it to 'kg'"
-    )
-
-
-def _nearest_suffixes(words: list[str]) -> str:
-    endings = ["_".join(words[start:]) for start in range(1, len(words))] or words
-    close = [match for ending in endings for match in nearest(ending, known_suffixes())]
-    if close:
-        return f"nearest known units: {', '.join(dict.fromkeys(close))}"
-    return f"known units: {', '.join(known_suffixes())}"
-
-
-def _normal(text: str) -> str:
+def normal(text: str) -> str:
     """Unit text in one spelling: ^ for powers, * for products, N*m for Nm, 1 for nothing."""
     text = text.strip().replace("**", "^").replace("·", "*").replace("²", "^2").replace("³", "^3")
     text = re.sub(r"\s*([*/^()])\s*", r"\1", text)
@@ -222,7 +134,7 @@ def _registry():
 
 
 @functools.cache
-def _parsed(text: str):
+def parsed(text: str):
     if text == "1":
         return _registry().Unit("dimensionless")
     try:
@@ -236,10 +148,24 @@ def _parsed(text: str):
 
 
 @functools.cache
-def _base_of(text: str) -> tuple[float, str]:
+def base_of(text: str) -> tuple[float, str]:
     """Factor to SI base units and the text of those, from pint."""
-    registry, unit = _registry(), _parsed(text)
+    registry, unit = _registry(), parsed(text)
     if registry.Quantity(0.0, unit).to_base_units().magnitude != 0.0:
         raise UnitError(f"'{text}' has an offset and cannot be converted by a factor; use K")
     base = registry.Quantity(1.0, unit).to_base_units()
-    return float(base.magnitude), _normal(f"{base.units:~C}") or "1"
+    return float(base.magnitude), normal(f"{base.units:~C}") or "1"
+
+
+def reduced(text: str) -> str:
+    """A unit text with what cancels taken out: ``"(m/s^2)*s/m"`` becomes ``"1/s"``. Through pint."""
+    return normal(f"{parsed(normal(text)):~C}")
+
+
+_BASE = {"[mass]": "kg", "[length]": "m", "[time]": "s", "[current]": "A", "[temperature]": "K", "[substance]": "mol",
+         "[luminosity]": "cd"}
+
+
+def base_unit(found) -> str:
+    """Unit text in SI base units of what `dimension` gives: ``base_unit(dimension("N"))`` is ``"kg*m/s^2"``."""
+    return reduced("*".join(f"{_BASE[name]}^{power:g}" for name, power in found.items()) or "1")

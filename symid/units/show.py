@@ -1,0 +1,95 @@
+"""Numbers with units as a person reads them: degrees, prefixes, and as many digits as the error allows."""
+
+from math import floor, isfinite, log10
+
+from symid.units.si import known_unit
+
+_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+_PREFIX_BELOW = {"s": 1.0, "m": 0.1}
+"""Size below which a unit is read with a prefix; 0.01 for those that are not listed."""
+_PREFIXED = ("N", "m", "s", "V", "A", "W", "J")
+"""What the first unit of a text may be to take a prefix: N m/rad becomes mN m/rad."""
+UNSURE = 100.0
+"""A value with an error this many times larger is not worth digits."""
+PLAIN = 1e-4, 1e7
+"""Numbers between these are written without a power of ten."""
+
+
+def unit_symbol(unit: str) -> str:
+    """A unit text as it is printed: ``"N*m*s/rad"`` as ``"N m s/rad"``, ``"kg*m^2"`` as ``"kg m²"``, ``"1"`` as ``""``."""
+    text = "" if unit in ("", "1") else unit.replace("**", "^").replace("*", " ")
+    base, *powers = text.split("^")
+    for power in powers:
+        end = next((i for i, c in enumerate(power) if not (c.isdigit() or c == "-")), len(power))
+        base += power[:end].translate(_RAISED) + power[end:]
+    return base
+
+
+def shown_unit(unit: str) -> tuple[str, float]:
+    """The unit in which a person reads a signal in the SI unit `unit`, and the factor to it: degrees for angles."""
+    known = known_unit(unit or "1")
+    if known.si in ("rad", "rad/s", "rad/s^2"):
+        degree = known_unit(known.si.replace("rad", "deg"))
+        return unit_symbol(degree.text), 1 / degree.factor
+    return unit_symbol(unit), 1.0
+
+
+def with_error(value: float, error: float, digits: int = 3) -> str:
+    """A value and its standard error, both to the second digit of the error: ``"630 ± 100"``, ``"0.0520 ± 0.0040"``.
+
+    An error that is not known, zero, or a hundred times the value leaves the value alone, to `digits` digits or two.
+    """
+    if not isfinite(value):
+        return "not known"
+    if not (isfinite(error) and error > 0):
+        return _plain(value, digits)
+    if error > UNSURE * abs(value) > 0:
+        return f"{_plain(value, 2)} (hardly determined)"
+    place = floor(log10(error)) - 1
+    place += round(error / 10.0**place) >= 100    # 0.0996 is rounded to 0.10
+    size = max(abs(value), error)
+    if not PLAIN[0] <= size < PLAIN[1]:
+        power = floor(log10(size))
+        scaled = with_error(value / 10.0**power, error / 10.0**power)
+        return f"({scaled})·10{str(power).translate(_RAISED)}"
+    decimals = max(0, -place)
+    return f"{_rounded(value, place):.{decimals}f} ± {_rounded(error, place):.{decimals}f}"
+
+
+def quantity(value: float, error: float = float("nan"), unit: str = "1", digits: int = 3) -> str:
+    """An SI value with its standard error in the unit that suits its size: ``"84.0 ± 3.0 ms"``, ``"5.2 ± 1.1 mN m"``.
+
+    Parameters
+    ----------
+    unit : SI unit text, such as a part of a model states. Angles and their rates are told in degrees.
+    digits : significant digits of a value whose error is not known.
+    """
+    factor, text = _suitable(max(abs(value), error if isfinite(error) else 0.0), unit)
+    return f"{with_error(value * factor, error * factor, digits)} {text}".strip()
+
+
+def _suitable(size: float, unit: str) -> tuple[float, str]:
+    """Factor to, and text of, the unit in which a number of this size is read."""
+    symbol = unit_symbol(unit)
+    shown, factor = shown_unit(unit)
+    if factor != 1.0:
+        return factor, shown
+    first = symbol.replace("/", " ").split(" ")[0]
+    if first not in _PREFIXED or not 0 < size < _PREFIX_BELOW.get(unit, 0.01):
+        return 1.0, symbol
+    scale, prefix = (1e-3, "m") if size >= 1e-3 else (1e-6, "µ")
+    return 1 / scale, prefix + symbol
+
+
+def _rounded(x: float, place: int) -> float:
+    """`x` to a multiple of 10^place; NumPy and Python disagree about negative digits of floats, this does not."""
+    return round(x / 10.0**place) * 10.0**place if place > 0 else x
+
+
+def _plain(x: float, digits: int) -> str:
+    """So many significant digits, as a power of ten only where it is far from one."""
+    if x == 0 or PLAIN[0] <= abs(x) < PLAIN[1]:
+        decimals = digits - 1 - (floor(log10(abs(x))) if x else 0)
+        return f"{_rounded(x, -decimals):.{max(decimals, 0)}f}"
+    power = floor(log10(abs(x)))
+    return f"{x / 10.0**power:.{digits - 1}f}·10{str(power).translate(_RAISED)}"
