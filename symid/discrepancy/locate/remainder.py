@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2
+from scipy.special import gammaln, hyperu
 
 from symid.discrepancy.locate.flexible import flexible_terms
 from symid.discrepancy.locate.modulation import PARTS, modulated
@@ -51,7 +51,10 @@ class Test:
 
     @property
     def minus_log10_p(self) -> float:
-        return max(0.0, float(-chi2.logsf(self.log_ratio, self.size) / np.log(10) - np.log10(self.tried)))
+        # Upper tail of chi-square with k degrees, by Tricomi's function (Abramowitz & Stegun 1972, 13.6.28): never underflows.
+        a, x = self.size / 2, max(self.log_ratio, 0.0) / 2
+        log_p = -x + np.log(hyperu(1 - a, 1 - a, x)) - gammaln(a) if x > 0 else 0.0
+        return max(0.0, float(-log_p / np.log(10) - np.log10(self.tried)))
 
 
 def remainder(fit: Fit, data: Data) -> list[Test]:

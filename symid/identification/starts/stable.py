@@ -20,7 +20,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.stats import qmc
 
 from symid.estimation.loop import Loop
 from symid.identification.starts.search import evolve, one_relaxed
@@ -177,6 +176,7 @@ class DisplacedRuns(Loop):
 
 def displaced(states: np.ndarray, count: int, wide: float) -> np.ndarray:
     """(count, n) states spread evenly (Sobol 1967) over the box of `states` (samples, n), made `wide` times as wide."""
+    from scipy.stats import qmc  # here: takes a second, and only this start needs it
     low, high = states.min(axis=0), states.max(axis=0)
     middle, half = (low + high) / 2, (high - low) / 2 * wide
     return middle + half * (2 * qmc.Sobol(states.shape[1], rng=np.random.default_rng(0)).random(count) - 1)
