@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from numpy.lib.stride_tricks import as_strided
 
 from symid.codegen import CodegenWarning, Kernel, Program, build, c_statements, compile_program, kernel, load_library
+from symid.codegen import cache as kept
 from symid.codegen.interval import interval_program, objective_program
 from symid.codegen.shipped import shipped_source
 from symid.codegen.source import Source, generate
@@ -410,7 +411,7 @@ def test_processes_that_build_the_same_kernel_at_once_do_not_disturb_each_other(
 
 
 def spared(monkeypatch) -> None:
-    monkeypatch.setattr(build, "_spare", [])
+    monkeypatch.setattr(kept, "_spare", [])
 
 
 def test_a_cache_that_cannot_be_written_is_replaced_with_one_warning(tmp_path, monkeypatch):
@@ -442,18 +443,76 @@ def test_a_full_cache_is_replaced_and_nothing_half_written_stays(tmp_path, monke
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("environment", [NO_COMPILER, {"PATH": "/nowhere", "CC": ""}, {"CC": "false"}])
-def test_without_a_compiler_numpy_is_used_with_one_warning(monkeypatch, environment):
-    for name, value in environment.items():
+def test_a_kernel_under_the_name_of_another_is_built_again(tmp_path, monkeypatch):
+    monkeypatch.setenv("SYMID_CACHE_DIR", str(tmp_path))
+    sources = [f"int answer(void) {{ return {k}; }}" for k in (41, 42)]
+    other, own = (build.compiled(source) for source in sources)
+    own.write_bytes(other.read_bytes())
+    assert load_library(sources[1]).answer() == 42
+
+
+def test_the_cache_is_for_this_user_alone(tmp_path, monkeypatch):
+    monkeypatch.setenv("SYMID_CACHE_DIR", str(tmp_path / "new" / "cache"))
+    path = build.compiled("int one(void) { return 1; }")
+    assert path.parent.stat().st_mode & 0o777 == 0o700
+    path.chmod(0o777)
+    assert kept.find(path.stem) is None    # others could have changed it
+
+
+def test_a_folder_that_others_can_write_to_is_not_believed(tmp_path, monkeypatch):
+    shared = tmp_path / "shared"
+    monkeypatch.setenv("SYMID_CACHE_DIR", str(shared / "cache"))
+    source = "int two(void) { return 2; }"
+    path = build.compiled(source)
+    for open_one in (shared, shared / "cache"):
+        open_one.chmod(0o777)
+        spared(monkeypatch)
+        with pytest.warns(CodegenWarning, match=f"other users can write to {open_one}\\).*mode 0700"):
+            assert build.compiled(source).parent != path.parent
+        open_one.chmod(0o700)
+    assert build.compiled(source) == path
+
+
+def test_a_folder_of_another_user_is_said(tmp_path, monkeypatch):
+    monkeypatch.setenv("SYMID_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(os, "geteuid", lambda: os.getuid() + 7)
+    spared(monkeypatch)
+    with pytest.warns(CodegenWarning, match="belongs to another user"):
+        build.compiled("int three(void) { return 3; }")
+    assert list(tmp_path.iterdir()) == []
+
+
+def stand_in(folder, script: str) -> dict[str, str]:
+    """An environment whose compiler is a shell script; $what is its target file."""
+    path = folder / "cc"
+    path.write_text(f"#!/bin/sh\n{script}\n")
+    path.chmod(0o755)
+    return {"CC": str(path)}
+
+
+VERSION = 'case "$*" in *--version*) echo 1.0; exit 0;; esac\n'
+
+
+@pytest.mark.parametrize("environment, words", [
+    (NO_COMPILER, "cannot be run"), ({"PATH": "/nowhere", "CC": ""}, "cannot be run"), ({"CC": "false"}, "--version' fails"),
+    ({"CC": "cc 'unfinished"}, "is no command"), ({"CC": "true"}, "wrote nothing"), ({"CC": "/"}, "cannot be run"),
+    (VERSION + "echo out of memory >&2; exit 1", "out of memory"), ("sleep 60", "did not end within 0.2 s"),
+    (VERSION + "sleep 60 & wait", "did not end within 0.2 s"), (VERSION + 'echo "#$*" > /dev/null', "wrote nothing"),
+])
+def test_without_a_working_compiler_numpy_is_used_with_one_warning(tmp_path, monkeypatch, environment, words):
+    for name, value in (stand_in(tmp_path, environment) if isinstance(environment, str) else environment).items():
         monkeypatch.setenv(name, value)
-    kernel._warn_once.cache_clear()
+    monkeypatch.setattr(build, "_warned", [])
+    monkeypatch.setattr(build, "PROBE_S", 0.2 if "0.2" in words else 10.0)
     build._identity.cache_clear()
-    with pytest.warns(CodegenWarning, match="run in NumPy, .* slower than C: no C compiler: .* install gcc or clang") as caught:
+    build._probe.cache_clear()
+    with pytest.warns(CodegenWarning, match=f"run in NumPy, .* slower than C: (.|\n)*{words}") as caught:
         kernels = [compile_program(program(row)) for row in (X, Y)]
     assert [k.backend for k in kernels] == ["numpy", "numpy"] and len(caught) == 1
-    with pytest.raises(CodegenError, match="no C compiler"):
+    with pytest.raises(CodegenError, match=words):
         compile_program(program(X), "c")
     build._identity.cache_clear()
+    build._probe.cache_clear()
 
 
 def test_a_source_that_the_compiler_rejects_is_an_error_with_its_words():

@@ -1,5 +1,7 @@
 """The forward simulator against analytic solutions, conservation laws and finite differences."""
 
+from functools import partial
+
 import numpy as np
 import pytest
 import sympy as sm
@@ -7,13 +9,19 @@ from scipy.linalg import expm
 
 from symid.errors import CodegenError, SymidError
 from symid.model import Constant, Equation, Input, Model, Noise, Output, Parameter, State
-from symid.simulation import PlatformProtocol, Simulator, synthetic_recording
+from symid.simulation import PlatformProtocol, synthetic_recording
+from symid.simulation import Simulator as AnySimulator
 
 
-def oscillator(lag: float | None = None) -> Model:
+@pytest.fixture(params=["c", "numpy"])
+def Simulator(request):  # noqa: N802 - stands for the class
+    return partial(AnySimulator, backend=request.param)
+
+
+def oscillator(lag: float | None = None, hold: str = "smooth") -> Model:
     m = Model("oscillator")
     m.angle, m.rate = State(unit="rad"), State(unit="rad/s")
-    m.push, m.jolt = Input(unit="N*m"), Noise(unit="N*m")
+    m.push, m.jolt = Input(unit="N*m", hold=hold), Noise(unit="N*m")
     m.inertia = Constant(2.0, unit="kg*m^2")
     m.stiffness, m.damping = Parameter(unit="N*m/rad"), Parameter(unit="N*m*s/rad")
     if lag is not None:
@@ -46,7 +54,7 @@ def central(run, values, key, h):
 VALUES = {"stiffness": 18.0, "damping": 0.6}
 
 
-def test_linear_system_matches_the_matrix_exponential():
+def test_linear_system_matches_the_matrix_exponential(Simulator):
     t = np.linspace(0, 5, 501)
     A = np.array([[0, 1], [-9.0, -0.3]])
     exact = np.array([expm(A * s) @ [0.4, -1.0] for s in t])
@@ -54,7 +62,7 @@ def test_linear_system_matches_the_matrix_exponential():
     np.testing.assert_allclose(got.x, exact, atol=1e-8)
 
 
-def test_inputs_are_linear_between_samples_and_noise_is_held():
+def test_inputs_are_linear_between_samples_and_noise_is_held(Simulator):
     t = np.array([0.0, 0.5, 1.0])
     sim = Simulator(oscillator())
     free = {"stiffness": 0.0, "damping": 0.0}
@@ -68,7 +76,7 @@ def test_inputs_are_linear_between_samples_and_noise_is_held():
 @pytest.mark.parametrize("lag", [None, 0.13])
 def test_order_of_accuracy(method, order, lag):
     t = np.linspace(0, 2, 21)
-    sim = Simulator(oscillator(lag))
+    sim = AnySimulator(oscillator(lag))
     values = VALUES | ({} if lag is None else {"lag": lag})
     history = (np.linspace(-0.2, 0, 3), np.outer(np.ones(3), [0.4, 0.0]))
     run = lambda k, how: sim.simulate(values, [0.4, 0.0], t, {"push": 0 * t}, substeps=k, method=how, history=history).x[-1]  # noqa: E731
@@ -78,7 +86,25 @@ def test_order_of_accuracy(method, order, lag):
     assert np.log2(errors[0] / errors[1]) > order - (0.2 if lag is None else 0.8)
 
 
-def test_delayed_system_matches_the_method_of_steps():
+@pytest.mark.parametrize("method", ["rk4", "euler"])
+@pytest.mark.parametrize("lag", [None, 0.13, 0.0])
+@pytest.mark.parametrize("hold", ["smooth", "zero"])
+def test_both_loops_give_the_same_results(method, lag, hold):
+    t = np.linspace(0, 2, 81) ** 1.1
+    rng = np.random.default_rng(4)
+    seen = rng.normal(size=(81, 2)) * 0.1
+    seen[7, 0] = np.nan
+    given = {"parameters": VALUES | ({} if lag is None else {"lag": lag}), "initial_state": [0.4, 0.0], "time": t,
+             "inputs": {"push": np.sin(5 * t)}, "noise": {"jolt": rng.normal(size=81)}, "substeps": 3, "method": method,
+             "history": (np.linspace(-0.2, 0, 3), np.outer([0.9, 1.2, 1.0], [0.4, 0.0])), "recorded": seen,
+             "gain": rng.uniform(0, 0.1, (1 if lag is None else 8, 2, 2)), "sensitivity": ("damping",),
+             "initial_sensitivity": ("rate",)}
+    c, python = (AnySimulator(oscillator(lag, hold), backend).simulate(**given) for backend in ("c", "numpy"))
+    for name in ("x", "y", "dx", "dy"):
+        np.testing.assert_allclose(getattr(python, name), getattr(c, name), rtol=1e-11, atol=1e-12)
+
+
+def test_delayed_system_matches_the_method_of_steps(Simulator):
     m = Model("decay by the past")
     m.x = State(unit="m")
     m.decay = Equation(m.x.dot + m.delayed(m.x, 1.0))
@@ -88,7 +114,7 @@ def test_delayed_system_matches_the_method_of_steps():
     np.testing.assert_allclose(Simulator(m).simulate({}, [1.0], t).x[:, 0], exact, atol=1e-12)
 
 
-def test_delayed_input_is_the_shifted_input():
+def test_delayed_input_is_the_shifted_input(Simulator):
     m = Model("integrator")
     m.x, m.u, m.shift = State(unit="m"), Input(unit="m/s"), Parameter(unit="s")
     m.flow = Equation(m.x.dot - m.delayed(m.u, m.shift))
@@ -101,14 +127,14 @@ def test_delayed_input_is_the_shifted_input():
         np.testing.assert_allclose(x, exact, atol=1e-4)
 
 
-def test_pendulum_keeps_its_energy():
+def test_pendulum_keeps_its_energy(Simulator):
     t = np.linspace(0, 10, 1001)
     energy = Simulator(double_pendulum()).simulate({"g": 9.81}, [1.0, -0.5, 0.3, 0.0], t, substeps=8).y[:, 0]
     assert np.ptp(energy) < 1e-7 * abs(energy[0])
 
 
 @pytest.mark.parametrize("lag", [None, 0.073, 0.004])
-def test_sensitivities_match_central_differences(lag):
+def test_sensitivities_match_central_differences(lag, Simulator):
     t = np.linspace(0, 4, 201)
     push = np.sin(3 * t) + 0.2
     sim = Simulator(oscillator(lag))
@@ -124,7 +150,7 @@ def test_sensitivities_match_central_differences(lag):
         np.testing.assert_allclose(got.sensitivity("torque", f"{key}(0)"), slope[:, 1], atol=1e-6 * np.abs(slope).max())
 
 
-def test_sensitivities_follow_the_sample_corrections():
+def test_sensitivities_follow_the_sample_corrections(Simulator):
     t = np.linspace(0, 4, 201)
     sim = Simulator(oscillator())
     rng = np.random.default_rng(2)
@@ -136,7 +162,7 @@ def test_sensitivities_follow_the_sample_corrections():
     assert not np.allclose(got.y, sim.simulate(VALUES, [0.1, 0.0], t, {"push": np.sin(2 * t)}).y)
 
 
-def test_nonlinear_sensitivities():
+def test_nonlinear_sensitivities(Simulator):
     t = np.linspace(0, 3, 301)
     sim = Simulator(double_pendulum())
     start = [1.0, -0.5, 0.3, 0.0]
@@ -145,7 +171,7 @@ def test_nonlinear_sensitivities():
     np.testing.assert_allclose(got.dx[:, :, 0], slope, atol=1e-6 * np.abs(slope).max())
 
 
-def test_batch_equals_a_loop():
+def test_batch_equals_a_loop(Simulator):
     t = np.linspace(0, 2, 101)
     sim = Simulator(oscillator())
     runs = [{"initial_state": [0.1 * k, 0.0]} for k in range(7)]
@@ -154,14 +180,14 @@ def test_batch_equals_a_loop():
         np.testing.assert_array_equal(got.x, sim.simulate(**run, **common).x)
 
 
-def test_a_run_that_diverges_is_reported_and_ends():
+def test_a_run_that_diverges_is_reported_and_ends(Simulator):
     t = np.linspace(0, 100, 1001)
     run = Simulator(oscillator()).simulate({"stiffness": -50.0, "damping": 0.0}, [1.0, 0.0], t, {"push": 0 * t})
     assert run.diverged and 0 < run.reached < 1001
     assert np.isfinite(run.x[: run.reached]).all() and np.isnan(run.x[run.reached:]).all()
 
 
-def test_linearisation_and_pade():
+def test_linearisation_and_pade(Simulator):
     sim = Simulator(oscillator(0.1))
     linear = sim.linearise(VALUES | {"lag": 0.1}, [0.0, 0.0])
     np.testing.assert_allclose(linear.A, [[0, 1], [0, -0.3]])
@@ -180,14 +206,14 @@ def test_linearisation_and_pade():
     ({"time": np.zeros(11)}, "increasing"),
     ({"sensitivity": ["stifness"]}, "did you mean 'stiffness'"),
 ])
-def test_messages(change, words):
+def test_messages(change, words, Simulator):
     t = np.linspace(0, 1, 11)
     given = {"parameters": VALUES, "initial_state": [0.0, 0.0], "time": t, "inputs": {"push": 0 * t}} | change
     with pytest.raises(SymidError, match=words):
         Simulator(oscillator()).simulate(**given)
 
 
-def test_models_that_cannot_be_simulated():
+def test_models_that_cannot_be_simulated(Simulator):
     m = Model("square")
     m.x = State(unit="m")
     m.rule = Equation(m.x.dot**2 - m.x)
@@ -223,7 +249,7 @@ def test_synthetic_recording_is_seeded_and_noisy():
         synthetic_recording(oscillator(), {"stiffness": -50.0, "damping": 0.0}, duration=60, rate=50, seed=1)
 
 
-def test_corrections_of_the_past_reach_delayed_signals_and_sensitivities():
+def test_corrections_of_the_past_reach_delayed_signals_and_sensitivities(Simulator):
     t = np.linspace(0, 4, 201)
     sim = Simulator(oscillator(0.07))
     rng = np.random.default_rng(2)

@@ -1,6 +1,7 @@
 """Equations to numbers: exact derivatives, C and NumPy functions, and a cache of compiled ones."""
 
-from symid.codegen.build import CodegenWarning, load_library
+from symid.codegen.build import load_library
+from symid.codegen.cache import CodegenWarning
 from symid.codegen.cprint import c_statements
 from symid.codegen.kernel import Kernel, compile_program
 from symid.codegen.program import Program

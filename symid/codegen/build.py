@@ -1,4 +1,4 @@
-"""C source to a loaded library, by the system's compiler, through a cache on disk."""
+"""C source to a loaded library, by the system's compiler, through the cache on disk; NumPy where that fails."""
 
 from __future__ import annotations
 
@@ -8,13 +8,17 @@ import hashlib
 import os
 import platform
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TypeVar
 
+from symid.codegen import cache
+from symid.codegen.cache import CodegenWarning
 from symid.errors import CodegenError
 
 # -O1 with the vectoriser runs within a tenth of -O2 and -O3 and compiles in half the time.
@@ -22,24 +26,50 @@ from symid.errors import CodegenError
 # backends and machines agree; NaN stays NaN, so that callers can see it.
 FLAGS = ("-O1", "-ftree-vectorize", "-fopenmp-simd", "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros",
          "-ffp-contract=off", "-fPIC", "-shared")
+PROBE_S, COMPILE_S = 10.0, 120.0
+"""Seconds after which a compiler is taken to hang: at telling its version and at one line, and at a kernel,
+which takes below a second (the largest shipped one 4 s on one core)."""
+
+Made = TypeVar("Made")
 
 
-_spare: list[tempfile.TemporaryDirectory] = []  # where the cache cannot be written: one folder of this process
+def or_numpy(backend: str, in_c: Callable[[], Made], in_numpy: Callable[[], Made]) -> Made:
+    """What `in_c` makes (backend "c" or "auto"), or `in_numpy` (backend "numpy"; "auto" where C cannot be had).
+
+    A process warns once, however much of it falls back.
+    """
+    if backend == "numpy":
+        return in_numpy()
+    try:
+        return in_c()
+    except CodegenError as problem:
+        if backend == "c":
+            raise
+        _warn_once(str(problem))
+        return in_numpy()
 
 
-class CodegenWarning(UserWarning):
-    """Generated code works, but not in the best way: no compiler, or nowhere to keep its output."""
+def warn_without_compiler() -> None:
+    """The one warning, where there is no working compiler: for a process whose workers are silent."""
+    or_numpy("auto", lambda: compiled("int one(void) { return 1; }"), lambda: None)
 
 
-def cache_directory() -> Path:
-    """SYMID_CACHE_DIR, else symid under XDG_CACHE_HOME, else ~/.cache/symid."""
-    own, xdg = os.environ.get("SYMID_CACHE_DIR"), os.environ.get("XDG_CACHE_HOME")
-    return Path(own) if own else Path(xdg or Path.home() / ".cache") / "symid"
+_warned: list[str] = []
+
+
+def _warn_once(problem: str) -> None:
+    if not _warned:
+        _warned.append(problem)
+        warnings.warn(f"generated functions run in NumPy, which is some 10 to 100 times slower than C: {problem}",
+                      CodegenWarning, stacklevel=3)
 
 
 def compiler() -> list[str]:
     """The C compiler's command: the environment's CC, else cc."""
-    return shlex.split(os.environ.get("CC", "")) or ["cc"]
+    try:
+        return shlex.split(os.environ.get("CC", "")) or ["cc"]
+    except ValueError as problem:
+        raise CodegenError(f"no C compiler: CC={os.environ['CC']!r} is no command ({problem}); set it to gcc or clang") from None
 
 
 def load_library(source: str, extra: Sequence[str] = ()) -> ctypes.CDLL:
@@ -57,7 +87,7 @@ def load_library(source: str, extra: Sequence[str] = ()) -> ctypes.CDLL:
     Raises
     ------
     CodegenError
-        If there is no compiler, or it rejects the source.
+        If there is no compiler, it does not work, or it rejects the source.
     """
     return load(compiled(source, extra))
 
@@ -74,95 +104,94 @@ def load(path: Path) -> ctypes.CDLL:
 def compiled(source: str, extra: Sequence[str] = ()) -> Path:
     """The library file of `load_library`, compiled now if it is not there or damaged."""
     command = compiler()
-    version, machine = _identity(tuple(command))
-    key = hashlib.sha256("\0".join((source, version, machine, *command, *FLAGS, *extra)).encode()).hexdigest()[:32]
-    for folder in (cache_directory(), *(Path(spare.name) for spare in _spare)):
-        if _whole(folder / f"{key}.so"):
-            return folder / f"{key}.so"
-    return _built(source, command, extra, cache_directory() / f"{key}.so")
-
-
-def _whole(path: Path) -> bool:
-    """Whether `path` is as it was written: a library cut short can load and then kill the process."""
-    try:
-        text = path.read_bytes()
-    except OSError:
-        return False
-    return text[-32:] == _seal(text[:-32])
-
-
-def _seal(text: bytes) -> bytes:
-    return hashlib.sha256(text).digest()
-
-
-def _built(source: str, command: list[str], extra: Sequence[str], path: Path) -> Path:
-    """Compile to a name of our own, seal, and rename to `path`; elsewhere if that cannot be written."""
-    with tempfile.TemporaryDirectory(prefix="symid-") as folder:
-        compiled = Path(folder) / "kernel.so"
-        _compile(source, command, extra, compiled)
-        text = compiled.read_bytes()
-    try:
-        return _written(text, path)
-    except OSError as problem:
-        return _written(text, _spare_folder(path.parent, problem) / path.name)
-
-
-def _written(text: bytes, path: Path) -> Path:
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix="new-")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(text + _seal(text))
-        os.replace(name, path)
-    except OSError:
-        os.unlink(name)
-        raise
-    return path
-
-
-def _spare_folder(cache: Path, problem: OSError) -> Path:
-    """A folder that lives as long as this process, with one warning."""
-    if not _spare:
-        _spare.append(tempfile.TemporaryDirectory(prefix="symid-cache-"))
-        warnings.warn(f"compiled kernels cannot be kept in {cache} ({problem.strerror}), so every process compiles "
-                      "them anew; set SYMID_CACHE_DIR to a folder that can be written", CodegenWarning, stacklevel=2)
-    return Path(_spare[0].name)
-
-
-def _compile(source: str, command: list[str], extra: Sequence[str], target: Path) -> None:
-    """Compile with the best flags that this compiler takes; the last are plain ones that all know."""
-    file = target.with_suffix(".c")
-    file.write_text(source)
-    native = ("-march=native",)
-    # The compiler would merge sin and cos of the same angle into sincos, which has no vector version.
-    vector = ("-DSYMID_LIBMVEC", "-fno-builtin-sin", "-fno-builtin-cos")
-    libraries = ["-lmvec", "-lm"]
-    attempts = [[*FLAGS, *native, *vector], [*FLAGS, *native], ["-O2", "-ffp-contract=off", "-fPIC", "-shared"]]
-    if not (sys.platform == "linux" and platform.machine() == "x86_64" and platform.libc_ver()[0] == "glibc"):
-        attempts = attempts[1:]
-    for flags in attempts:
-        linked = libraries if "-DSYMID_LIBMVEC" in flags else libraries[1:]
-        done = _run([*command, *flags, *extra, "-o", str(target), str(file), *linked])
-        if done.returncode == 0:
-            return
-    raise CodegenError(f"the C compiler {command[0]} failed:\n{done.stderr.strip()[:2000]}")
-
-
-def _run(arguments: list[str]) -> subprocess.CompletedProcess:
-    try:
-        return subprocess.run(arguments, capture_output=True, text=True, env=os.environ | {"LC_ALL": "C"})
-    except OSError as problem:
-        raise CodegenError(f"no C compiler: '{arguments[0]}' cannot be run ({problem.strerror}); "
-                           "install gcc or clang, or set CC") from None
+    told, problem = _identity(tuple(command))
+    if problem:
+        raise CodegenError(problem)
+    key = hashlib.sha256("\0".join((source, told, *command, *FLAGS, *_native(), *extra)).encode()).hexdigest()[:32]
+    found = cache.find(key)
+    if found:
+        return found
+    problem = _probe(tuple(command))
+    if problem:
+        raise CodegenError(problem)
+    return cache.keep(key, _compile(source, command, extra, COMPILE_S))
 
 
 @functools.cache
 def _identity(command: tuple[str, ...]) -> tuple[str, str]:
-    """(compiler version, processor) for the name of the compiled file."""
-    version = _run([*command, "--version"])
+    """Compiler version and processor, for the name of the compiled file; and what is wrong with the compiler, or ""."""
+    try:
+        version = _run([*command, "--version"], PROBE_S)
+    except CodegenError as problem:
+        return "", str(problem)
     if version.returncode:
-        raise CodegenError(f"no C compiler: '{' '.join(command)} --version' fails; install gcc or clang, or set CC")
-    return version.stdout, platform.machine() + _processor_features()
+        return "", f"no C compiler: '{' '.join(command)} --version' fails; install gcc or clang, or set CC"
+    return version.stdout + platform.machine() + _processor_features(), ""
+
+
+@functools.cache
+def _probe(command: tuple[str, ...]) -> str:
+    """What is wrong with the compiler, found on one line of C, so that a hanging one costs seconds once; or ""."""
+    try:
+        _compile("int one(void) { return 1; }", list(command), (), PROBE_S)
+    except CodegenError as problem:
+        return str(problem)
+    return ""
+
+
+def _native() -> list[str]:
+    """Instructions of this very processor, unless SYMID_NATIVE=0 leaves them out, as a plain machine would."""
+    return [] if os.environ.get("SYMID_NATIVE") == "0" else ["-march=native"]
+
+
+def _compile(source: str, command: list[str], extra: Sequence[str], limit_s: float) -> bytes:
+    """Compile with the best flags that this compiler takes; the last are plain ones that all know."""
+    # The compiler would merge sin and cos of the same angle into sincos, which has no vector version.
+    vector = ("-DSYMID_LIBMVEC", "-fno-builtin-sin", "-fno-builtin-cos")
+    libraries, native = ["-lmvec", "-lm"], _native()
+    attempts = [[*FLAGS, *native, *vector], [*FLAGS, *native], ["-O2", "-ffp-contract=off", "-fPIC", "-shared"]]
+    if not (sys.platform == "linux" and platform.machine() == "x86_64" and platform.libc_ver()[0] == "glibc"):
+        attempts = attempts[1:]
+    with tempfile.TemporaryDirectory(prefix="symid-") as folder:
+        file, target = Path(folder) / "kernel.c", Path(folder) / "kernel.so"
+        file.write_text(source)
+        for flags in attempts:
+            linked = libraries if "-DSYMID_LIBMVEC" in flags else libraries[1:]
+            done = _run([*command, *flags, *extra, "-o", str(target), str(file), *linked], limit_s)
+            if done.returncode == 0 and target.is_file() and target.stat().st_size:
+                return target.read_bytes()
+    said = done.stderr.strip()[:2000] or f"it wrote nothing (exit code {done.returncode})"
+    raise CodegenError(f"the C compiler {command[0]} failed:\n{said}")
+
+
+def _run(arguments: list[str], limit_s: float) -> subprocess.CompletedProcess:
+    """Run the compiler; with all that it started it is ended after `limit_s`, or when this process is interrupted."""
+    try:
+        process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
+                                   text=True, errors="replace", env=os.environ | {"LC_ALL": "C"}, start_new_session=True)
+    except (OSError, ValueError) as problem:
+        raise CodegenError(f"no C compiler: '{arguments[0]}' cannot be run ({getattr(problem, 'strerror', problem)}); "
+                           "install gcc or clang, or set CC") from None
+    try:
+        out, err = process.communicate(timeout=limit_s)
+    except BaseException as stopped:
+        _end(process)
+        if isinstance(stopped, subprocess.TimeoutExpired):
+            raise CodegenError(f"no C compiler: '{arguments[0]}' did not end within {limit_s:g} s and was stopped; "
+                               "install gcc or clang, or set CC") from None
+        raise
+    return subprocess.CompletedProcess(arguments, process.returncode, out, err)
+
+
+def _end(process: subprocess.Popen) -> None:
+    if hasattr(os, "killpg"):
+        try:
+            os.killpg(process.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+    else:
+        process.kill()
+    process.communicate()
 
 
 def _processor_features() -> str:

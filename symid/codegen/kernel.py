@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import ctypes
-import functools
 import time
-import warnings
 
 import numpy as np
 
-from symid.codegen.build import CodegenWarning, compiled, load
+from symid.codegen.build import compiled, load, or_numpy
 from symid.codegen.derive import Derived, derive, lowered
 from symid.codegen.numpyprint import numpy_functions
 from symid.codegen.program import Program
@@ -44,23 +42,18 @@ def compile_program(program: Program, backend: str = "auto") -> Kernel:
     start = time.perf_counter()
     graph, rows, variables = lowered(program)
     key = fingerprint(program, graph, rows)
-    if backend != "numpy":
+
+    def in_c() -> Kernel:
         source = shipped_source(key) or print_source(program, key, derive(graph, rows, variables))
         seconds = {"derive": time.perf_counter() - start}
-        try:
-            return Kernel(program, backend, source.structure, CFunctions(source.text, seconds), seconds)
-        except CodegenError as problem:
-            if backend == "c":
-                raise
-            _warn_once(f"generated functions run in NumPy, which is some 10 times slower than C: {problem}")
-    derived = derive(graph, rows, variables)
-    seconds = {"derive": time.perf_counter() - start, "compile": 0.0, "load": 0.0}
-    return Kernel(program, backend, structure(program, derived), NumpyFunctions(derived), seconds)
+        return Kernel(program, backend, source.structure, CFunctions(source.text, seconds), seconds)
 
+    def in_numpy() -> Kernel:
+        derived = derive(graph, rows, variables)
+        seconds = {"derive": time.perf_counter() - start, "compile": 0.0, "load": 0.0}
+        return Kernel(program, backend, structure(program, derived), NumpyFunctions(derived), seconds)
 
-@functools.cache
-def _warn_once(message: str) -> None:
-    warnings.warn(message, CodegenWarning, stacklevel=3)
+    return or_numpy(backend, in_c, in_numpy)
 
 
 class Kernel:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
+import sympy as sm
 
 from symid.codegen.cprint import PATTERNS, Statements
 from symid.codegen.derive import Derived
-from symid.codegen.graph import POINT, UNIFORM
+from symid.codegen.graph import POINT, UNIFORM, Graph
+from symid.codegen.lower import lower
 
 NUMPY_PATTERNS = PATTERNS | {
     "not": "np.logical_not({})", "select": "np.where({}, {}, {})", "abs": "np.abs({})", "sign": "np.sign({})",
@@ -45,3 +47,23 @@ def _text(name: str, derived: Derived, outputs: list[int]) -> str:
 
 def _number(value: float) -> str:
     return repr(value) if np.isfinite(value) else f"np.float64('{value}')"
+
+
+def python_function(name: str, arguments: Sequence[str], arrays: Sequence[Sequence[sm.Expr]],
+                    names: dict[sm.Symbol, str]) -> Callable[..., list[np.ndarray]]:
+    """A function of one point that returns the values of each list of expressions as an array.
+
+    names : the text that stands for each symbol, ``x[0]``, of what `arguments` name; arguments are float64
+        arrays, so that NaN and infinity pass through as in C.
+    """
+    graph = Graph()
+    leaves = {s: graph.symbol(text, UNIFORM) for s, text in names.items()}
+    outputs = lower(graph, [e for array in arrays for e in array], leaves)
+    body = Statements(graph, outputs, patterns=NUMPY_PATTERNS, number=_number)
+    results = iter([body.expression(k) for k in outputs])
+    lists = [", ".join(next(results) for _ in array) for array in arrays]
+    lines = [f"def {name}({', '.join(arguments)}):", *(f"    {v} = {text}" for _, v, text in body.assigned(UNIFORM)),
+             f"    return [{', '.join(f'np.array([{values}], dtype=float)' for values in lists)}]"]
+    functions: dict[str, Callable] = {}
+    exec(compile("\n".join(lines), f"<symid {name}>", "exec"), {"np": np}, functions)
+    return functions[name]

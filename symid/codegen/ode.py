@@ -1,35 +1,48 @@
-"""C functions of one model for forward simulation: mass matrix, force, slopes, outputs, lags.
+"""The functions of one model for forward simulation: mass matrix, force, slopes, outputs, lags.
 
 The implicit residual 0 = f(x', ...) is linear in x', so that x' = -M^-1 f(0, ...) with
 M = df/dx'. Sensitivities need the slopes of f at the solved x'; only structural nonzeros are
-printed. `symid/simulation/loop.c` is compiled once and integrates what the exported table says.
+printed. `symid/simulation/loop.c` is compiled once and integrates what the exported table says;
+`symid/simulation/loop.py` integrates the same functions in Python where nothing can be compiled.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
+import numpy as np
 import sympy as sm
 
 from symid.codegen.cprint import PREAMBLE, c_statements
+from symid.codegen.numpyprint import python_function
 from symid.errors import CodegenError
 from symid.model import TIME, Model, symbol
 
-
 TABLE = Path(__file__).with_name("ode.h").read_text()
 """The C declaration of what a model exports and the integrating loop reads."""
+ARGUMENTS = ("xd", "x", "l", "u", "w", "p", "c")
+"""Arrays that every function is given, before the time t: rates, states, late signals, inputs, noises, parameters, constants."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class OdeSource:
-    """C text of one model and the order of everything that goes in and out of it.
+    """The functions of one model and the order of everything that goes in and out of them.
 
-    `text` exports ``ode``, the table of sizes and functions that ``loop.c`` uses; the tuples hold
-    names in the order of the arrays x, late, u, w, p, c, y.
+    The tuples hold names in the order of the arrays x, late, u, w, p, c, y.
+
+    Attributes
+    ----------
+    functions : name -> array that the function fills -> expressions of its elements.
+    entries : ``<function>_<group>`` -> rows and columns of the structural nonzeros of those derivatives.
+    late_kind, late_index : of each late signal, 0 for a state and 1 for an input, and which.
+    input_held : of each input, 1 where it is constant between samples, 0 where linear.
+    outputs_need_rates : whether an output holds rates or late signals.
+    written : symbol -> how the functions name it, ``x[0]``.
     """
 
-    text: str
     states: tuple[str, ...]
     inputs: tuple[str, ...]
     noises: tuple[str, ...]
@@ -37,10 +50,43 @@ class OdeSource:
     constants: tuple[str, ...]
     outputs: tuple[str, ...]
     late: tuple[str, ...]
+    functions: dict[str, dict[str, list[sm.Expr]]]
+    entries: dict[str, tuple[list[int], list[int]]]
+    late_kind: list[int]
+    late_index: list[int]
+    input_held: list[int]
+    outputs_need_rates: bool
+    written: dict[sm.Symbol, str]
+
+    @cached_property
+    def text(self) -> str:
+        """C that exports ``ode``, the table of sizes and functions that ``loop.c`` uses."""
+        sizes = [len(k) for k in (self.states, self.late, self.inputs, self.noises, self.parameters, self.constants,
+                                  self.outputs)]
+        entries = [*map(str, (*sizes, int(self.outputs_need_rates))), "late_kind", "late_index", "input_held", *self.functions,
+                   *(f"{{{k}_count, {k}_row, {k}_col}}" for k in self.entries)]
+        lists = [_ints("late_kind", self.late_kind), _ints("late_index", self.late_index),
+                 _ints("input_held", self.input_held)]
+        for tag, (rows, columns) in self.entries.items():
+            lists += [f"enum {{{tag}_count = {len(rows)}}};", _ints(f"{tag}_row", rows), _ints(f"{tag}_col", columns)]
+        return "\n".join([PREAMBLE, TABLE, *lists, *(self._c_function(name) for name in self.functions),
+                          f"const Ode ode = {{{', '.join(entries)}}};"])
+
+    def _c_function(self, name: str) -> str:
+        arrays = self.functions[name]
+        pairs = [(f"{array}[{i}]", e) for array, elements in arrays.items() for i, e in enumerate(elements)]
+        given = ", ".join(f"const double *{a}" for a in ARGUMENTS)
+        out = ", ".join(f"double *{array}" for array in arrays)
+        return f"static void {name}({given}, double t, {out})\n{{\n{c_statements(pairs, self.written)}\n}}"
+
+    def in_python(self) -> dict[str, Callable[..., list[np.ndarray]]]:
+        """The functions by name; each takes `ARGUMENTS` and t, and returns its arrays in order."""
+        return {name: python_function(name, (*ARGUMENTS, "t"), list(arrays.values()), self.written)
+                for name, arrays in self.functions.items()}
 
 
 def ode_source(model: Model) -> OdeSource:
-    """The C functions of `model`; CodegenError if its residuals are not linear in the rates."""
+    """The functions of `model`; CodegenError if its residuals are not linear in the rates."""
     residual, observed = sm.Matrix(model.residual()), sm.Matrix(model.observed())
     states, inputs, noises = tuple(model.states), tuple(model.inputs), tuple(model.noises)
     rates = [s.dot for s in model.states.values()]
@@ -49,71 +95,41 @@ def ode_source(model: Model) -> OdeSource:
     parameters, constants = tuple(model.parameters), tuple(model.constants)
     groups = {"xd": rates, "x": _symbols(states), "l": late, "u": _symbols(inputs), "w": _symbols(noises),
               "p": _symbols(parameters), "c": _symbols(constants)}
-    names = {s: f"{g}[{i}]" for g, symbols in groups.items() for i, s in enumerate(symbols)} | {TIME: "t"}
-    unknown = used - names.keys()
-    if unknown:
-        raise CodegenError(f"model '{model.name}' uses {sorted(map(str, unknown))}, which it does not declare")
-    if len(residual) != len(states):
-        raise CodegenError(f"model '{model.name}' has {len(residual)} equations for {len(states)} states; "
-                           "a simulation needs one equation for each state")
+    written = {s: f"{g}[{i}]" for g, symbols in groups.items() for i, s in enumerate(symbols)} | {TIME: "t"}
+    _check(model, used - written.keys(), len(residual))
     mass = residual.jacobian(rates)
     if mass.free_symbols & set(rates):
         raise CodegenError(f"model '{model.name}' is not linear in its rates x', so it cannot be solved for them")
     lags = sm.Matrix([model.delays[s].lag for s in late])
-    parts = [
-        _dense("mass", {"M": mass, "force": residual.xreplace({r: sm.Integer(0) for r in rates})}, names),
-        _dense("observe", {"y": observed}, names),
-        _dense("lags", {"lag": lags}, names),
-        _sparse("slopes", residual, {"x": groups["x"], "l": late, "p": groups["p"], "w": groups["w"]}, names),
-        _sparse("observe_slopes", observed, {"x": groups["x"], "l": late, "p": groups["p"], "xd": rates}, names),
-        _sparse("lag_slopes", lags, {"p": groups["p"]}, names),
-    ]
-    needs_rates = bool(observed.free_symbols & {*rates, *late})
-    text = "\n".join([PREAMBLE, TABLE, *parts, _table(groups, len(observed), model, late, needs_rates)])
-    return OdeSource(text, states, inputs, noises, parameters, constants, tuple(model.outputs), tuple(map(str, late)))
+    functions = {"mass": {"M": list(mass), "force": list(residual.xreplace({r: sm.Integer(0) for r in rates}))},
+                 "observe": {"y": list(observed)}, "lags": {"lag": list(lags)}}
+    entries: dict[str, tuple[list[int], list[int]]] = {}
+    for name, rows, wrt in (("slopes", residual, "xlpw"), ("observe_slopes", observed, ("x", "l", "p", "xd")),
+                            ("lag_slopes", lags, "p")):
+        functions[name] = {}
+        for g in wrt:
+            found = [(i, j, d) for i, r in enumerate(rows) for j, s in enumerate(groups[g])
+                     if r.has(s) and (d := sm.diff(r, s)) != 0]
+            functions[name][f"d{g}"] = [d for _, _, d in found]
+            entries[f"{name}_{g}"] = [i for i, _, _ in found], [j for _, j, _ in found]
+    of = [str(model.delays[s].of) for s in late]
+    return OdeSource(states, inputs, noises, parameters, constants, tuple(model.outputs), tuple(map(str, late)),
+                     functions, entries, [0 if o in states else 1 for o in of],
+                     [states.index(o) if o in states else inputs.index(o) for o in of],
+                     [int(u.hold == "zero") for u in model.inputs.values()], bool(observed.free_symbols & {*rates, *late}), written)
+
+
+def _check(model: Model, unknown: set[sm.Symbol], equations: int) -> None:
+    if unknown:
+        raise CodegenError(f"model '{model.name}' uses {sorted(map(str, unknown))}, which it does not declare")
+    if equations != len(model.states):
+        raise CodegenError(f"model '{model.name}' has {equations} equations for {len(model.states)} states; "
+                           "a simulation needs one equation for each state")
 
 
 def _symbols(names) -> list[sm.Symbol]:
     return [symbol(n) for n in names]
 
 
-def _table(groups, outputs: int, model: Model, late, needs_rates: bool) -> str:
-    states, inputs = list(model.states), list(model.inputs)
-    of = [str(model.delays[s].of) for s in late]
-    kind = [0 if o in states else 1 for o in of]
-    index = [states.index(o) if o in states else inputs.index(o) for o in of]
-    sizes = [len(groups[k]) for k in "xluwpc"] + [outputs, int(needs_rates)]
-    lists = [f"{name}_{g}" for name, gs in (("slopes", "xlpw"), ("observe_slopes", ("x", "l", "p", "xd")), ("lag_slopes", "p"))
-             for g in gs]
-    entries = [*map(str, sizes), "late_kind", "late_index", "input_held", "mass", "observe", "lags", "slopes", "observe_slopes",
-               "lag_slopes", *(f"{{{k}_count, {k}_row, {k}_col}}" for k in lists)]
-    held = [int(u.hold == "zero") for u in model.inputs.values()]
-    return "\n".join([_ints("late_kind", kind), _ints("late_index", index), _ints("input_held", held), f"const Ode ode = {{{', '.join(entries)}}};"])
-
-
 def _ints(name: str, values) -> str:
     return f"static const int {name}[] = {{{', '.join(map(str, [*values, 0]))}}};"
-
-
-ARGUMENTS = ("const double *xd, const double *x, const double *l, const double *u, const double *w, "
-             "const double *p, const double *c, double t")
-
-
-def _dense(name: str, arrays: dict[str, sm.Matrix], names) -> str:
-    pairs = [(f"{a}[{i}]", e) for a, matrix in arrays.items() for i, e in enumerate(matrix)]
-    out = ", ".join(f"double *{a}" for a in arrays)
-    return f"static void {name}({ARGUMENTS}, {out})\n{{\n{c_statements(pairs, names)}\n}}"
-
-
-def _sparse(name: str, rows: sm.Matrix, groups: dict[str, list], names) -> str:
-    """The derivatives of `rows` by each group: arrays of values, with row and column lists."""
-    pairs, lists = [], []
-    for group, symbols in groups.items():
-        entries = [(i, j, d) for i, r in enumerate(rows) for j, s in enumerate(symbols)
-                   if r.has(s) and (d := sm.diff(r, s)) != 0]
-        pairs += [(f"d{group}[{k}]", d) for k, (_, _, d) in enumerate(entries)]
-        tag = f"{name}_{group}"
-        lists += [f"enum {{{tag}_count = {len(entries)}}};", _ints(f"{tag}_row", [i for i, _, _ in entries]),
-                  _ints(f"{tag}_col", [j for _, j, _ in entries])]
-    out = ", ".join(f"double *d{g}" for g in groups)
-    return "\n".join(lists) + f"\nstatic void {name}({ARGUMENTS}, {out})\n{{\n{c_statements(pairs, names)}\n}}"

@@ -5,10 +5,13 @@ from __future__ import annotations
 import os
 import signal
 import threading
+import warnings
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from multiprocessing import connection, current_process, get_context, parent_process
 
+from symid.codegen.build import warn_without_compiler
+from symid.codegen.cache import CodegenWarning
 from symid.errors import SolveError
 from symid.threads import ONE_THREAD
 
@@ -45,6 +48,7 @@ class LocalPool(Executor):
         if jobs is not None and jobs < 1:
             raise SolveError(f"jobs={jobs}: give at least 1 process")
         self.jobs = jobs or os.cpu_count() or 1
+        warn_without_compiler()
         self._keepers = ThreadPoolExecutor(self.jobs, thread_name_prefix="symid-keeper")
         self._own = threading.local()
         self._workers: set[_Worker] = set()
@@ -131,6 +135,7 @@ class _Worker:
 def _serve(pipe) -> None:
     """A worker's life: answer calls until the pipe or the parent is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the parent, which ends its workers
+    warnings.simplefilter("ignore", CodegenWarning)  # the parent has said it
     threading.Thread(target=_end_with_parent, daemon=True).start()
     pipe.send("ready")
     while True:

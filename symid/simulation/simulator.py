@@ -1,39 +1,22 @@
-"""A compiled forward simulator for any Model, with lags, sensitivities and sample corrections."""
+"""A forward simulator for any Model, with lags, sensitivities and sample corrections."""
 
 from __future__ import annotations
 
-import ctypes as ct
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
 
 import numpy as np
 
-from symid.codegen.build import load_library
-from symid.codegen.ode import TABLE, OdeSource, ode_source
+from symid.codegen.build import or_numpy
+from symid.codegen.ode import OdeSource, ode_source
 from symid.errors import SymidError
 from symid.model import Model, nearest
+from symid.simulation.compiled import CompiledLoop
 from symid.simulation.linear import Linearised
-
-_DOUBLES = ct.POINTER(ct.c_double)
-_FIELDS = [*((n, ct.c_long) for n in ("N", "substeps", "method", "nq", "nqp", "nqx", "nh", "npast")),
-           *((n, ct.c_void_p) for n in ("t", "u", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "ht", "hx")),
-           ("limit", ct.c_double), *((n, ct.c_void_p) for n in ("X", "Y", "SX", "SY"))]
-METHODS = {"rk4": 0, "euler": 1}
-
-
-class _Run(ct.Structure):
-    _fields_ = _FIELDS
-
-
-@lru_cache
-def _loop() -> ct.CDLL:
-    library = load_library(TABLE + Path(__file__).with_name("loop.c").read_text(), ("-O3",))
-    library.simulate.restype = ct.c_long
-    library.linearise.restype = None
-    return library
+from symid.simulation.loop import PythonLoop
+from symid.simulation.run import METHODS, Run
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,14 +65,17 @@ class Simulator:
     Residuals are solved for the rates at every stage and integrated by Runge-Kutta 4 (or
     explicit Euler) with fixed substeps. Inputs are linear between samples, or held where they say so; noise is
     constant over a sample interval, delayed states come from the run's own dense output.
+
+    Parameters
+    ----------
+    backend : ``"c"``; ``"numpy"`` (slower, needs no compiler, same results); ``"auto"`` takes C, and
+        NumPy with a `CodegenWarning` where there is no working compiler.
     """
 
-    def __init__(self, model: Model):
+    def __init__(self, model: Model, backend: str = "auto"):
         self.model = model
         self.source: OdeSource = ode_source(model)
-        self._loop = _loop()
-        self._library = load_library(self.source.text)
-        self._ode = ct.c_void_p(ct.addressof(ct.c_char.in_dll(self._library, "ode")))
+        self._loop = or_numpy(backend, lambda: CompiledLoop(self.source), lambda: PythonLoop(self.source))
         s = self.source
         self.states, self.outputs, self.parameters = s.states, s.outputs, s.parameters
         self.constants = np.array([c.value for c in model.constants.values()], dtype=float)
@@ -126,28 +112,23 @@ class Simulator:
         n, q = len(time), len(sensitivity) + len(initial_sensitivity)
         if n < 2 or not np.all(np.diff(time) > 0):
             raise SymidError(f"simulation of '{self.model.name}': time needs at least two increasing samples, found {n}")
-        keep = {
-            "t": time, "u": self._columns("input", self.source.inputs, inputs, n),
-            "w": self._columns("noise", self.source.noises, noise, n, missing=0.0),
-            "p": self._vector("parameter", self.parameters, parameters), "c": self.constants,
-            "x0": self._vector("initial state", self.states, initial_state),
-            "qp": self._indices("parameter", self.parameters, sensitivity),
-            "qx": self._indices("state", self.states, initial_sensitivity),
-            "gain": None if gain is None else _array(gain), "recorded": None if gain is None else _array(recorded),
-            "ht": None if history is None else _array(history[0]), "hx": None if history is None else _array(history[1]),
-            "X": np.full((n, len(self.states)), np.nan) if keep != "outputs" else None, "Y": np.full((n, len(self.outputs)), np.nan),
-            "SX": np.full((n, len(self.states), q), np.nan) if q and keep == "all" else None,
-            "SY": np.full((n, len(self.outputs), q), np.nan) if q else None,
-        }
-        run = _Run(N=n, substeps=substeps, method=METHODS[method], nq=q, nqp=len(sensitivity),
-                   nqx=len(initial_sensitivity), nh=0 if history is None else len(history[0]), limit=limit,
-                   npast=0 if gain is None or np.ndim(gain) == 2 else len(gain) - 1,
-                   **{k: None if a is None else a.ctypes.data for k, a in keep.items()})
-        reached = self._loop.simulate(self._ode, ct.byref(run))
+        corrected = gain is not None
+        run = Run(
+            substeps, METHODS[method], limit, time, self._columns("input", self.source.inputs, inputs, n),
+            self._columns("noise", self.source.noises, noise, n, missing=0.0),
+            self._vector("parameter", self.parameters, parameters), self.constants,
+            self._vector("initial state", self.states, initial_state),
+            self._indices("parameter", self.parameters, sensitivity), self._indices("state", self.states, initial_sensitivity),
+            gain=_array(gain) if corrected else None, recorded=_array(recorded) if corrected else None,
+            ht=None if history is None else _array(history[0]), hx=None if history is None else _array(history[1]),
+            X=np.full((n, len(self.states)), np.nan) if keep != "outputs" else None, Y=np.full((n, len(self.outputs)), np.nan),
+            SX=np.full((n, len(self.states), q), np.nan) if q and keep == "all" else None,
+            SY=np.full((n, len(self.outputs), q), np.nan) if q else None)
+        reached = self._loop.simulate(run)
         if reached < 0:
             raise MemoryError(f"simulation of '{self.model.name}' over {n} samples with {q} sensitivities")
         wrt = (*sensitivity, *(f"{s}(0)" for s in initial_sensitivity))
-        return Trajectory(time, keep["X"], keep["Y"], self.states, self.outputs, wrt, keep["SX"], keep["SY"], reached)
+        return Trajectory(time, run.X, run.Y, self.states, self.outputs, wrt, run.SX, run.SY, reached)
 
     def batch(self, runs: Sequence[Mapping], *, threads: int = 2, **common) -> list[Trajectory]:
         """`simulate(**common, **run)` for every run, on threads; the same numbers as a loop."""
@@ -166,12 +147,11 @@ class Simulator:
         zero, p = np.zeros(max(n, w, len(s.inputs), 1)), self._vector("parameter", self.parameters, parameters)
         x, at, u = np.zeros(n), np.zeros(late), zero if inputs is None else _array(inputs)
         out = [np.zeros(k) for k in ((n, n), (n, n), (n, late), (n, w), (m, n), (m, late), (late,))]
-        call = [self._ode, *map(_pointer, (zero, x, at, u, zero, p, self.constants)), ct.c_double(0.0), *map(_pointer, out)]
         mean = [np.zeros_like(k) for k in out]
         for point in points:
             x[:] = point
             at[:] = [point[s.states.index(o)] if o in s.states else 0.0 for o in late_of]
-            self._loop.linearise(*call)
+            self._loop.linearise((zero, x, at, u, zero, p, self.constants), out)
             for total, part in zip(mean, out, strict=True):
                 total += part / len(points)
         mass = mean[0]
@@ -245,7 +225,3 @@ def _late(model: Model, name: str):
 
 def _array(values) -> np.ndarray:
     return np.ascontiguousarray(values, dtype=float)
-
-
-def _pointer(a: np.ndarray):
-    return a.ctypes.data_as(_DOUBLES)

@@ -1,0 +1,58 @@
+"""The integrating loop in C: `loop.c`, compiled once, on the compiled functions of one model."""
+
+from __future__ import annotations
+
+import ctypes as ct
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from symid.codegen.build import load_library
+from symid.codegen.ode import TABLE, OdeSource
+from symid.simulation.run import Run
+
+_SIZES = ("N", "substeps", "method", "nq", "nqp", "nqx", "nh", "npast")
+_ARRAYS = ("t", "u", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "ht", "hx")
+_RESULTS = ("X", "Y", "SX", "SY")
+
+
+class _Run(ct.Structure):
+    """The struct Run of loop.c."""
+
+    _fields_ = [*((n, ct.c_long) for n in _SIZES), *((n, ct.c_void_p) for n in _ARRAYS), ("limit", ct.c_double),
+                *((n, ct.c_void_p) for n in _RESULTS)]
+
+
+@lru_cache
+def _loop() -> ct.CDLL:
+    library = load_library(TABLE + Path(__file__).with_name("loop.c").read_text(), ("-O3",))
+    library.simulate.restype = ct.c_long
+    library.linearise.restype = None
+    return library
+
+
+class CompiledLoop:
+    """`simulate` and `linearise` of one model in C; CodegenError where it cannot be compiled."""
+
+    backend = "c"
+
+    def __init__(self, source: OdeSource):
+        self._loop = _loop()
+        self._library = load_library(source.text)
+        self._ode = ct.c_void_p(ct.addressof(ct.c_char.in_dll(self._library, "ode")))
+
+    def simulate(self, run: Run) -> int:
+        """Fill the results of `run`; the number of samples reached, or -1 where memory is short."""
+        sizes = {n: getattr(run, n) for n in _SIZES}
+        arrays = {n: getattr(run, n) for n in (*_ARRAYS, *_RESULTS)}
+        return self._loop.simulate(self._ode, ct.byref(_Run(
+            **sizes, limit=run.limit, **{n: None if a is None else a.ctypes.data for n, a in arrays.items()})))
+
+    def linearise(self, arguments: tuple[np.ndarray, ...], out: list[np.ndarray]) -> None:
+        """Write mass matrix, slopes of the residual by x, late and w, of the outputs by x and late, and lags to `out`."""
+        self._loop.linearise(self._ode, *map(_pointer, arguments), ct.c_double(0.0), *map(_pointer, out))
+
+
+def _pointer(a: np.ndarray):
+    return a.ctypes.data_as(ct.POINTER(ct.c_double))

@@ -1,0 +1,147 @@
+"""What delayed signals read: given history, the dense output of stored steps, the step under way, and inputs."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass
+
+import numpy as np
+
+from symid.codegen.ode import OdeSource
+from symid.simulation.run import Run
+
+
+@dataclass(eq=False)
+class Step:
+    """A finished step: x at its start, k1, k2 + k3 and k4 of Runge-Kutta 4, and those of the sensitivities."""
+
+    begin: float
+    span: float
+    x: list[np.ndarray]
+    S: list[np.ndarray]
+
+    def value(self, time: float, i: int) -> tuple[float, float, np.ndarray]:
+        """State i, its rate and its sensitivities within the step (Hairer, Norsett & Wanner 1993, II.6)."""
+        h, q = self.span, (time - self.begin) / self.span
+        b = h * (q - 1.5 * q**2 + 2 * q**3 / 3), h * (q**2 - 2 * q**3 / 3), h * (-0.5 * q**2 + 2 * q**3 / 3)
+        slope = 1 - 3 * q + 2 * q**2, 2 * q - 2 * q**2, -q + 2 * q**2
+        value = self.x[0][i] + sum(w * k[i] for w, k in zip(b, self.x[1:], strict=True))
+        rate = sum(w * k[i] for w, k in zip(slope, self.x[1:], strict=True))
+        return value, rate, self.S[0][i] + sum(w * k[i] for w, k in zip(b, self.S[1:], strict=True))
+
+
+class Past:
+    """Inputs and late signals at any time of a run.
+
+    lag : (L,) [s] how late each signal is. dlag : (L, nq) its slopes.
+    """
+
+    def __init__(self, run: Run, source: OdeSource, lag: np.ndarray, dlag: np.ndarray):
+        self.run, self.source, self.lag, self.dlag = run, source, lag, dlag
+        self.held = np.zeros(run.u.shape[1], dtype=bool)
+        self.held[:len(source.input_held)] = source.input_held
+        self.steps: list[Step] = []
+        self.begins: list[float] = []
+        n, zero = len(run.x0), np.zeros((len(run.x0), run.nq))
+        self.start, self.x, self.S = run.t[0], run.x0, zero
+        self.rate, self.curve, self.S_rate, self.S_curve = np.zeros(n), np.zeros(n), zero, zero
+        self.known = False
+
+    def begin(self, t: float, x: np.ndarray, S: np.ndarray) -> None:
+        """A step begins at t; the rates at its start are not known yet."""
+        self.start, self.x, self.S, self.known = t, x, S, False
+
+    def inside(self, rate: np.ndarray, S_rate: np.ndarray) -> None:
+        """The rates at the start of the present step are known."""
+        self.rate, self.S_rate, self.known = rate, S_rate, True
+
+    def end(self, step: Step) -> None:
+        """A step is finished; it is kept where signals are late."""
+        self.known = False
+        if len(self.lag):
+            self.steps.append(step)
+            self.begins.append(step.begin)
+            self.curve, self.S_curve = (step.x[3] - step.x[1]) / step.span, (step.S[3] - step.S[1]) / step.span
+            self.start = step.begin + step.span
+
+    def inputs_at(self, time: float, k: int) -> tuple[np.ndarray, np.ndarray]:
+        """(inputs,) and slopes: linear between samples or held, constant beyond the ends.
+
+        k is the present interval: at its end a held input still has the value of its start.
+        """
+        t, u, present = self.run.t, self.run.u, k
+        k = min(max(k, 0), len(t) - 2)
+        while k > 0 and time < t[k]:
+            k -= 1
+        while k < len(t) - 2 and time > t[k + 1]:
+            k += 1
+        h = t[k + 1] - t[k]
+        f = (time - t[k]) / h
+        slope = (u[k + 1] - u[k]) / h if 0 <= f <= 1 else np.zeros_like(u[k])
+        value = u[k] + min(max(f, 0.0), 1.0) * (u[k + 1] - u[k])
+        if self.held.any():
+            at_end = present == k - 1 and time - t[k] < 1e-9 * h
+            held = present if at_end else len(t) - 1 if present > k and f >= 1 else k
+            value, slope = np.where(self.held, u[held], value), np.where(self.held, 0.0, slope)
+        return value, slope
+
+    def late_at(self, time: float, k: int, x: np.ndarray, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(L,) late signals and their (L, nq) sensitivities; x and S are the present ones, for a lag of zero."""
+        late, lS = np.zeros(len(self.lag)), np.zeros_like(self.dlag)
+        for j, (kind, i) in enumerate(zip(self.source.late_kind, self.source.late_index, strict=True)):
+            if kind:
+                values, slopes = self.inputs_at(time - self.lag[j], k)
+                late[j], rate, row = values[i], slopes[i], 0.0
+            elif self.lag[j] == 0:
+                late[j], rate, row = x[i], self.rate[i], S[i]
+            else:
+                late[j], rate, row = self._state_at(time - self.lag[j], i)
+            lS[j] = row - rate * self.dlag[j]
+        return late, lS
+
+    def _state_at(self, time: float, i: int) -> tuple[float, float, np.ndarray | float]:
+        first = self.run.t[0]
+        present = time >= self.start if self.known else time >= first if not self.steps else time > self.start
+        if present:
+            d = time - self.start
+            return (self.x[i] + d * self.rate[i] + 0.5 * d * d * self.curve[i], self.rate[i] + d * self.curve[i],
+                    self.S[i] + d * self.S_rate[i] + 0.5 * d * d * self.S_curve[i])
+        if time <= first or not self.steps:
+            return self._before(time, i)
+        return self.steps[max(bisect_right(self.begins, time) - 1, 0)].value(time, i)
+
+    def _before(self, time: float, i: int) -> tuple[float, float, np.ndarray | float]:
+        """From the given history, or the initial state held."""
+        ht, hx = self.run.ht, self.run.hx
+        if ht is None:
+            row = np.zeros(self.run.nq)
+            row[self.run.nqp:][self.run.qx == i] = 1
+            return self.run.x0[i], 0.0, row
+        if len(ht) < 2:
+            return hx[0, i], 0.0, 0.0
+        k = min(max(int(np.searchsorted(ht, time)) - 1, 0), len(ht) - 2)
+        h, a, b = ht[k + 1] - ht[k], hx[k, i], hx[k + 1, i]
+        f = max((time - ht[k]) / h, 0.0)
+        return a + f * (b - a), (b - a) / h if f > 0 else 0.0, 0.0
+
+    def correct(self, now: float, interval: float, e: np.ndarray, Sy: np.ndarray) -> None:
+        """A fixed-lag smoother on the stored steps (Anderson & Moore 1979, 7.3), linear within each."""
+        for step in reversed(self.steps):
+            late = (now - step.begin) / interval
+            end = late - step.span / interval
+            if end >= self.run.npast:
+                break
+            start = self._gain(late)
+            slope = (self._gain(end) - start) / step.span
+            for k, part in enumerate((start, slope, 2 * slope, slope)):
+                step.x[k] = step.x[k] + part @ e
+                step.S[k] = step.S[k] - part @ Sy
+
+    def _gain(self, late: float) -> np.ndarray:
+        """(n, m) correction per surprise, `late` sample intervals before the sample."""
+        gain, j = self.run.gain, int(late)
+        if late < 0:
+            return gain[0]
+        if j >= self.run.npast:
+            return np.zeros_like(gain[0])
+        return (1 - (late - j)) * gain[j] + (late - j) * gain[j + 1]

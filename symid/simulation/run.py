@@ -1,0 +1,69 @@
+"""What one simulation is given and fills: the same for the loop in C and the loop in Python."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+METHODS = {"rk4": 0, "euler": 1}
+
+
+@dataclass(eq=False)
+class Run:
+    """Checked, contiguous arrays of one simulation over N samples.
+
+    Attributes
+    ----------
+    substeps, method : of the integrator, a value of `METHODS`.
+    limit : a state larger than this ends the run.
+    t : (N,) [s]. u : (N, inputs), w : (N, noises), at least one column each. p, c, x0 : values.
+    qp, qx : (nqp,), (nqx,) parameters and initial states to differentiate by; nq of both.
+    gain : (npast + 1, n, m) or (n, m) corrections at the samples and recorded : (N, m), or None.
+    ht, hx : (nh,) and (nh, n) history before the start, or None.
+    X : (N, n), Y : (N, m), SX : (N, n, nq), SY : (N, m, nq): results; None where not wanted.
+    """
+
+    substeps: int
+    method: int
+    limit: float
+    t: np.ndarray
+    u: np.ndarray
+    w: np.ndarray
+    p: np.ndarray
+    c: np.ndarray
+    x0: np.ndarray
+    qp: np.ndarray
+    qx: np.ndarray
+    gain: np.ndarray | None
+    recorded: np.ndarray | None
+    ht: np.ndarray | None
+    hx: np.ndarray | None
+    X: np.ndarray | None
+    Y: np.ndarray
+    SX: np.ndarray | None
+    SY: np.ndarray | None
+
+    @property
+    def N(self) -> int:
+        return len(self.t)
+
+    @property
+    def nqp(self) -> int:
+        return len(self.qp)
+
+    @property
+    def nqx(self) -> int:
+        return len(self.qx)
+
+    @property
+    def nq(self) -> int:
+        return self.nqp + self.nqx
+
+    @property
+    def nh(self) -> int:
+        return 0 if self.ht is None else len(self.ht)
+
+    @property
+    def npast(self) -> int:
+        return 0 if self.gain is None or self.gain.ndim == 2 else len(self.gain) - 1
