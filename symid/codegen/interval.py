@@ -10,19 +10,11 @@ import sympy as sm
 
 from symid.codegen.program import Program
 from symid.codegen.stencil import Stencil
-from symid.model import TIME, Model, symbol
-
-STEP = symbol("step h")
-
-
-def scale_symbol(name: str) -> sm.Symbol:
-    """The symbol of the number by which the state, parameter or equation `name` is scaled."""
-    return symbol(f"scale {name}")
-
-
-def at(name, place) -> sm.Symbol:
-    """The symbol of the state, input or late signal `name` at a slot, point or node."""
-    return symbol(f"{name}#{place}")
+from symid.codegen.symbols import (
+    STEP, algebraics_at_nodes, at, constant_symbols, data_at, duration_of, node_symbols, own_points, parameter_symbols,
+    scale_symbol, scaled_parameters, scales, used_data,
+)
+from symid.model import Model, symbol
 
 
 def late_signals(model: Model) -> tuple[sm.Symbol, ...]:
@@ -31,88 +23,107 @@ def late_signals(model: Model) -> tuple[sm.Symbol, ...]:
     return tuple(s for s in model.delays if s in used)
 
 
-def used_data(model: Model, rows) -> tuple[sm.Symbol, ...]:
-    """The inputs, and time, that occur in `rows`, in order of declaration, time last."""
-    used = set().union(*(r.free_symbols for r in rows))
-    known = [u.symbol for u in model.inputs.values()] + [TIME]
-    return tuple(s for s in known if s in used)
+def equations_over(model: Model) -> tuple[int, ...]:
+    """Places of the equations that hold over an interval; algebraic ones hold at nodes and inner points."""
+    apart = model.algebraic_equations() if algebraics_at_nodes(model) else ()
+    return tuple(i for i in range(len(model.equations)) if i not in apart)
 
 
-def interval_program(model: Model, stencil: Stencil) -> Program:
+def point_table(model: Model, stencil: Stencil, p: int, data, duration: str | None = None) -> dict[sm.Symbol, sm.Expr]:
+    """What stands for each symbol of a model at point `p` of an interval."""
+    last, c, table = stencil.slots - 1, float(stencil.abscissae[p]), scaled_parameters(model)
+    for x in (s.symbol for s in model.states.values()):
+        slots = [at(x, s) for s in range(stencil.slots)]
+        table[x] = scale_symbol(x) * combination(stencil.state[p], slots)
+        table[symbol(f"{x}'")] = scale_symbol(x) / (STEP * duration_of(duration)) * combination(stencil.rate[p], slots)
+    for u in model.controls.values():
+        weights = (1.0, 0.0) if u.hold == "zero" else (1 - c, c)
+        table[u.symbol] = scale_symbol(u.name) * combination(weights, [at(u.name, 0), at(u.name, last)])
+    own = own_points(model, stencil)
+    for y in (a.symbol for a in model.algebraics.values()):
+        table[y] = scale_symbol(y) * (at(y, f"point {p}") if p in own else at(y, last if c == 1 else 0))
+    held = set(table)
+    for y in late_signals(model):
+        of = model.delays[y].of
+        table[y] = at(y, p) * (scale_symbol(of) if of in held else 1)
+    return table | data_at(data, p, duration)
+
+
+def local_symbols(model: Model, stencil: Stencil) -> tuple[sm.Symbol, ...]:
+    """The unknowns that one interval sees, in the order of `transcription.layout`."""
+    node, states = node_symbols(model), [s.symbol for s in model.states.values()]
+    last = stencil.slots - 1
+    return (*(at(s, 0) for s in node), *(at(x, s) for s in range(1, last) for x in states),
+            *(at(y, f"point {p}") for p in own_points(model, stencil) for y in model.algebraics),
+            *(at(y, p) for p in range(stencil.points) for y in late_signals(model)), *(at(s, last) for s in node))
+
+
+def interval_program(model: Model, stencil: Stencil, duration: str | None = None) -> Program:
     """The residuals of one interval.
 
     Order of the symbols, which `transcription.layout` relies on:
-    local  = states at slot 0 | states at interior slots | late signals by point | states at the last slot
+    local  = node | states at interior slots | algebraics by own point | late signals by point | next node,
+             a node being states | controls | algebraics
     shared = parameters
     data   = used inputs (and time) by point | noises
-    constants = model constants | step | scales of states | of parameters | of equations
-    Order of the rows: groups x equations, then defects x states.
+    constants = model constants | step | scales of what a node holds | of parameters | of equations
+    Order of the rows: groups x differential equations, own points x algebraic equations, defects x states.
+
+    duration : name of the parameter that is the motion's duration, where that is unknown.
     """
-    states, parameters = [s.symbol for s in model.states.values()], [p.symbol for p in model.parameters.values()]
-    residual, late = model.residual(), late_signals(model)
+    residual, states = model.residual(), [s.symbol for s in model.states.values()]
     data, noises = used_data(model, residual), [w.symbol for w in model.noises.values()]
     equations = [scale_symbol(e) for e in model.equations]
-    last = stencil.slots - 1
-
-    def point(p: int) -> dict:
-        table = {q: q * scale_symbol(q) for q in parameters}
-        for x in states:
-            slots = [at(x, s) for s in range(stencil.slots)]
-            table[x] = scale_symbol(x) * _combination(stencil.state[p], slots)
-            table[symbol(f"{x}'")] = scale_symbol(x) / STEP * _combination(stencil.rate[p], slots)
-        for y in late:
-            of = model.delays[y].of
-            table[y] = at(y, p) * (scale_symbol(of) if of in states else 1)
-        return table | {u: at(u, p) for u in data}
-
-    points = [[r.xreplace(table) for r in residual] for table in map(point, range(stencil.points))]
-    rows = [sum(sm.Float(w) * r if w != 1 else r for w, r in zip(weights, rs, strict=True) if w) / scale
-            for weights in stencil.weights for rs, scale in zip(zip(*points, strict=True), equations, strict=True)]
-    rows += [_combination(d, [at(x, s) for s in range(stencil.slots)]) for d in stencil.defects for x in states]
+    over = equations_over(model)
+    apart = [i for i in range(len(residual)) if i not in over]
+    points = [[r.xreplace(table) for r in residual]
+              for table in (point_table(model, stencil, p, data, duration) for p in range(stencil.points))]
+    rows = [sum(sm.Float(w) * at_point[i] if w != 1 else at_point[i]
+                for w, at_point in zip(weights, points, strict=True) if w) / equations[i]
+            for weights in stencil.weights for i in over]
+    rows += [points[p][i] / equations[i] for p in own_points(model, stencil) for i in apart]
+    rows += [combination(d, [at(x, s) for s in range(stencil.slots)]) for d in stencil.defects for x in states]
     return Program(
-        name=f"{model.name} interval",
-        rows=tuple(rows),
-        local=(*(at(x, s) for s in range(last) for x in states),
-               *(at(y, p) for p in range(stencil.points) for y in late), *(at(x, last) for x in states)),
-        shared=tuple(parameters),
+        name=f"{model.name} interval", rows=tuple(rows), local=local_symbols(model, stencil),
+        shared=tuple(parameter_symbols(model)),
         data=(*(at(u, p) for p in range(stencil.points) for u in data), *noises),
-        constants=(*_constants(model), STEP, *map(scale_symbol, (*states, *parameters)), *equations),
+        constants=(*constant_symbols(model), STEP, *scales(model), *equations),
     )
 
 
 def objective_program(model: Model) -> Program:
     """The weighted squared output error at one node, a single row.
 
-    local = states; shared = parameters; data = used inputs (and time) | recorded outputs;
-    constants = model constants | scales of states | of parameters | weights of outputs.
+    local = what the node holds; shared = parameters; data = used inputs (and time) | recorded outputs;
+    constants = model constants | scales as in `interval_program` | weights of outputs.
     """
-    states, parameters = [s.symbol for s in model.states.values()], [p.symbol for p in model.parameters.values()]
     observed = model.observed()
     data = used_data(model, observed)
-    table = {s: s * scale_symbol(s) for s in (*states, *parameters)}
     recorded = [at(y, "recorded") for y in model.outputs]
     weights = [at(y, "weight") for y in model.outputs]
+    table = node_table(model)
     error = sum((w * (y.xreplace(table) - d) ** 2 for w, y, d in zip(weights, observed, recorded, strict=True)),
                 sm.Integer(0))
-    return Program(name=f"{model.name} objective", rows=(error,), local=tuple(states), shared=tuple(parameters),
-                   data=(*data, *recorded),
-                   constants=(*_constants(model), *map(scale_symbol, (*states, *parameters)), *weights))
+    return Program(name=f"{model.name} objective", rows=(error,), local=tuple(node_symbols(model)),
+                   shared=tuple(parameter_symbols(model)), data=(*data, *recorded),
+                   constants=(*constant_symbols(model), *scales(model), *weights))
 
 
 def output_program(model: Model) -> Program:
     """The outputs at one node, in SI units; arguments as in `objective_program`, without its weights."""
-    states, parameters = [s.symbol for s in model.states.values()], [p.symbol for p in model.parameters.values()]
-    table = {s: s * scale_symbol(s) for s in (*states, *parameters)}
+    table = node_table(model)
     return Program(name=f"{model.name} outputs", rows=tuple(y.xreplace(table) for y in model.observed()),
-                   local=tuple(states), shared=tuple(parameters), data=used_data(model, model.observed()),
-                   constants=(*_constants(model), *map(scale_symbol, (*states, *parameters))))
+                   local=tuple(node_symbols(model)), shared=tuple(parameter_symbols(model)),
+                   data=used_data(model, model.observed()), constants=(*constant_symbols(model), *scales(model)))
 
 
-def _constants(model: Model) -> list[sm.Symbol]:
-    return [c.symbol for c in model.constants.values()]
+def node_table(model: Model) -> dict[sm.Symbol, sm.Expr]:
+    """What stands for the quantities at a node, and for the parameters."""
+    return {s: s * scale_symbol(s) for s in (*node_symbols(model), *parameter_symbols(model))}
 
 
-def _combination(coefficients, symbols) -> sm.Expr:
+def combination(coefficients, symbols) -> sm.Expr:
+    """Sum of coefficient * symbol, without what is zero."""
     terms = [(s if c == 1 else -s if c == -1 else sm.Float(c) * s)
              for c, s in zip(coefficients, symbols, strict=True) if c]
     return sm.Add(*terms)

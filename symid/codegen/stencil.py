@@ -23,6 +23,8 @@ class Stencil:
     rate : (P, S) x' at point p = sum over slots of rate[p, s] * slot[s] / h.
     weights : (G, P) each group g is one set of residuals: sum over p of weights[g, p] * f(point p).
     defects : (D, S) each gives n linear residuals: sum over s of defects[d, s] * slot[s].
+    inside : (P,) weights of the points strictly inside the interval when something is integrated over
+        it; the two nodes share the rest. Zeros, the trapezoidal rule, where it is left out.
     """
 
     abscissae: np.ndarray
@@ -30,10 +32,11 @@ class Stencil:
     rate: np.ndarray
     weights: np.ndarray
     defects: np.ndarray
+    inside: np.ndarray | None = None
 
     def __post_init__(self):
-        for name in ("abscissae", "state", "rate", "weights", "defects"):
-            array = np.asarray(getattr(self, name), dtype=float)
+        for name in ("abscissae", "state", "rate", "weights", "defects", "inside"):
+            array = np.asarray(getattr(self, name) if getattr(self, name) is not None else np.zeros(self.points), dtype=float)
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 
@@ -48,3 +51,8 @@ class Stencil:
     @property
     def interior(self) -> int:
         return self.slots - 2
+
+    @property
+    def inner_points(self) -> tuple[int, ...]:
+        """The points strictly inside the interval, which are no nodes."""
+        return tuple(p for p, c in enumerate(self.abscissae) if 0 < c < 1)

@@ -84,14 +84,14 @@ class Control(AlongTime, Component):
     Parameters
     ----------
     bounds : in its unit.
-    hold : False for linear from node to node; True for constant from each node to the next.
+    hold : "linear" from node to node, or "zero": constant from each node to the next (zero-order hold).
     smooth : weight [objective's unit / (unit/s)^2 / s] of the integral of its squared rate, added to the
         objective: it makes the control an estimated disturbance that is as smooth as the data allow.
     """
 
     unit: str
     bounds: Bounds = (-inf, inf)
-    hold: bool = False
+    hold: str = "linear"
     smooth: float = 0.0
 
 
