@@ -9,13 +9,14 @@ from importlib import import_module
 _WHERE = {
     "symid.errors": ("CodegenError", "DiagnosisError", "ModelError", "RecordingError", "SolveError", "SymidError",
                      "TranscriptionError"),
-    "symid.model": ("Constant", "Equation", "Expression", "Input", "Law", "LawParameter", "Model", "Noise", "Output",
+    "symid.model": ("Algebraic", "Boundary", "Constant", "Constraint", "Control", "Equation", "Expression", "Input", "Law", "LawParameter", "Model", "Noise", "Objective", "Output",
                     "Parameter", "Port", "State", "Term"),
     "symid.recording": ("Recording", "read_recording"),
     "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
     "symid.analysis": ("Stability", "Uncertainty", "compare", "stability", "stability_of", "uncertainty"),
     "symid.discrepancy": ("Diagnosis", "diagnose"),
     "symid.cases": ("diagnose_case", "read_case", "rig_case"),
+    "symid.optimization": ("Free", "Optimization", "Plan"),
     "symid.identification": ("Cluster", "Identification", "LocalPool", "Solution", "Solve", "Study"),
 }
 _MODULE_OF = {name: module for module, names in _WHERE.items() for name in names}

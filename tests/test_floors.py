@@ -15,7 +15,7 @@ FLOOR = {
     "mechanics": 2, "codegen": 2, "ipopt_solver": 2,
     "transcription": 3, "simulation": 3,
     "estimation": 4,
-    "identification": 5,
+    "identification": 5, "optimization": 5,
     "analysis": 6,
     "discrepancy": 7,
     "report": ROOF, "plots": ROOF, "cli": ROOF, "regenerate": ROOF, "bench": ROOF,

@@ -55,8 +55,9 @@ def constant_symbols(model: Model) -> list[sm.Symbol]:
 
 
 def scales(model: Model) -> list[sm.Symbol]:
-    """Scales of what a node holds, then of the parameters."""
-    return [scale_symbol(s) for s in (*node_symbols(model), *parameter_symbols(model))]
+    """Scales of what a node holds, of algebraic variables that no node holds, then of the parameters."""
+    apart = [] if algebraics_at_nodes(model) else [a.symbol for a in model.algebraics.values()]
+    return [scale_symbol(s) for s in (*node_symbols(model), *apart, *parameter_symbols(model))]
 
 
 def scaled_parameters(model: Model) -> dict[sm.Symbol, sm.Expr]:

@@ -248,11 +248,11 @@ def outputs_and_targets(t: Transcription, z: np.ndarray) -> list[tuple[np.ndarra
 
 
 def output_slopes(t: Transcription, z: np.ndarray) -> list[np.ndarray]:
-    """Per episode (nodes, m, n) derivatives of the outputs to the scaled states."""
+    """Per episode (nodes, m, n) derivatives of the outputs to what the nodes hold, scaled."""
     kernel, slopes = compile_program(output_program(t.model), backend="numpy"), []
     local = kernel.jacobian_cols < kernel.n_local
     for e, d in enumerate(t.program.data):
-        dense = np.zeros((len(d.node), kernel.m, t.layout.n))
+        dense = np.zeros((len(d.node), kernel.m, t.layout.width))
         dense[:, kernel.jacobian_rows[local], kernel.jacobian_cols[local]] = \
             kernel.jacobian(*_output_arguments(t, z, e))[:, local]
         slopes.append(dense)

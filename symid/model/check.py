@@ -82,8 +82,10 @@ def _unknown_symbols(model: Model) -> Iterator[str]:
     rates, ends = {s.dot for s in model.states.values()}, {f(s) for s in along_time(model) for f in (initial, terminal)}
     names = sorted(map(str, known | rates))
     for c in model.components.values():
-        allowed = known | (ends if isinstance(c, (Boundary, Objective)) else rates if not isinstance(c, Constraint) else set())
         used = set().union(*(e.free_symbols for e in _expressions(model, c)))
+        if isinstance(c, Objective):
+            used = c.running.free_symbols | c.terminal.free_symbols - ends
+        allowed = known | (ends if isinstance(c, Boundary) else set() if isinstance(c, (Constraint, Objective)) else rates)
         for s in sorted(used - allowed, key=str):
             kind = type(c).__name__.lower()
             if s in rates | ends:
@@ -131,7 +133,7 @@ def _unused(model: Model, residual) -> Iterator[str]:
         if u.symbol not in used and not any(d.of == u.symbol for d in model.delays.values()):
             yield f"control '{u.name}' is used by nothing, so nothing determines it: remove it"
     for p in model.parameters.values():
-        if p.symbol not in used:
+        if p.symbol not in used and p.role != "duration":
             yield f"parameter '{p.name}' is used by no equation and no output: remove it, or it cannot be identified"
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -21,18 +21,26 @@ class Measured:
     name : of the recording.
     time : (samples,) s, of the whole recording.
     inputs : input name -> (samples,) in SI units.
-    targets : (samples, outputs) recorded outputs in SI units.
+    targets : (samples, outputs) recorded outputs in SI units; None where nothing was recorded.
     states : (samples, n) recorded or differentiated states, zero where nothing is known.
     first, last : the window's first and last sample.
+    controls : control name -> (samples,) its values before the window, for delays; zero where left out.
     """
 
     name: str
     time: np.ndarray
     inputs: dict[str, np.ndarray]
-    targets: np.ndarray
+    targets: np.ndarray | None
     states: np.ndarray
     first: int
     last: int
+    controls: dict[str, np.ndarray] = field(default_factory=dict)
+
+    def signal(self, name: str, model: Model) -> np.ndarray:
+        """(samples,) a state, input or control."""
+        if name in model.states:
+            return self.states[:, list(model.states).index(name)]
+        return self.inputs[name] if name in self.inputs else self.controls.get(name, np.zeros(len(self.time)))
 
     @property
     def intervals(self) -> int:

@@ -8,6 +8,7 @@ import numpy as np
 
 from symid.codegen import Kernel
 from symid.nlp import NonlinearProgram
+from symid.transcription.block import Block
 from symid.transcription.delays import LateSignal
 from symid.transcription.layout import Layout
 
@@ -33,120 +34,120 @@ class EpisodeData:
 class CollocationProgram:
     """Objective, constraints and their derivatives as functions of the free vector z.
 
-    Rows: all intervals of episode 0, of episode 1 ..., then late signals, then the links between
-    the initial states of episodes. Objective: the integral over time of the weighted squared
-    output error, summed over episodes.
+    Rows: all intervals of episode 0, of episode 1 ..., then late signals, then ties (unknowns that are
+    equal: the initial states of linked episodes, the last two values of a held control), then the
+    `demanded` blocks of constraints. Objective: the integral over time of the weighted squared output
+    error, summed over episodes, where there are recorded outputs, and the `wanted` blocks.
     """
 
-    def __init__(self, *, layout: Layout, interval: Kernel, error: Kernel, data: tuple[EpisodeData, ...],
+    def __init__(self, *, layout: Layout, interval: Kernel, error: Kernel | None, data: tuple[EpisodeData, ...],
                  constants: tuple[np.ndarray, ...], error_constants: np.ndarray, late: tuple[LateSignal, ...],
-                 linked: tuple[tuple[int, int], ...], bounds: tuple[np.ndarray, np.ndarray],
-                 row_names: tuple[str, ...], times: tuple[np.ndarray, ...]):
+                 ties: np.ndarray, tie_names: tuple[str, ...], bounds: tuple[np.ndarray, np.ndarray],
+                 row_names: tuple[str, ...], times: tuple[np.ndarray, ...], demanded: tuple[Block, ...] = (),
+                 wanted: tuple[Block, ...] = ()):
         self.layout, self.interval, self.error, self.data = layout, interval, error, data
-        self.constants, self.error_constants, self.late, self.linked = constants, error_constants, late, linked
+        self.constants, self.error_constants, self.late, self.times = constants, error_constants, late, times
+        self.ties, self.tie_names, self.row_names = ties.reshape(-1, 2), tie_names, row_names
         self.lower, self.upper = bounds
-        self.row_names, self.times = row_names, times
+        self.intervals = tuple(self._interval_block(e) for e in range(len(data)))
+        self.errors = tuple(self._error_block(e) for e in range(len(data)) if error)
+        self.demanded, self.wanted = demanded, (*self.errors, *wanted)
         self.row_starts = np.concatenate([[0], np.cumsum([interval.m * k for k in layout.intervals])])
-        self.link_start = int(self.row_starts[-1]) + sum(len(s.row) for s in late)
-        self.rows = self.link_start + layout.n * len(linked)
+        self.tie_start = int(self.row_starts[-1]) + sum(len(s.row) for s in late)
+        self.demand_starts = self.tie_start + len(self.ties) + np.cumsum([0, *(b.rows for b in demanded)])
+        self.rows = int(self.demand_starts[-1])
+        self.constraint_lower, self.constraint_upper = self._constraint_bounds()
         self.jacobian_rows, self.jacobian_cols = self._jacobian_structure()
         self.hessian_rows, self.hessian_cols = self._hessian_structure()
+        self._slope_places = np.concatenate([np.zeros(0, int), *(b.gradient_places() for b in self.wanted)])
 
     # ---- structure -------------------------------------------------------------------
-    def _kernel_columns(self, kernel: Kernel, episode: int, view) -> np.ndarray:
-        """(points, n_local + n_shared) columns of z that a kernel sees at each point."""
-        local = view(np.arange(self.layout.size), episode)
-        shared = np.broadcast_to(self.layout.parameter_columns(episode), (len(local), kernel.n_shared))
-        return np.hstack([local, shared])
+    def _interval_block(self, e: int) -> Block:
+        return Block(self.interval, lambda z: self.layout.local_view(z, e), self.layout.parameter_columns(e),
+                     self.data[e].interval, self.constants[e], self.layout.size, names=self.row_names,
+                     times=self.times[e], where=f" of episode {e + 1}")
+
+    def _error_block(self, e: int) -> Block:
+        node = self.data[e].node
+        return Block(self.error, lambda z: self.layout.sample_view(z, e), self.layout.parameter_columns(e), node,
+                     self.error_constants, self.layout.size, weights=np.full((len(node), 1), self.data[e].step))
+
+    def _constraint_bounds(self) -> tuple[np.ndarray, np.ndarray]:
+        pairs = [b.bounds() for b in self.demanded]
+        return tuple(np.concatenate([np.zeros(int(self.demand_starts[0])), *(p[side] for p in pairs)]) for side in (0, 1))
 
     def _jacobian_structure(self) -> tuple[np.ndarray, np.ndarray]:
-        rows, cols = [], []
-        k = self.interval
-        for e, count in enumerate(self.layout.intervals):
-            columns = self._kernel_columns(k, e, self.layout.local_view)
-            rows.append((self.row_starts[e] + k.m * np.arange(count)[:, None] + k.jacobian_rows).ravel())
-            cols.append(columns[:, k.jacobian_cols].ravel())
-        for signal in self.late:
-            r, c = signal.jacobian_structure()
-            rows.append(r)
-            cols.append(c)
-        for i, pair in enumerate(self.linked):
-            for e in pair:
-                rows.append(self.link_start + i * self.layout.n + np.arange(self.layout.n))
-                cols.append(self.layout.offsets[e] + np.arange(self.layout.n))
-        return np.concatenate(rows).astype(np.int32), np.concatenate(cols).astype(np.int32)
+        places = [b.jacobian_places(first) for b, first in zip(self.intervals, self.row_starts[:-1], strict=True)]
+        places += [signal.jacobian_structure() for signal in self.late]
+        places.append((np.repeat(self.tie_start + np.arange(len(self.ties)), 2), self.ties.ravel()))
+        places += [b.jacobian_places(first) for b, first in zip(self.demanded, self.demand_starts[:-1], strict=True)]
+        return tuple(np.concatenate([p[side] for p in places]).astype(np.int32) for side in (0, 1))
 
     def _hessian_structure(self) -> tuple[np.ndarray, np.ndarray]:
-        """Merged lower triangle; `_scatter` keeps where each kernel's values go."""
-        keys = []
-        for e in range(len(self.data)):
-            for kernel, view in ((self.interval, self.layout.local_view), (self.error, self.layout.sample_view)):
-                columns = self._kernel_columns(kernel, e, view)
-                keys.append(self._keys(columns[:, kernel.hessian_rows], columns[:, kernel.hessian_cols]))
-        keys += [self._keys(*signal.hessian_structure()) for signal in self.late]
+        """Merged lower triangle; `_scatter` keeps where each block's values go: intervals, wanted, demanded, late."""
+        keys = [b.hessian_keys() for b in (*self.intervals, *self.wanted, *self.demanded)]
+        keys += [_keys(*signal.hessian_structure(), self.layout.size) for signal in self.late]
         merged, index = np.unique(np.concatenate([k.ravel() for k in keys]), return_inverse=True)
         ends = np.cumsum([k.size for k in keys])
         self._scatter = [np.ascontiguousarray(i.reshape(k.shape), dtype=np.int32)
                          for i, k in zip(np.split(index, ends[:-1]), keys, strict=True)]
         return (merged // self.layout.size).astype(np.int32), (merged % self.layout.size).astype(np.int32)
 
-    def _keys(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        return np.maximum(a, b).astype(np.int64) * self.layout.size + np.minimum(a, b)
-
     # ---- values ----------------------------------------------------------------------
     def interval_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
-        return self.layout.local_view(z, e), z[self.layout.parameter_columns(e)], self.data[e].interval, self.constants[e]
-
-    def error_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
-        return self.layout.sample_view(z, e), z[self.layout.parameter_columns(e)], self.data[e].node, self.error_constants
+        return self.intervals[e].arguments(z)
 
     def objective(self, z: np.ndarray) -> float:
-        return float(sum(d.step * self.error.residual(*self.error_arguments(z, e)).sum() for e, d in enumerate(self.data)))
+        return sum(b.value(z) for b in self.wanted)
 
     def gradient(self, z: np.ndarray) -> np.ndarray:
-        out, k = np.zeros(self.layout.size), self.error
-        local = k.jacobian_cols < k.n_local
-        for e, d in enumerate(self.data):
-            slopes = d.step * k.jacobian(*self.error_arguments(z, e))
-            self.layout.sample_view(out, e)[:, k.jacobian_cols[local]] = slopes[:, local]
-            np.add.at(out, self.layout.parameter_columns(e)[k.jacobian_cols[~local] - k.n_local], slopes[:, ~local].sum(axis=0))
-        return out
+        slopes = [b.gradient(z) for b in self.wanted]
+        return np.bincount(self._slope_places, np.concatenate(slopes) if slopes else None, minlength=self.layout.size)
 
     def constraints(self, z: np.ndarray) -> np.ndarray:
         out = np.empty(self.rows)
-        for e, count in enumerate(self.layout.intervals):
-            block = out[self.row_starts[e]:self.row_starts[e + 1]].reshape(count, self.interval.m)
-            self.interval.residual(*self.interval_arguments(z, e), out=block)
+        for b, first in self._constraint_blocks():
+            b.kernel.residual(*b.arguments(z), out=out[first:first + b.rows].reshape(b.points, b.kernel.m))
         for signal in self.late:
             out[signal.row] = signal.residual(z)
-        for i, (a, b) in enumerate(self.linked):
-            n, oa, ob = self.layout.n, self.layout.offsets[a], self.layout.offsets[b]
-            out[self.link_start + i * n:][:n] = z[oa:oa + n] - z[ob:ob + n]
+        out[self.tie_start:self.demand_starts[0]] = z[self.ties[:, 0]] - z[self.ties[:, 1]]
         return out
+
+    def _constraint_blocks(self) -> list[tuple[Block, int]]:
+        return [*zip(self.intervals, self.row_starts, strict=False), *zip(self.demanded, self.demand_starts, strict=False)]
 
     def jacobian(self, z: np.ndarray) -> np.ndarray:
         """(nnz,) values in the order of `jacobian_rows` and `jacobian_cols`."""
-        out, nnz, start = np.empty(len(self.jacobian_rows)), len(self.interval.jacobian_rows), 0
-        for e, count in enumerate(self.layout.intervals):
-            block = out[start:start + count * nnz].reshape(count, nnz)
-            self.interval.jacobian(*self.interval_arguments(z, e), out=block)
-            start += count * nnz
-        for signal in self.late:
-            values = signal.jacobian(z)
+        out, start = np.empty(len(self.jacobian_rows)), 0
+
+        def fill(block: Block) -> None:
+            nonlocal start
+            nnz = len(block.kernel.jacobian_rows)
+            end = start + block.points * nnz
+            block.kernel.jacobian(*block.arguments(z), out=out[start:end].reshape(block.points, nnz))
+            start = end
+        for block in self.intervals:
+            fill(block)
+        for values in (*(signal.jacobian(z) for signal in self.late), np.tile([1.0, -1.0], len(self.ties))):
             out[start:start + len(values)] = values
             start += len(values)
-        out[start:] = np.tile(np.repeat([1.0, -1.0], self.layout.n), len(self.linked))
+        for block in self.demanded:
+            fill(block)
         return out
 
     def hessian(self, z: np.ndarray, multipliers: np.ndarray, objective_factor: float) -> np.ndarray:
         """(nnz,) values of the Lagrangian's lower triangle, in the order of `hessian_rows`/`cols`."""
         out, scatter = np.zeros(len(self.hessian_rows)), iter(self._scatter)
-        for e, d in enumerate(self.data):
-            count = self.layout.intervals[e]
-            lam = multipliers[self.row_starts[e]:self.row_starts[e + 1]].reshape(count, self.interval.m)
-            self.interval.hessian_into(out, next(scatter), *self.interval_arguments(z, e), lam)
-            self.error.hessian_into(out, next(scatter), *self.error_arguments(z, e),
-                                    np.full((len(d.node), 1), objective_factor * d.step))
+
+        def add(block: Block, first: int) -> None:
+            lam = multipliers[first:first + block.rows].reshape(block.points, block.kernel.m)
+            block.add_hessian(out, next(scatter), z, lam)
+        for block, first in zip(self.intervals, self.row_starts, strict=False):
+            add(block, int(first))
+        for block in self.wanted:
+            block.add_hessian(out, next(scatter), z, objective_factor * block.weights)
+        for block, first in zip(self.demanded, self.demand_starts, strict=False):
+            add(block, int(first))
         for signal, index in zip(self.late, scatter, strict=True):
             out += np.bincount(index, signal.hessian(z, multipliers), minlength=len(out))
         return out
@@ -159,22 +160,23 @@ class CollocationProgram:
     # ---- the program -----------------------------------------------------------------
     def describe_constraint(self, row: int) -> str:
         """What constraint `row` says, in words."""
-        if row >= self.link_start:
-            pair, state = divmod(row - self.link_start, self.layout.n)
-            return f"initial state {self.layout.state_names[state]} of episodes {pair + 1} and {pair + 2} equal"
-        for signal in self.late:
-            if signal.row[0] <= row <= signal.row[-1]:
-                return f"delayed signal: {self.layout.describe(int(signal.late_column[row - signal.row[0]]))}"
-        e = int(np.searchsorted(self.row_starts, row, side="right")) - 1
-        interval, which = divmod(row - int(self.row_starts[e]), self.interval.m)
-        return f"{self.row_names[which]} at {self.times[e][interval]:.3f} s of episode {e + 1}"
+        for block, first in self._constraint_blocks():
+            if first <= row < first + block.rows:
+                return block.describe(row - int(first))
+        if row >= self.tie_start:
+            return self.tie_names[row - self.tie_start]
+        signal = next(s for s in self.late if s.row[0] <= row <= s.row[-1])
+        return f"delayed signal: {self.layout.describe(int(signal.late_column[row - signal.row[0]]))}"
 
     def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
-        zero = np.zeros(self.rows)
         return NonlinearProgram(
-            lower=self.lower, upper=self.upper, constraint_lower=zero,
-            constraint_upper=zero, start=start, objective=self.objective, gradient=self.gradient,
+            lower=self.lower, upper=self.upper, constraint_lower=self.constraint_lower,
+            constraint_upper=self.constraint_upper, start=start, objective=self.objective, gradient=self.gradient,
             constraints=self.constraints, jacobian=self.jacobian, jacobian_rows=self.jacobian_rows,
             jacobian_cols=self.jacobian_cols, hessian=self.hessian, hessian_rows=self.hessian_rows,
             hessian_cols=self.hessian_cols, describe_variable=self.layout.describe,
             describe_constraint=self.describe_constraint)
+
+
+def _keys(a: np.ndarray, b: np.ndarray, size: int) -> np.ndarray:
+    return np.maximum(a, b).astype(np.int64) * size + np.minimum(a, b)

@@ -1,0 +1,71 @@
+"""Where an optimization begins."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symid.errors import SolveError
+from symid.model import nearest
+from symid.optimization.plan import Plan
+from symid.transcription.demands import end_bounds
+
+if TYPE_CHECKING:
+    from symid.optimization.problem import Optimization
+
+
+def start_vector(problem: Optimization, given: Mapping | Plan | None) -> np.ndarray:
+    """A free vector: `given` values by name, else straight lines between the boundary conditions."""
+    t = problem.transcription
+    if isinstance(given, Plan):
+        given = given.as_start()
+    if given is not None and not isinstance(given, Mapping):
+        raise SolveError(f"start: give a dictionary of name -> value, or a Plan, not {type(given).__name__}")
+    values = {str(getattr(k, "symbol", k)): v for k, v in (given or {}).items()}
+    known = [*t.layout.node_names, *t.layout.parameter_names]
+    for name in values.keys() - set(known):
+        raise SolveError(f"start: model '{t.model.name}' has nothing called '{name}' to start; {nearest(name, known)}")
+    parameters = np.array([_parameter(t.model.parameters[name], values.get(name)) for name in t.layout.parameter_names])
+    length = dict(zip(t.layout.parameter_names, parameters, strict=True)).get(problem.duration_name, 1.0)
+    time = t.measured[0].time * length
+    nodes = _lines(problem, len(time))
+    for column, name in enumerate(t.layout.node_names):
+        if name in values:
+            nodes[:, column] = _along(name, values[name], time)
+    return t.start(parameters, [nodes])
+
+
+def _parameter(part, value) -> float:
+    lo, hi = part.bounds
+    if value is None:
+        value = part.guess if part.guess is not None else 0.5 * (lo + hi) if np.isfinite([lo, hi]).all() else np.clip(0.0, lo, hi)
+    return float(value)
+
+
+def _along(name: str, value, time: np.ndarray) -> np.ndarray:
+    """(nodes,) a number, an array of any length along the motion, or a function of time."""
+    if callable(value):
+        value = np.array([float(value(s)) for s in time])
+    try:
+        value = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        raise SolveError(f"start: '{name}' is {value!r}; give a number, an array along the motion, or a function of time") from None
+    if value.ndim > 1 or not np.isfinite(value).all():
+        raise SolveError(f"start: '{name}' must be one finite number or a row of them along the motion")
+    return np.interp(np.linspace(0, 1, len(time)), np.linspace(0, 1, value.size), value.ravel()) if value.ndim else np.full(len(time), value)
+
+
+def _lines(problem: Optimization, count: int) -> np.ndarray:
+    """(nodes, width) straight lines from the initial to the terminal conditions; constant where only one is given."""
+    t = problem.transcription
+    ends = np.full((2, t.layout.width), np.nan)
+    for node, column, row in end_bounds(t.model, t.layout):
+        finite = [b for b in (row.lower, row.upper) if np.isfinite(b)]
+        ends[node, column] = np.mean(finite) if finite else np.nan
+    missing = np.isnan(ends)
+    ends = np.where(missing, ends[::-1], ends)
+    bounds = np.array([t.model[name].bounds for name in t.layout.node_names]).T
+    ends = np.where(np.isnan(ends), np.clip(0.0, *bounds), ends)
+    return np.linspace(ends[0], ends[1], count)

@@ -1,0 +1,81 @@
+"""What an optimization found: motion, controls, parameters and duration, by name."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symid.ipopt_solver import SolverResult
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+    from symid.optimization.problem import Optimization
+
+
+@dataclass(frozen=True, eq=False)
+class Plan:
+    """A planned motion.
+
+    Attributes
+    ----------
+    problem : what was solved.
+    result : what Ipopt returned.
+    """
+
+    problem: Optimization
+    result: SolverResult
+
+    @property
+    def solved(self) -> bool:
+        return self.result.solved
+
+    @property
+    def message(self) -> str:
+        """What Ipopt's status means and what to do next."""
+        return self.result.message
+
+    @property
+    def objective(self) -> float:
+        return self.result.objective
+
+    @cached_property
+    def values(self) -> dict[str, float]:
+        """Free parameters by name, SI, a free duration [s] among them."""
+        layout = self.problem.transcription.layout
+        return dict(zip(layout.parameter_names, map(float, layout.parameters(self.result.z)), strict=True))
+
+    @property
+    def duration(self) -> float:
+        """[s]"""
+        name = self.problem.duration_name
+        return self.values[name] if name else float(self.problem.duration)
+
+    @cached_property
+    def trajectories(self) -> pd.DataFrame:
+        """States, controls and algebraic variables at the nodes, SI, by time [s]."""
+        import pandas as pd
+        layout = self.problem.transcription.layout
+        time = pd.Index(np.linspace(0, self.duration, self.problem.nodes), name="time_s")
+        return pd.DataFrame(layout.nodes(self.result.z, 0), index=time, columns=list(layout.node_names))
+
+    def as_start(self) -> dict:
+        """Values by name from which another Optimization can start."""
+        layout = self.problem.transcription.layout
+        columns = layout.nodes(self.result.z, 0).T
+        return dict(zip(layout.node_names, columns, strict=True)) | self.values
+
+    def __getitem__(self, name) -> np.ndarray:
+        """(nodes,) the motion of one quantity, by name or part."""
+        return self.trajectories[str(getattr(name, "symbol", name))].to_numpy()
+
+    def __repr__(self) -> str:
+        r = self.result
+        lines = [f"Plan of '{self.problem.model.name}': objective {r.objective:.6g}, duration {self.duration:.6g} s, "
+                 f"{self.problem.nodes} nodes, {self.problem.scheme.name}, {r.iterations} iterations, "
+                 f"{r.seconds['total']:.2f} s", r.message]
+        lines += [f"  {k} = {v:.6g} {self.problem.transcription.model.parameters[k].unit}" for k, v in self.values.items()]
+        return "\n".join(lines)

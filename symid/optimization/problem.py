@@ -1,0 +1,110 @@
+"""Optimization: a model with controls, conditions and an objective becomes a problem that can be solved."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from symid.errors import TranscriptionError
+from symid.ipopt_solver import Iteration, solve_nlp
+from symid.model import Model, Parameter
+from symid.optimization.duration import Free, with_duration
+from symid.optimization.guess import start_vector
+from symid.optimization.plan import Plan
+from symid.transcription import Episodes, HermiteSimpson, Measured, Scheme, Transcription, transcribe
+
+
+@dataclass(frozen=True, eq=False)
+class Optimization:
+    """Find the motion, the controls and the free parameters that make a model's objectives least.
+
+    >>> plan = si.Optimization(model, duration=10, nodes=101).solve()
+
+    Parameters
+    ----------
+    model : a complete Model; what it must satisfy and make small are its Constraint, Boundary and Objective parts.
+    duration : [s] of the motion, which begins at 0 s; or Free(lower, upper); or a Parameter of the model.
+    nodes : number of nodes, evenly spaced, at which states and controls stand.
+    scheme : collocation scheme.
+    history : quantity -> constant value before 0 s [its unit], for delayed signals; zero where left out.
+    backend : "auto", "c" or "numpy".
+
+    Raises
+    ------
+    ModelError, TranscriptionError
+        When the program is first needed, if the model is incomplete or has an Input, which needs a recording.
+    """
+
+    model: Model
+    duration: float | Free | Parameter = field(kw_only=True)
+    nodes: int = field(default=101, kw_only=True)
+    scheme: Scheme = field(default_factory=HermiteSimpson, kw_only=True)
+    history: Mapping = field(default_factory=dict, kw_only=True)
+    backend: str = field(default="auto", kw_only=True)
+
+    def __post_init__(self):
+        if not isinstance(self.model, Model):
+            raise TranscriptionError(f"Optimization needs a Model first, not {type(self.model).__name__}")
+        if not isinstance(self.scheme, Scheme):
+            raise TranscriptionError(f"scheme={self.scheme!r}: give a scheme, for instance HermiteSimpson() or Midpoint()")
+        if not isinstance(self.nodes, (int, np.integer)) or self.nodes < 3:
+            raise TranscriptionError(f"nodes={self.nodes!r}: give a whole number of at least 3")
+        if self.model.inputs:
+            raise TranscriptionError(f"model '{self.model.name}' has the inputs {', '.join(self.model.inputs)}, which only a "
+                                     "recording gives; write them as expressions of model.time, or declare a Control")
+        timed, length, name = with_duration(self.model, self.duration)
+        object.__setattr__(self, "_timed", (timed, length, name))
+
+    @property
+    def duration_name(self) -> str | None:
+        """Name of the parameter that is the free duration, or None."""
+        return self._timed[2]
+
+    @cached_property
+    def transcription(self) -> Transcription:
+        """The finite problem: made once, when first needed."""
+        began = time.perf_counter()
+        model, length, name = self._timed
+        before = {str(getattr(k, "symbol", k)): float(v) for k, v in self.history.items()}
+        axis = np.linspace(0.0, length, self.nodes)
+        past = np.array([before.get(s, 0.0) for s in model.states])
+        grid = Measured(model.name, axis, {}, None, np.tile(past, (self.nodes, 1)), 0, self.nodes - 1,
+                        {u: np.full(self.nodes, before.get(u, 0.0)) for u in model.controls})
+        made = transcribe(model, [grid], self.scheme, Episodes(), {}, (), self.backend, duration=name)
+        made.seconds["build"] = time.perf_counter() - began
+        return made
+
+    def start(self, values: Mapping | Plan | None = None) -> np.ndarray:
+        """A free vector to start from, see `solve`."""
+        return start_vector(self, values)
+
+    def solve(self, start: Mapping | Plan | None = None, *, on_iteration: Callable[[Iteration], bool | None] | None = None,
+              **solver) -> Plan:
+        """Solve with Ipopt.
+
+        Parameters
+        ----------
+        start : name or part -> value where the solve begins: a number, an array along the motion, or a function
+            of time [s]; or a Plan of a similar problem, on any mesh. By default states run straight from
+            their initial to their terminal conditions, controls are zero, parameters at their guess.
+        solver : options for `symid.ipopt_solver.solve_nlp`, for instance ``max_iterations``.
+
+        Returns
+        -------
+        Plan
+            Also where Ipopt gave up: look at `plan.solved` and `plan.message`.
+
+        Raises
+        ------
+        SymidError
+            The model is incomplete, the start does not fit, or a function has no value.
+        """
+        z = self.start(start)
+        return Plan(self, solve_nlp(self.transcription.nonlinear_program(z), on_iteration=on_iteration, **solver))
+
+    def __repr__(self) -> str:
+        return f"<Optimization of {self.model!r}: duration {self.duration}, {self.nodes} nodes, {self.scheme.name}>"

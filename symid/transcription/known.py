@@ -1,0 +1,93 @@
+"""The known numbers of every episode: data of its intervals and samples, constants and scales."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from symid.codegen import Kernel
+from symid.codegen.interval import equations_over
+from symid.codegen.symbols import own_points, used_data
+from symid.errors import TranscriptionError
+from symid.model import Model, nearest
+from symid.transcription.data import Measured
+from symid.transcription.layout import Layout
+from symid.transcription.program import EpisodeData
+from symid.transcription.scales import equation_scale
+from symid.transcription.schemes import Scheme
+
+
+def episode_data(model: Model, scheme: Scheme, m: Measured, noise: np.ndarray, refine: int) -> EpisodeData:
+    """Known numbers of one episode, in the order of `interval_program` and `objective_program`."""
+    points = [input_at(model, scheme, m, str(u), c, refine) for c in scheme.stencil.abscissae
+              for u in used_data(model, model.residual())]
+    columns = np.column_stack(points) if points else np.zeros((m.intervals * refine, 0))
+    shown = [] if m.targets is None else [m.time if str(u) == "t" else m.inputs[str(u)] for u in used_data(model, model.observed())]
+    nodes = np.zeros((m.intervals + 1, 0)) if m.targets is None else m.targets[m.nodes]
+    return EpisodeData(
+        interval=np.ascontiguousarray(np.hstack([columns, np.repeat(noise, refine, axis=0)])),
+        node=np.ascontiguousarray(np.column_stack([*(u[m.nodes] for u in shown), nodes])), noise=noise, step=m.step)
+
+
+def input_at(model: Model, scheme: Scheme, m: Measured, name: str, abscissa: float, refine: int) -> np.ndarray:
+    """(intervals,) an input, or time, at a point of each collocation interval."""
+    if name == "t":
+        return m.times(abscissa, refine)
+    hold, smooth = model.inputs[name].hold, "cubic" if scheme.order > 2 or refine > 1 else "linear"
+    return m.input_at(name, abscissa, refine, smooth if hold == "smooth" else hold)
+
+
+def values_of(model: Model) -> np.ndarray:
+    """(constants,) in the order of declaration."""
+    return np.array([c.value for c in model.constants.values()], dtype=float)
+
+
+def scales(layout: Layout) -> np.ndarray:
+    """The scales in the order of `codegen.symbols.scales`."""
+    apart = layout.own_scale if not set(layout.own_names) & set(layout.beside_names) else []
+    return np.concatenate([layout.node_scale, apart, layout.parameter_scale[layout.parameter_index[0]]])
+
+
+def interval_constants(model: Model, scheme: Scheme, interval: Kernel, layout: Layout, measured: Sequence[Measured],
+                       data: Sequence[EpisodeData], recording_of: Sequence[int], parameters: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Per episode: the constants of `interval_program`, with equation scales found at the recorded motion.
+
+    parameters : (free parameters,) SI, at which the scales are found.
+    """
+    def build(step, scale):
+        return np.concatenate([values_of(model), [step], scales(layout), scale])
+    equation = equation_of_rows(model, scheme)
+    first = measured[recording_of[0]]
+    states = [measured[r].on_mesh(measured[r].states[measured[r].nodes], layout.refine) for r in recording_of]
+    z, step = layout.fill(states, parameters), first.step / layout.refine
+    slopes = interval.jacobian(layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
+                               build(step, np.ones(len(model.equations))))
+    counted = (interval.jacobian_cols < interval.n_local) & (equation[interval.jacobian_rows] >= 0)
+    over = np.isin(equation[interval.jacobian_rows[counted]], equations_over(model))
+    scale = equation_scale(equation[interval.jacobian_rows[counted]], slopes[:, counted], len(model.equations),
+                           np.where(over, step, 1.0))
+    return tuple(build(d.step / layout.refine, scale) for d in data)
+
+
+def equation_of_rows(model: Model, scheme: Scheme) -> np.ndarray:
+    """(rows of an interval,) place of the equation that each row comes from; -1 for collocation defects."""
+    over, stencil = equations_over(model), scheme.stencil
+    apart = [i for i in range(len(model.equations)) if i not in over]
+    return np.array([*(list(over) * len(stencil.weights)), *(apart * len(own_points(model, stencil))),
+                     *([-1] * len(stencil.defects) * len(model.states))], dtype=int)
+
+
+def row_names(model: Model, scheme: Scheme) -> tuple[str, ...]:
+    names, states = list(model.equations), list(model.states) * len(scheme.stencil.defects)
+    equation = equation_of_rows(model, scheme)
+    return (*(f"equation {names[i]}" for i in equation if i >= 0), *(f"collocation defect of state {s}" for s in states))
+
+
+def error_constants(model: Model, layout: Layout, weights: dict[str, float]) -> np.ndarray:
+    for name, weight in weights.items():
+        if name not in model.outputs:
+            raise TranscriptionError(f"weights: model '{model.name}' has no output '{name}'; {nearest(name, model.outputs)}")
+        if not (np.isfinite(weight) and weight >= 0):
+            raise TranscriptionError(f"weights: the weight {weight:g} of '{name}' must be a finite number of at least 0")
+    return np.concatenate([values_of(model), scales(layout), [weights.get(y, 1.0) for y in model.outputs]])
