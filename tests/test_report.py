@@ -1,10 +1,13 @@
 """Figures and reports: what they show, also where parameters sit at bounds or a solve failed."""
 
 import re
+import shutil
+import subprocess
 import sys
 from html.parser import HTMLParser
 
 import numpy as np
+import pandas as pd
 import pytest
 from conftest import pendulum, pendulum_recording
 
@@ -13,6 +16,7 @@ from symid import plots
 from symid.plots import solution as solution_figures
 from symid.plots import style
 from symid.report import page, report_html, write_report
+from symid.report import solution as solution_report
 from symid.units import with_error
 
 
@@ -40,9 +44,9 @@ class Tags(HTMLParser):
         self.open, self.sources = [], []
 
     def handle_starttag(self, tag, attributes):
-        if tag not in ("meta", "img", "br"):
+        if tag not in ("meta", "img", "br", "source", "mspace"):
             self.open.append(tag)
-        self.sources += [v for k, v in attributes if k in ("src", "href")]
+        self.sources += [v for k, v in attributes if k in ("src", "srcset", "href")]
 
     def handle_endtag(self, tag):
         assert self.open.pop() == tag
@@ -75,7 +79,7 @@ def test_a_parameter_at_a_bound_is_marked_everywhere(at_bound):
     assert at_bound.parameters.at_bound.all()
     (axes,) = plots.plot_parameters(at_bound).axes
     assert "at its bound" in axes.texts[0].get_text()
-    assert "<tr class=mark>" in report_html(at_bound)
+    assert '<tr class="mark">' in report_html(at_bound)
     assert "at bound" in at_bound._repr_html_()
 
 
@@ -105,21 +109,22 @@ def test_figures_show_themselves_without_pyplot(solution):
 
 
 def test_report_is_one_whole_file(solution, tmp_path):
-    path = write_report(solution, tmp_path / "new" / "report.html", held_out=solution.fit_on((3.0, 6.0)))
+    path = write_report(solution, tmp_path / "new" / "report.html", held_out=solution.free_run((3.0, 6.0)))
     assert [p.name for p in path.parent.iterdir()] == ["report.html"]
     tags = Tags()
     tags.feed(path.read_text(encoding="utf-8"))
     assert tags.open == []
-    assert len(tags.sources) == 2 and all(s.startswith("data:image/png;base64,") for s in tags.sources)
+    assert len(tags.sources) == 2 * 5 and all(s.startswith("data:image/png;base64,") for s in tags.sources)
     text = path.read_text()
-    for part in ("Parameters", "Fit", "Starts", "Solver", "Provenance", "held out, free run", "midpoint", "damping"):
+    for part in ("Parameters", "Fit", "Starts", "Solver", "Provenance", "held out, free run", "midpoint", "damping", "<math",
+                 "Held out, 3 to 6 s", "doi:10.1016/j.jneumeth.2020.108580", f"symid {si.__version__}"):
         assert part in text
 
 
 def test_report_of_a_failed_solve_says_so_and_has_all_starts(not_solved):
     text = report_html(not_solved)
     assert "NOT SOLVED" in text and "no standard errors" in text and "Where each start ended" in text
-    assert len(re.findall(r"Maximum_Iterations_Exceeded", text)) >= 3
+    assert len(re.findall(r"maximum iterations exceeded", text)) >= 3
 
 
 def test_report_shows_a_few_episodes_not_fifty():
@@ -130,10 +135,45 @@ def test_report_shows_a_few_episodes_not_fifty():
 def test_a_report_that_cannot_be_drawn_leaves_the_old_one(solution, tmp_path, monkeypatch):
     path = tmp_path / "report.html"
     path.write_text("old")
-    monkeypatch.setattr(plots.Picture, "png", lambda self, dpi=0: 1 / 0)
+    monkeypatch.setattr(plots.Picture, "png", lambda self, **_: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         write_report(solution, path)
     assert path.read_text() == "old" and len(list(tmp_path.iterdir())) == 1
+
+
+def test_a_long_recording_also_shows_a_stretch_whose_error_is_typical():
+    solution = si.Identification(pendulum(), pendulum_recording(duration=60.0, noise=0.01)).solve()
+    t0, t1 = plots.typical_stretch(solution)
+    assert t1 - t0 == pytest.approx(solution_figures.TYPICAL, abs=0.05)
+    error = solution.trajectories[0]["measured"] - solution.trajectories[0]["measured recorded"]
+    assert error.loc[t0:t1].std() == pytest.approx(error.std(), rel=0.1)
+    assert plots.plot_fit(solution, 0, (t0, t1)).axes[0].get_xlim() == (t0, t1)
+    assert plots.typical_stretch(si.Identification(pendulum(), pendulum_recording()).solve()) is None
+
+
+def test_estimates_that_move_together_are_named(solution):
+    assert "move together" not in report_html(solution)
+    covariance = np.array([[1.0, -0.99], [-0.99, 1.0]])
+    both = SimpleNamespace(covariance=pd.DataFrame(covariance), values={"stiffness": 1.0, "mass": 2.0})
+    (told,) = solution_report._together(both)
+    assert "stiffness and mass (-0.99)" in told
+
+
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="no Chromium to open the report with")
+@pytest.mark.parametrize("width", [1280, 390])
+def test_in_a_browser_nothing_is_wider_than_the_page_and_no_figure_is_empty(solution, tmp_path, width):
+    write_report(solution, tmp_path / "report.html")
+    # A frame as wide as the screen: a window of Chromium itself is never as narrow as a phone.
+    (tmp_path / "frame.html").write_text(
+        f'''<iframe id="f" src="report.html" style="width:{width}px;height:3000px"></iframe><p id="out"></p><script>
+        window.onload = () => {{ const d = document.getElementById("f").contentDocument, e = d.documentElement;
+          const empty = [...d.images].filter(i => !i.naturalWidth).length;
+          document.getElementById("out").textContent = `overflow ${{e.scrollWidth - e.clientWidth}} empty ${{empty}}`; }};
+        </script>''')
+    done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files",
+                           "--virtual-time-budget=5000", "--dump-dom", f"file://{tmp_path}/frame.html"],
+                          capture_output=True, text=True)
+    assert "overflow 0 empty 0" in done.stdout
 
 
 def test_text_is_escaped():

@@ -55,17 +55,18 @@ def run(arguments: argparse.Namespace) -> int:
                                  on_iteration=show_iteration if arguments.starts == 1 else None,
                                  on_start=_tell_start(model) if arguments.starts > 1 else None,
                                  max_iterations=arguments.max_iterations)
-    document = solution.to_dict()
+    document, held_out = solution.to_dict(), None
     print(solution)
     if arguments.held_out and solution.solved:
-        document["fit"]["held_out"] = solution.fit_on(tuple(arguments.held_out))
+        held_out = solution.free_run(tuple(arguments.held_out))
+        document["fit"]["held_out"] = held_out.fit
         print(f"Held-out {arguments.held_out[0]:g} to {arguments.held_out[1]:g} s, free run: RMS error: "
               + fit_text(document["fit"]["held_out"]["rms"], {name: y.unit for name, y in model.outputs.items()}))
     if arguments.json:
         write_json(arguments.json, document)
     if arguments.report:
         from symid.report import write_report
-        write_report(solution, arguments.report, held_out=document["fit"].get("held_out"))
+        write_report(solution, arguments.report, held_out)
     return 0 if solution.solved else 1
 
 

@@ -160,10 +160,18 @@ class Solution:
                             *(np.concatenate(side) for side in zip(*pairs, strict=True)))
 
     def fit_on(self, window: tuple[float, float], recording=None) -> dict:
-        """Fit on another window, or another recording, with all parameters kept.
+        """Fit of the `free_run` on another window, or another recording."""
+        return self.free_run(window, recording).fit
 
-        The model runs freely over the window, driven by the recorded inputs only; its initial
-        state, and nothing else, is fitted to that window.
+    def free_run(self, window: tuple[float, float], recording=None) -> Solution:
+        """The model on another window, or another recording, with all parameters kept.
+
+        It runs freely over the window, driven by the recorded inputs only; its initial state, and
+        nothing else, is fitted to that window.
+
+        Raises
+        ------
+        SolveError : parameters differ between recordings, or no such run was found.
         """
         from symid.identification.problem import Identification
         known = {name: value for name, value in self.values.items() if "[" not in name}
@@ -174,7 +182,7 @@ class Solution:
         solution = other.solve()
         if not solution.solved:
             raise SolveError(f"fit_on: the free run over {window[0]:g} to {window[1]:g} s was not found: {solution.message}")
-        return solution.fit
+        return solution
 
     @cached_property
     def provenance(self) -> dict:

@@ -29,13 +29,17 @@ def _names(model: Model) -> dict[sm.Symbol, str]:
 
 def latex(model: Model) -> str:
     """The equations as LaTeX, one line each, with the named expressions and the conditions below."""
+    return "$$\\begin{aligned}\n" + " \\\\\n".join(latex_lines(model)) + "\n\\end{aligned}$$"
+
+
+def latex_lines(model: Model) -> list[str]:
+    """The same line by line, with an ampersand where they are to be aligned."""
     names = _names(model)
     def tex(e):
         return sm.latex(e, symbol_names=names)
     lines = [_broken("0", e.expr, tex) for e in model.equations.values()]
     lines += [_broken(names[e.symbol], e.expr, tex) for e in model.expressions.values()]
-    lines += [line for c in model.components.values() for line in _conditions(c, model, tex)]
-    return "$$\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}$$"
+    return lines + [line for c in model.components.values() for line in _conditions(c, model, tex)]
 
 
 def _conditions(part, model: Model, tex) -> list[str]:

@@ -10,9 +10,19 @@ from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened
 from symid.units import shown_unit, unit_symbol, with_error
 
 
-def plot_fit(solution: Solution, episode: int = 0) -> Picture:
-    """Recorded and modelled outputs of one episode over time, and below each its residual."""
+TYPICAL = 10.0
+"""Seconds of a stretch in which the single swings of a motion can be told apart."""
+
+
+def plot_fit(solution: Solution, episode: int = 0, window: tuple[float, float] | None = None) -> Picture:
+    """Recorded and modelled outputs of one episode over time, and below each its residual.
+
+    Parameters
+    ----------
+    window : part of the time [s] that is drawn, all by default; the errors in the titles are those of this part.
+    """
     frame = solution.trajectories[episode]
+    frame = frame if window is None else frame.loc[window[0]:window[1]]
     outputs = solution.model.outputs
     figure = Picture(figsize=(9, 2.6 * len(outputs) + 0.5), layout="constrained")
     axes = figure.subplots(2 * len(outputs), 1, sharex=True, squeeze=False, height_ratios=[2.6, 1] * len(outputs))[:, 0]
@@ -29,11 +39,69 @@ def plot_fit(solution: Solution, episode: int = 0) -> Picture:
         above.set_ylabel(unit)
         below.set_ylabel(f"residual\n{unit}", fontsize=8)
         opened(above, below)
-    # Between the title's line and the edge: never on top of the curves.
-    axes[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize=9, borderaxespad=0.1)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=9)
     axes[-1].set_xlabel("time [s]")
     axes[-1].set_xlim(time[0], time[-1])
     figure.align_ylabels(axes)
+    return figure
+
+
+def typical_stretch(solution: Solution, episode: int = 0) -> tuple[float, float] | None:
+    """`TYPICAL` seconds [s] whose error is nearest to that of the whole; None where the whole is hardly longer."""
+    frame = solution.trajectories[episode]
+    time = frame.index.to_numpy()
+    count = int(TYPICAL / max(time[-1] - time[0], 1e-300) * len(time))
+    if 2 * count >= len(time):
+        return None
+    error = np.stack([frame[name] - frame[f"{name} recorded"] for name in solution.model.outputs])
+    square = np.nanmean(error**2 / np.maximum(np.nanmean(error**2, axis=1, keepdims=True), 1e-300), axis=0)
+    share = np.convolve(np.nan_to_num(square, nan=1.0), np.full(count, 1 / count), "valid")
+    first = int(np.argmin(np.abs(share - 1)))
+    return float(time[first]), float(time[first + count - 1])
+
+
+def plot_inputs(solution: Solution, episode: int = 0) -> Picture:
+    """What drove the model in one episode: its recorded inputs over time."""
+    t = solution.transcription
+    measured = t.measured[t.recording_of[episode]]
+    inputs = solution.model.inputs
+    figure = Picture(figsize=(9, 1.5 * len(inputs) + 0.5), layout="constrained")
+    panels = figure.subplots(len(inputs), 1, sharex=True, squeeze=False)[:, 0]
+    time = measured.time[measured.nodes]
+    for (name, part), axes in zip(inputs.items(), panels, strict=True):
+        unit, factor = shown_unit(part.unit)
+        axes.plot(time, measured.inputs[name][measured.nodes] * factor, color=INK, lw=0.7)
+        axes.set_title(part.channel.replace("_", " "), loc="left", fontsize=10)
+        axes.set_ylabel(unit)
+        opened(axes)
+    panels[-1].set(xlabel="time [s]", xlim=(time[0], time[-1]))
+    figure.align_ylabels(panels)
+    return figure
+
+
+def plot_residual_spectra(solution: Solution, episode: int = 0) -> Picture:
+    """Power spectral density of each output's recording and residual in one episode (Welch 1967)."""
+    from scipy.signal import welch
+
+    frame = solution.trajectories[episode]
+    outputs = solution.model.outputs
+    rate = (len(frame) - 1) / (frame.index[-1] - frame.index[0])
+    length = min(len(frame), max(int(TYPICAL * rate), len(frame) // 8))
+    figure = Picture(figsize=(9, 2.2 * len(outputs) + 0.5), layout="constrained")
+    panels = figure.subplots(len(outputs), 1, sharex=True, squeeze=False)[:, 0]
+    for (name, output), axes in zip(outputs.items(), panels, strict=True):
+        unit, factor = shown_unit(output.unit)
+        recorded = frame[f"{name} recorded"].to_numpy() * factor
+        signals = {"recorded": (recorded, RECORDED, 2.0), "residual": (recorded - frame[name].to_numpy() * factor, WARN, 1.0)}
+        for label, (signal, colour, width) in signals.items():
+            frequency, power = welch(np.nan_to_num(signal - np.nanmean(signal)), rate, nperseg=length)
+            axes.loglog(frequency[1:], np.maximum(power[1:], 1e-300), color=colour, lw=width, label=label)
+        axes.set_title(output.channel.replace("_", " "), loc="left", fontsize=10)
+        axes.set_ylabel(f"{unit or '1'}² / Hz" if "/" not in unit else f"({unit})² / Hz")
+        opened(axes)
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=9)
+    panels[-1].set_xlabel("frequency [Hz]")
+    figure.align_ylabels(panels)
     return figure
 
 

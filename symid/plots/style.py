@@ -13,9 +13,14 @@ INK, RECORDED, MODEL, WARN, QUIET = "#222222", "#9a9a9a", "#1f5fa8", "#c0392b", 
 class Picture(Figure):
     """A figure without pyplot, which a notebook shows as PNG."""
 
-    def png(self, dpi: float = 130) -> bytes:
-        buffer = io.BytesIO()
-        self.savefig(buffer, format="png", dpi=dpi)
+    def png(self, dpi: float = 130, width: float | None = None) -> bytes:
+        """The figure as PNG; drawn `width` [inch] wide instead of its own, its letters as large as before."""
+        own, buffer = self.get_size_inches().copy(), io.BytesIO()
+        self.set_size_inches(width or own[0], own[1])
+        try:
+            self.savefig(buffer, format="png", dpi=dpi)
+        finally:
+            self.set_size_inches(*own)
         return buffer.getvalue()
 
     def _repr_png_(self) -> bytes:

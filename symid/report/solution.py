@@ -2,54 +2,102 @@
 
 from __future__ import annotations
 
+from itertools import combinations
 from pathlib import Path
+
+import numpy as np
 
 from symid.files import write_atomically
 from symid.identification import Solution
 from symid.identification.fit import common_unit, rms_text
-from symid.identification.show import headline, warnings
-from symid.plots import plot_fit, plot_parameters, plot_starts
-from symid.report.page import facts, figure, heading, number, page, paragraph, table
-from symid.units import unit_symbol
+from symid.identification.show import headline, problem_facts, warnings
+from symid.model.show import latex_lines
+from symid.plots import plot_fit, plot_inputs, plot_parameters, plot_residual_spectra, plot_starts, typical_stretch
+from symid.report.page import equations, facts, figure, folded, heading, number, page, paragraph, table
+from symid.units import unit_symbol, with_error
 
 
-def write_report(solution: Solution, path: str | Path, held_out: dict | None = None,
+SHOWN_EPISODES = 3
+"""Episodes that get figures of their own: more of them look alike."""
+TOGETHER = 0.9
+"""Correlation from which two estimates are said to move together: the smaller axis of their ellipse is then a quarter of the larger."""
+CITATION = ("H. Wang and A. J. van den Bogert (2020). Identification of the human postural control system through stochastic trajectory "
+            "optimization. Journal of Neuroscience Methods 334, 108580. doi:10.1016/j.jneumeth.2020.108580 (the method)",
+            "A. Wächter and L. T. Biegler (2006). On the implementation of an interior-point filter line-search algorithm for "
+            "large-scale nonlinear programming. Mathematical Programming 106, 25-57. doi:10.1007/s10107-004-0559-y (Ipopt, the solver)")
+
+
+def write_report(solution: Solution, path: str | Path, held_out: Solution | None = None,
                  truth: dict[str, float] | None = None) -> Path:
     """Write a report on a solution as one HTML file with its figures inside, whole or not at all.
 
     Parameters
     ----------
-    held_out : fit of another window, from `Solution.fit_on`.
+    held_out : what `Solution.free_run` gave on a window that was not fitted.
     truth : known parameter values [SI], where the recording is synthetic.
     """
     return write_atomically(path, report_html(solution, held_out, truth))
 
 
-def report_html(solution: Solution, held_out: dict | None = None, truth: dict[str, float] | None = None) -> str:
+def report_html(solution: Solution, held_out: Solution | None = None, truth: dict[str, float] | None = None) -> str:
     """The same as text."""
     parts = [paragraph(headline(solution), "lead"), paragraph(solution.message, "note" if solution.solved else "bad")]
     parts += [paragraph(warning + ".", "bad") for warning in warnings(solution)]
-    parts += [heading("Parameters"), _parameters(solution, truth), _errors_note(solution),
+    parts += [heading("Parameters"), _parameters(solution, truth), _errors_note(solution), *_together(solution),
               figure(plot_parameters(solution, truth), "Parameters with 95 % intervals, by unit.")]
-    parts += [heading("Fit"), _fit(solution, held_out)]
-    for episode in range(min(len(solution.trajectories), 3)):
-        name = solution.trajectories[episode].attrs["recording"]
-        parts.append(figure(plot_fit(solution, episode), f"{name}, episode {episode + 1}: recorded, model and residual."))
+    parts += [heading("Fit"), _fit(solution, held_out), *_fit_figures(solution), *_held_out_figures(held_out)]
+    parts += [figure(plot_residual_spectra(solution), "At which frequencies the residual is, beside the recording.")]
+    if solution.model.inputs:
+        parts.append(figure(plot_inputs(solution), "What drove the model: the recorded inputs."))
+    parts += [heading("Model"), folded("Equations", equations(latex_lines(solution.model)))]
     parts += [heading("Starts"), _starts(solution)]
     if len(solution.starts) > 1:
         parts.append(figure(plot_starts(solution), "Where each start ended."))
-    parts += [heading("Solver"), _solver(solution), heading("Provenance"), _provenance(solution)]
-    return page(solution.model.name, *parts)
+    parts += [heading("Solver"), _solver(solution), heading("Provenance"), _provenance(solution),
+              heading("Please cite"), *map(paragraph, CITATION)]
+    return page(solution.model.name, *parts, footer=f"Written by symid {solution.provenance['symid']} on {solution.created[:10]}.")
+
+
+def _fit_figures(solution: Solution) -> list[str]:
+    """The whole window of the first episodes, and a stretch in which single swings can be seen."""
+    found = []
+    for episode in range(min(len(solution.trajectories), SHOWN_EPISODES)):
+        name = solution.trajectories[episode].attrs["recording"]
+        found.append(figure(plot_fit(solution, episode), f"{name}, episode {episode + 1}: recorded, model and residual."))
+    stretch = typical_stretch(solution)
+    if stretch is not None:
+        found.append(figure(plot_fit(solution, 0, stretch), "A stretch of it whose error is as large as that of the whole."))
+    return found
+
+
+def _held_out_figures(held_out: Solution | None) -> list[str]:
+    if held_out is None:
+        return []
+    t0, t1 = held_out.trajectories[0].index[[0, -1]]
+    caption = f"Held out, {t0:g} to {t1:g} s: the model runs freely from a fitted initial state, all parameters kept."
+    return [figure(plot_fit(held_out), caption)]
+
+
+def _together(solution: Solution) -> list[str]:
+    """In words, which estimates the data determine together better than each alone."""
+    covariance = solution.covariance.to_numpy()
+    names, error = list(solution.values), np.sqrt(np.diag(covariance))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        correlation = covariance / np.outer(error, error)
+    pairs = [(abs(correlation[i, j]), i, j) for i, j in combinations(range(len(names)), 2) if abs(correlation[i, j]) > TOGETHER]
+    told = [f"{names[i]} and {names[j]} ({correlation[i, j]:+.2f})" for _, i, j in sorted(pairs, reverse=True)]
+    return [paragraph(f"Estimates that move together (correlation beyond {TOGETHER:g}): {', '.join(told)}. The data determine a "
+                      "combination of them better than each.", "note")] if told else []
 
 
 def _parameters(solution: Solution, truth: dict[str, float] | None) -> str:
     rows = []
     for name, p in solution.parameters.iterrows():
-        row = [name, float(p.value), float(p.std_error), p.unit, f"{number(float(p.lower))} to {number(float(p.upper))}",
-               "yes" if p.at_bound else "", p.meaning]
-        rows.append(row[:2] + [float(truth[name])] + row[2:] if truth else row)
-    head = ["parameter", "value", *(["true value"] if truth else []), "std. error", "unit", "bounds", "at bound", "meaning"]
-    return table(head, rows, solution.parameters["at_bound"])
+        bounds = f"{number(float(p.lower))} to {number(float(p.upper))}" + (", at its bound" if p.at_bound else "")
+        row = [(name, p.meaning), with_error(p.value, p.std_error, digits=5).replace("-", "−"), unit_symbol(p.unit), bounds]
+        rows.append(row[:2] + [number(float(truth[name]))] + row[2:] if truth else row)
+    head = ["parameter", "value ± standard error", *(["true value"] if truth else []), "unit", "bounds"]
+    return table(head, rows, solution.parameters["at_bound"], wide=["bounds"])
 
 
 def _errors_note(solution: Solution) -> str:
@@ -59,28 +107,37 @@ def _errors_note(solution: Solution) -> str:
                      "a parameter at a bound has none.", "note")
 
 
-def _fit(solution: Solution, held_out: dict | None) -> str:
-    fits = {"fit": solution.fit} | ({"held out, free run": held_out} if held_out else {})
-    units: dict[str, str | None] = {name: y.unit or "1" for name, y in solution.model.outputs.items()}
-    units["all"] = common_unit(y.unit for y in solution.model.outputs.values())
+def _fit(solution: Solution, held_out: Solution | None) -> str:
+    fits = {"fitted": solution.fit} | ({"held out, free run": held_out.fit} if held_out is not None else {})
+    outputs = solution.model.outputs
+    units: dict[str, str | None] = {name: y.unit or "1" for name, y in outputs.items()}
+    units["all"] = common_unit(y.unit for y in outputs.values())
     rows = []
-    for which, fit in fits.items():
-        for channel in fit["rms"]:
-            shares = [number(fit[k][channel]) if channel in fit[k] else "" for k in ("vaf_percent", "r_squared")]
-            rows.append([which, channel, rms_text(fit["rms"][channel], units[channel]), *shares])
-    return table(["window", "channel", "RMS error", "VAF [%]", "R²"], rows)
+    for name in [n for n in solution.fit["rms"] if n != "all" or len(outputs) > 1]:
+        row = [outputs[name].channel.replace("_", " ") if name in outputs else "all"]
+        for fit in fits.values():
+            shares = [number(round(fit[k][name], 4)) if name in fit[k] else "" for k in ("vaf_percent", "r_squared")]
+            row += [rms_text(fit["rms"][name], units[name]), *shares]
+        rows.append(row)
+    heads = [f"{kind}: {measure}" for kind in fits for measure in ("RMS error", "VAF [%]", "R²")]
+    return table(["channel", *heads], rows, wide=[h for h in heads if not h.endswith("error")])
 
 
 def _starts(solution: Solution) -> str:
     unit = common_unit(y.unit for y in solution.model.outputs.values())
-    rows = [[r.number + 1, r.kind, r.status, rms_text(r.rms, unit), r.iterations, round(r.seconds, 2),
+    rows = [[r.number + 1, r.kind, _in_words(r.status, r.solved), rms_text(r.rms, unit), r.iterations, round(r.seconds, 2),
              "best" if i == solution.best else ""] for i, r in enumerate(solution.starts)]
     return table(["start", "kind", "status", "RMS error", "iterations", "seconds", ""], rows,
-                 [not r.solved for r in solution.starts])
+                 [not r.solved for r in solution.starts], wide=["kind", "seconds"])
+
+
+def _in_words(status: str, solved: bool) -> str:
+    """Ipopt's name of a status as words: Maximum_Iterations_Exceeded -> maximum iterations exceeded."""
+    return "solved" if solved else status.replace("_", " ").lower()
 
 
 def _solver(solution: Solution) -> str:
-    return facts({"status": solution.result.status_name, "iterations": solution.result.iterations,
+    return facts({"status": _in_words(solution.result.status_name, solution.solved), "iterations": solution.result.iterations,
                   **{f"{k.replace('_', ' ')} [s]": round(v, 3) for k, v in solution.seconds.items()}})
 
 
@@ -89,7 +146,7 @@ def _provenance(solution: Solution) -> str:
     recordings = p.pop("recordings")
     constants = p.pop("constants")
     plain = {k.replace("_", " "): " ".join(map(str, v)) if isinstance(v, list) else v for k, v in p.items()}
-    plain["episodes"] = ", ".join(f"{k.replace('_', ' ')} {v}" for k, v in p["episodes"].items() if v != {})
+    plain["episodes"] = problem_facts(solution.problem)["episodes"]
     plain["weights"] = ", ".join(f"{k} {v:g}" for k, v in p["weights"].items()) or "1 for every output"
     plain["terms"] = plain["terms"] or "none added"
     for r in recordings:
