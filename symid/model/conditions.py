@@ -98,7 +98,7 @@ class Boundary(Component):
     def __init__(self, *conditions, initial=None, terminal=None, periodic=(), **common):
         periodic = periodic if isinstance(periodic, Mapping) else {x: x for x in periodic}
         values = {"conditions": conditions, "initial": _plain(initial), "terminal": _plain(terminal),
-                  "periodic": _plain(periodic), "meaning": "", "role": "", "at": "", "latex": "", "name": ""}
+                  "periodic": _plain(periodic), "meaning": "", "role": "", "at": "", "latex": "", "name": "", "index": None}
         for name, value in (values | common).items():
             object.__setattr__(self, name, value)
 

@@ -7,8 +7,8 @@ arithmetic and in SymPy functions. Parts never change; attaching makes a named c
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from math import inf
 from types import MappingProxyType
 
@@ -32,6 +32,9 @@ class Component:
         it is (``"ankle"``). Missing-physics laws find where they can act by these two.
     latex : how the symbol prints; made from the name where empty.
     name : set by attaching; never written by the user.
+    index : where a part repeats itself, the indices of its copies: ``m.x = State(unit="m", index=range(4))``
+        declares ``x_0`` to ``x_3``, and ``m.x[2]`` is one of them. An Equation, Constraint, Expression or Output
+        repeats itself where it is given a dictionary of index -> expression, or a SymPy matrix.
     """
 
     meaning: str = ""
@@ -39,6 +42,17 @@ class Component:
     at: str = ""
     latex: str = ""
     name: str = field(default="", repr=True)
+    index: Iterable | None = field(default=None, repr=False)
+
+    def copies(self) -> dict | None:
+        """index -> the copy of this part that stands there, without an index; None where it does not repeat itself."""
+        for key in ("expr", "condition"):
+            value = getattr(self, key, None)
+            if isinstance(value, sm.MatrixBase):
+                value = dict(enumerate(value))
+            if isinstance(value, Mapping):
+                return {i: replace(self, **{key: e}) for i, e in value.items()}
+        return None if self.index is None else {i: replace(self, index=None) for i in self.index}
 
     @property
     def symbol(self) -> sm.Symbol:

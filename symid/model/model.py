@@ -41,12 +41,13 @@ class Model:
     ----------
     name, description : text.
     components : every part by name, in order of declaration.
+    groups : of parts that repeat themselves: name -> index -> name of the copy.
     delays : delayed signals by the symbol that stands for them.
     terms : the missing-physics terms that were added, in order.
     """
 
     def __init__(self, name: str, description: str = ""):
-        fields = {"name": name, "description": description, "components": {}, "delays": {}, "terms": ()}
+        fields = {"name": name, "description": description, "components": {}, "groups": {}, "delays": {}, "terms": ()}
         self.__dict__.update(fields)
 
     # ---- declaring -------------------------------------------------------------------
@@ -56,14 +57,20 @@ class Model:
                 f"model '{self.name}': cannot attach {name} = {part!r}; attach a State, Algebraic, Control, "
                 "Input, Parameter, Constant, Noise, Expression, Equation, Output, Port, Constraint, Boundary or Objective"
             )
-        if name in self.components:
+        if name in self.components or name in self.groups:
             raise ModelError(
                 f"model '{self.name}': '{name}' is declared already as "
-                f"{type(self.components[name]).__name__}; choose another name or use redefine()"
+                f"{type(self.components.get(name, self.groups.get(name))).__name__}; choose another name or use redefine()"
             )
         if hasattr(type(self), name) or name in self.__dict__ or name == "t" or name.startswith("_"):
             raise ModelError(f"model '{self.name}': the name '{name}' is reserved; choose another")
-        self.components[name] = self._completed(part, name)
+        copies = part.copies()
+        if copies is None:
+            self.components[name] = self._completed(part, name)
+            return
+        for i, copy in copies.items():
+            setattr(self, f"{name}_{i}", copy)
+        self.groups[name] = {i: f"{name}_{i}" for i in copies}
 
     def _completed(self, part: Component, name: str) -> Component:
         """The part with its name, its expression as SymPy, and defaults taken from its state."""
@@ -91,8 +98,10 @@ class Model:
         equation = self.components.get(next(iter(port.into), ""))
         return unit_of(self, equation.expr, about=position) if isinstance(equation, Equation) else ""
 
-    def __getattr__(self, name: str) -> Component:
+    def __getattr__(self, name: str) -> Component | dict:
         try:
+            if name in self.__dict__["groups"]:
+                return {i: self.components[member] for i, member in self.groups[name].items()}
             return self.__dict__["components"][name]
         except KeyError:
             raise AttributeError(f"model has no part '{name}'") from None
@@ -104,7 +113,7 @@ class Model:
         return self.components[name]
 
     def __dir__(self):
-        return [*super().__dir__(), *self.components]
+        return [*super().__dir__(), *self.components, *self.groups]
 
     # ---- parts by kind: {name: part}, in order of declaration --------------------------
     def _of(self, kind: type | tuple[type, ...]) -> dict[str, Component]:
@@ -191,6 +200,7 @@ class Model:
         """An independent copy, which can be declared further."""
         new = Model(name or self.name, self.description)
         new.components.update(self.components)
+        new.groups.update(self.groups)
         new.delays.update(self.delays)
         new.__dict__["terms"] = self.terms
         return new

@@ -69,3 +69,14 @@ def _lines(problem: Optimization, count: int) -> np.ndarray:
     bounds = np.array([t.model[name].bounds for name in t.layout.node_names]).T
     ends = np.where(np.isnan(ends), np.clip(0.0, *bounds), ends)
     return np.linspace(ends[0], ends[1], count)
+
+
+def shaken(problem: Optimization, z: np.ndarray, seed: int, number: int) -> np.ndarray:
+    """`z` with independent Gaussian noise at every node, a quarter of the bounds wide, or one scale where there are none."""
+    t, rng = problem.transcription, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
+    z, width = z.copy(), np.array([t.model[name].bounds for name in t.layout.node_names])
+    spread = np.where(np.isfinite(width).all(axis=1), 0.25 * (width[:, 1] - width[:, 0]) / t.layout.node_scale, 1.0)
+    at_nodes = t.layout.node_view(z, 0)
+    at_nodes += spread * rng.standard_normal(at_nodes.shape)
+    nodes = t.layout.nodes(np.clip(z, t.program.lower, t.program.upper), 0)
+    return t.start(t.layout.parameters(z), [nodes])

@@ -13,7 +13,7 @@ from symid.errors import TranscriptionError
 from symid.ipopt_solver import Iteration, solve_nlp
 from symid.model import Model, Parameter
 from symid.optimization.duration import Free, with_duration
-from symid.optimization.guess import start_vector
+from symid.optimization.guess import shaken, start_vector
 from symid.optimization.plan import Plan
 from symid.transcription import Episodes, HermiteSimpson, Measured, Scheme, Transcription, transcribe
 
@@ -82,15 +82,18 @@ class Optimization:
         """A free vector to start from, see `solve`."""
         return start_vector(self, values)
 
-    def solve(self, start: Mapping | Plan | None = None, *, on_iteration: Callable[[Iteration], bool | None] | None = None,
-              **solver) -> Plan:
-        """Solve with Ipopt.
+    def solve(self, start: Mapping | Plan | None = None, *, starts: int = 1, seed: int = 0,
+              on_iteration: Callable[[Iteration], bool | None] | None = None, **solver) -> Plan:
+        """Solve with Ipopt, and return the best plan found.
 
         Parameters
         ----------
         start : name or part -> value where the solve begins: a number, an array along the motion, or a function
             of time [s]; or a Plan of a similar problem, on any mesh. By default states run straight from
             their initial to their terminal conditions, controls are zero, parameters at their guess.
+        starts : number of starts; all but the first are shaken at random, to find better local optima.
+        seed : of the shaking; start number k does not depend on how many there are.
+        on_iteration : called after every iteration; returning False stops the solve.
         solver : options for `symid.ipopt_solver.solve_nlp`, for instance ``max_iterations``.
 
         Returns
@@ -103,8 +106,12 @@ class Optimization:
         SymidError
             The model is incomplete, the start does not fit, or a function has no value.
         """
-        z = self.start(start)
-        return Plan(self, solve_nlp(self.transcription.nonlinear_program(z), on_iteration=on_iteration, **solver))
+        first = self.start(start)
+        plans = []
+        for k in range(starts):
+            z = first if k == 0 else shaken(self, first, seed, k)
+            plans.append(Plan(self, solve_nlp(self.transcription.nonlinear_program(z), on_iteration=on_iteration, **solver)))
+        return min(plans, key=lambda plan: (not plan.solved, plan.objective))
 
     def __repr__(self) -> str:
         return f"<Optimization of {self.model!r}: duration {self.duration}, {self.nodes} nodes, {self.scheme.name}>"
