@@ -31,10 +31,10 @@ def everything(hold: str = "linear") -> si.Model:
     return m
 
 
-@pytest.mark.parametrize(("hold", "duration"), [("linear", 2.0), ("zero", si.Free(1, 3))])
+@pytest.mark.parametrize(("hold", "duration", "nodes"), [("linear", 2.0, 5), ("zero", si.Free(1, 3), [0, 0.1, 0.4, 0.5, 1])])
 @pytest.mark.parametrize("name", SCHEMES)
-def test_derivatives_of_all_kinds_of_parts_agree_with_central_differences(name, hold, duration):
-    problem = si.Optimization(everything(hold), duration=duration, nodes=5, scheme=scheme_by_name(name), backend="numpy")
+def test_derivatives_of_all_kinds_of_parts_agree_with_central_differences(name, hold, duration, nodes):
+    problem = si.Optimization(everything(hold), duration=duration, nodes=nodes, scheme=scheme_by_name(name), backend="numpy")
     t = problem.transcription
     z = np.random.default_rng(1).uniform(0.2, 0.9, t.layout.size)
     assert check_derivatives(t.nonlinear_program(problem.start()), z).worst_error < 1e-6
@@ -59,6 +59,15 @@ def double_integrator(**control) -> si.Model:
     m.kinematics, m.balance = si.Equation(m.x.dot - m.v), si.Equation(m.v.dot - m.u)
     m.ends = si.Boundary(initial={m.x: 0, m.v: 0}, terminal={m.x: 1, m.v: 0})
     return m
+
+
+def test_a_graded_mesh_gives_the_plan_of_an_even_one():
+    m = double_integrator()
+    m.cost = si.Objective(running=m.u**2)
+    plan = si.Optimization(m, duration=1, nodes=np.linspace(0, 1, 31)**1.5).solve()
+    assert plan.objective == pytest.approx(12, abs=1e-6)
+    again = si.Optimization(m, duration=1, nodes=11).solve(plan)
+    assert again.objective == pytest.approx(12, abs=1e-6) and again.result.iterations <= 2
 
 
 def test_least_effort_of_a_double_integrator_is_the_closed_form():

@@ -4,6 +4,8 @@ Source: Goellmann, Kern & Maurer (2009); Betts (2010), example 10.50: 3.10812211
 k - 1 to k seconds, so that the late state is the segment before and the late control that before last.
 """
 
+import numpy as np
+
 import symid as si
 
 m = si.Model("delay in segments")
@@ -15,6 +17,6 @@ m.begin = si.Boundary(initial={x[1]: 1})
 m.join = si.Boundary(*(x[k].initial - x[k - 1].terminal for k in range(2, 7)))
 m.smooth = si.Boundary(*(x[k].initial + u[k].initial - 0.5 for k in m.x))
 m.cost = si.Objective(running=sum(x[k]**2 + u[k]**2 for k in m.x))
-plan = si.Optimization(m, duration=1, nodes=101).solve()
+plan = si.Optimization(m, duration=1, nodes=np.linspace(0, 1, 101)**2).solve()
 
 answers = {"objective": (plan.objective, 3.10812211, 1e-4)}

@@ -11,6 +11,6 @@ m.y, m.u = si.State(unit="1"), si.Control(unit="1")
 m.balance = si.Equation(m.y.dot + m.y**3 - m.u)
 m.ends = si.Boundary(initial={m.y: 1}, terminal={m.y: 1.5})
 m.cost = si.Objective(running=m.y**2 + m.u**2)
-plan = si.Optimization(m, duration=25, nodes=501).solve()
+plan = si.Optimization(m, duration=25, nodes=1001).solve()
 
 answers = {"objective": (plan.objective, 6.7241, 1e-4)}

@@ -1,7 +1,7 @@
 """What a model demands besides its differential equations, as Programs to be generated.
 
 All of them take shared = parameters and constants = model constants | step | scales of what a node
-holds | of parameters; local and data are said at each.
+holds | of parameters (the step is in the data on a graded mesh); local and data are said at each.
 """
 
 from __future__ import annotations
@@ -70,10 +70,11 @@ def running_rows(model: Model) -> list[sm.Expr]:
            [sm.Float(c.soft) * model.inline(c.violation) for c in model.constraints.values() if c.soft is not None]
 
 
-def running_program(model: Model, stencil: Stencil, duration: str | None = None) -> Program:
+def running_program(model: Model, stencil: Stencil, duration: str | None = None, graded: bool = False) -> Program:
     """The integral over one interval of `running_rows` and of the squared rates of smooth controls, one row.
 
-    local = as in `interval_program`; data = used inputs (and time) by station: first node, points, last node.
+    local = as in `interval_program`; data = used inputs (and time) by station: first node, points, last node;
+    then the step, where intervals differ in length (`graded`).
     """
     total = sm.Add(*running_rows(model))
     refuse_late(model, [total], "the objective or a soft constraint")
@@ -92,7 +93,7 @@ def running_program(model: Model, stencil: Stencil, duration: str | None = None)
               for u in model.controls.values() if u.smooth]
     stations = (FIRST, *range(stencil.points), LAST)
     return _program(model, "running", [step * value + sm.Add(*smooth)], local_symbols(model, stencil),
-                    [at(u, s) for s in stations for u in data])
+                    [*(at(u, s) for s in stations for u in data), *([STEP] if graded else [])], graded)
 
 
 def running_data(model: Model) -> tuple[sm.Symbol, ...]:
@@ -132,6 +133,6 @@ def _inlined(model: Model, row: Row) -> Row:
     return Row(model.inline(row.expr), row.lower, row.upper)
 
 
-def _program(model: Model, name: str, rows, local, data) -> Program:
+def _program(model: Model, name: str, rows, local, data, graded: bool = False) -> Program:
     return Program(name=f"{model.name} {name}", rows=tuple(rows), local=tuple(local), shared=tuple(parameter_symbols(model)),
-                   data=tuple(data), constants=(*constant_symbols(model), STEP, *scales(model)))
+                   data=tuple(data), constants=(*constant_symbols(model), *([] if graded else [STEP]), *scales(model)))

@@ -58,7 +58,7 @@ def local_symbols(model: Model, stencil: Stencil) -> tuple[sm.Symbol, ...]:
             *(at(y, p) for p in range(stencil.points) for y in late_signals(model)), *(at(s, last) for s in node))
 
 
-def interval_program(model: Model, stencil: Stencil, duration: str | None = None) -> Program:
+def interval_program(model: Model, stencil: Stencil, duration: str | None = None, graded: bool = False) -> Program:
     """The residuals of one interval.
 
     Order of the symbols, which `transcription.layout` relies on:
@@ -70,6 +70,7 @@ def interval_program(model: Model, stencil: Stencil, duration: str | None = None
     Order of the rows: groups x differential equations, own points x algebraic equations, defects x states.
 
     duration : name of the parameter that is the motion's duration, where that is unknown.
+    graded : intervals differ in length; the step is the last column of the data then, and no constant.
     """
     residual, states = model.residual(), [s.symbol for s in model.states.values()]
     data, noises = used_data(model, residual), [w.symbol for w in model.noises.values()]
@@ -86,8 +87,8 @@ def interval_program(model: Model, stencil: Stencil, duration: str | None = None
     return Program(
         name=f"{model.name} interval", rows=tuple(rows), local=local_symbols(model, stencil),
         shared=tuple(parameter_symbols(model)),
-        data=(*(at(u, p) for p in range(stencil.points) for u in data), *noises),
-        constants=(*constant_symbols(model), STEP, *scales(model), *equations),
+        data=(*(at(u, p) for p in range(stencil.points) for u in data), *noises, *([STEP] if graded else [])),
+        constants=(*constant_symbols(model), *([] if graded else [STEP]), *scales(model), *equations),
     )
 
 

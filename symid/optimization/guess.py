@@ -30,10 +30,10 @@ def start_vector(problem: Optimization, given: Mapping | Plan | None) -> np.ndar
     parameters = np.array([_parameter(t.model.parameters[name], values.get(name)) for name in t.layout.parameter_names])
     length = dict(zip(t.layout.parameter_names, parameters, strict=True)).get(problem.duration_name, 1.0)
     time = t.measured[0].time * length
-    nodes = _lines(problem, len(time))
+    nodes = _lines(problem)
     for column, name in enumerate(t.layout.node_names):
         if name in values:
-            nodes[:, column] = _along(name, values[name], time)
+            nodes[:, column] = _along(name, values[name], time, problem.shares)
     return t.start(parameters, [nodes])
 
 
@@ -44,20 +44,20 @@ def _parameter(part, value) -> float:
     return float(value)
 
 
-def _along(name: str, value, time: np.ndarray) -> np.ndarray:
-    """(nodes,) a number, an array of any length along the motion, or a function of time."""
+def _along(name: str, value, time: np.ndarray, shares: np.ndarray) -> np.ndarray:
+    """(nodes,) a number, an array of any length evenly along the motion, or a function of time."""
     if callable(value):
-        value = np.array([float(value(s)) for s in time])
+        return np.array([float(value(s)) for s in time])
     try:
         value = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
         raise SolveError(f"start: '{name}' is {value!r}; give a number, an array along the motion, or a function of time") from None
     if value.ndim > 1 or not np.isfinite(value).all():
         raise SolveError(f"start: '{name}' must be one finite number or a row of them along the motion")
-    return np.interp(np.linspace(0, 1, len(time)), np.linspace(0, 1, value.size), value.ravel()) if value.ndim else np.full(len(time), value)
+    return np.interp(shares, np.linspace(0, 1, value.size), value) if value.ndim else np.full(len(time), value)
 
 
-def _lines(problem: Optimization, count: int) -> np.ndarray:
+def _lines(problem: Optimization) -> np.ndarray:
     """(nodes, width) straight lines from the initial to the terminal conditions; constant where only one is given."""
     t = problem.transcription
     ends = np.full((2, t.layout.width), np.nan)
@@ -68,15 +68,19 @@ def _lines(problem: Optimization, count: int) -> np.ndarray:
     ends = np.where(missing, ends[::-1], ends)
     bounds = np.array([t.model[name].bounds for name in t.layout.node_names]).T
     ends = np.where(np.isnan(ends), np.clip(0.0, *bounds), ends)
-    return np.linspace(ends[0], ends[1], count)
+    return ends[0] + problem.shares[:, None] * (ends[1] - ends[0])
 
 
 def shaken(problem: Optimization, z: np.ndarray, seed: int, number: int) -> np.ndarray:
-    """`z` with independent Gaussian noise at every node, a quarter of the bounds wide, or one scale where there are none."""
+    """A start with independent Gaussian noise at every node about the middle of the bounds, parameters as in `z`.
+
+    The noise is a quarter of the bounds wide; about zero and one scale wide where a bound is infinite. It leaves the
+    neighbourhood of the straight lines, which lead to a poor local optimum where a motion has to go back first.
+    """
     t, rng = problem.transcription, np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number,)))
-    z, width = z.copy(), np.array([t.model[name].bounds for name in t.layout.node_names])
-    spread = np.where(np.isfinite(width).all(axis=1), 0.25 * (width[:, 1] - width[:, 0]) / t.layout.node_scale, 1.0)
-    at_nodes = t.layout.node_view(z, 0)
-    at_nodes += spread * rng.standard_normal(at_nodes.shape)
-    nodes = t.layout.nodes(np.clip(z, t.program.lower, t.program.upper), 0)
-    return t.start(t.layout.parameters(z), [nodes])
+    lower, upper = np.array([t.model[name].bounds for name in t.layout.node_names]).T
+    bounded = np.isfinite(lower) & np.isfinite(upper)
+    with np.errstate(invalid="ignore"):
+        middle = np.where(bounded, 0.5 * (lower + upper), np.clip(0.0, lower, upper))
+        spread = np.where(bounded, 0.25 * (upper - lower), t.layout.node_scale)
+    return t.start(t.layout.parameters(z), [middle + spread * rng.standard_normal((len(problem.shares), len(middle)))])

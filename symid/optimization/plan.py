@@ -59,14 +59,17 @@ class Plan:
         """States, controls and algebraic variables at the nodes, SI, by time [s]."""
         import pandas as pd
         layout = self.problem.transcription.layout
-        time = pd.Index(np.linspace(0, self.duration, self.problem.nodes), name="time_s")
+        time = pd.Index(self.duration * self.problem.shares, name="time_s")
         return pd.DataFrame(layout.nodes(self.result.z, 0), index=time, columns=list(layout.node_names))
 
     def as_start(self) -> dict:
-        """Values by name from which another Optimization can start."""
-        layout = self.problem.transcription.layout
+        """Values by name from which another Optimization can start: functions of time, and parameters."""
+        layout, time = self.problem.transcription.layout, self.trajectories.index.to_numpy()
         columns = layout.nodes(self.result.z, 0).T
-        return dict(zip(layout.node_names, columns, strict=True)) | self.values
+
+        def along(column):
+            return lambda t: np.interp(t, time, column)
+        return {name: along(c) for name, c in zip(layout.node_names, columns, strict=True)} | self.values
 
     def __getitem__(self, name) -> np.ndarray:
         """(nodes,) the motion of one quantity, by name or part."""
@@ -75,7 +78,7 @@ class Plan:
     def __repr__(self) -> str:
         r = self.result
         lines = [f"Plan of '{self.problem.model.name}': objective {r.objective:.6g}, duration {self.duration:.6g} s, "
-                 f"{self.problem.nodes} nodes, {self.problem.scheme.name}, {r.iterations} iterations, "
+                 f"{len(self.problem.shares)} nodes, {self.problem.scheme.name}, {r.iterations} iterations, "
                  f"{r.seconds['total']:.2f} s", r.message]
         lines += [f"  {k} = {v:.6g} {self.problem.transcription.model.parameters[k].unit}" for k, v in self.values.items()]
         return "\n".join(lines)

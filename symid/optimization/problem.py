@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -28,7 +28,8 @@ class Optimization:
     ----------
     model : a complete Model; what it must satisfy and make small are its Constraint, Boundary and Objective parts.
     duration : [s] of the motion, which begins at 0 s; or Free(lower, upper); or a Parameter of the model.
-    nodes : number of nodes, evenly spaced, at which states and controls stand.
+    nodes : number of nodes at which states and controls stand, evenly spaced; or their places as shares of the
+        duration, increasing from 0 to 1, dense where the motion is quick.
     scheme : collocation scheme.
     history : quantity -> constant value before 0 s [its unit], for delayed signals; zero where left out.
     backend : "auto", "c" or "numpy".
@@ -41,7 +42,7 @@ class Optimization:
 
     model: Model
     duration: float | Free | Parameter = field(kw_only=True)
-    nodes: int = field(default=101, kw_only=True)
+    nodes: int | Sequence[float] = field(default=101, kw_only=True)
     scheme: Scheme = field(default_factory=HermiteSimpson, kw_only=True)
     history: Mapping = field(default_factory=dict, kw_only=True)
     backend: str = field(default="auto", kw_only=True)
@@ -51,8 +52,7 @@ class Optimization:
             raise TranscriptionError(f"Optimization needs a Model first, not {type(self.model).__name__}")
         if not isinstance(self.scheme, Scheme):
             raise TranscriptionError(f"scheme={self.scheme!r}: give a scheme, for instance HermiteSimpson() or Midpoint()")
-        if not isinstance(self.nodes, (int, np.integer)) or self.nodes < 3:
-            raise TranscriptionError(f"nodes={self.nodes!r}: give a whole number of at least 3")
+        object.__setattr__(self, "shares", _shares(self.nodes))
         if self.model.inputs:
             raise TranscriptionError(f"model '{self.model.name}' has the inputs {', '.join(self.model.inputs)}, which only a "
                                      "recording gives; write them as expressions of model.time, or declare a Control")
@@ -70,10 +70,10 @@ class Optimization:
         began = time.perf_counter()
         model, length, name = self._timed
         before = {str(getattr(k, "symbol", k)): float(v) for k, v in self.history.items()}
-        axis = np.linspace(0.0, length, self.nodes)
+        axis, count = length * self.shares, len(self.shares)
         past = np.array([before.get(s, 0.0) for s in model.states])
-        grid = Measured(model.name, axis, {}, None, np.tile(past, (self.nodes, 1)), 0, self.nodes - 1,
-                        {u: np.full(self.nodes, before.get(u, 0.0)) for u in model.controls})
+        grid = Measured(model.name, axis, {}, None, np.tile(past, (count, 1)), 0, count - 1,
+                        {u: np.full(count, before.get(u, 0.0)) for u in model.controls})
         made = transcribe(model, [grid], self.scheme, Episodes(), {}, (), self.backend, duration=name)
         made.seconds["build"] = time.perf_counter() - began
         return made
@@ -114,4 +114,15 @@ class Optimization:
         return min(plans, key=lambda plan: (not plan.solved, plan.objective))
 
     def __repr__(self) -> str:
-        return f"<Optimization of {self.model!r}: duration {self.duration}, {self.nodes} nodes, {self.scheme.name}>"
+        return f"<Optimization of {self.model!r}: duration {self.duration}, {len(self.shares)} nodes, {self.scheme.name}>"
+
+
+def _shares(nodes) -> np.ndarray:
+    """(nodes,) places of the nodes as shares of the duration."""
+    if isinstance(nodes, (int, np.integer)) and nodes >= 3:
+        return np.linspace(0.0, 1.0, nodes)
+    shares = np.array(nodes if isinstance(nodes, (Sequence, np.ndarray)) and not isinstance(nodes, str) else [], dtype=float)
+    if shares.ndim != 1 or len(shares) < 3 or shares[0] != 0 or shares[-1] != 1 or not (np.diff(shares) > 0).all():
+        raise TranscriptionError(f"nodes={nodes!r}: give a whole number of at least 3, or shares of the duration that increase "
+                                 "from 0 to 1")
+    return shares

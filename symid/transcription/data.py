@@ -12,6 +12,10 @@ from symid.recording import Recording
 from symid.units import same_dimension
 
 
+EVEN = 0.02
+"""Jitter of a clock, relative to its step, that a mesh of equal steps ignores; of second order in the error."""
+
+
 @dataclass(frozen=True, eq=False)
 class Measured:
     """One recording as a model sees it; window = samples `first` to `last`, between which the mesh lies.
@@ -49,8 +53,18 @@ class Measured:
 
     @property
     def step(self) -> float:
-        """Sampling interval [s]."""
+        """Mean sampling interval [s]."""
         return float(self.time[self.last] - self.time[self.first]) / self.intervals
+
+    @property
+    def steps(self) -> np.ndarray:
+        """(intervals,) each sampling interval [s]."""
+        return np.diff(self.time[self.nodes])
+
+    @property
+    def even(self) -> bool:
+        """Whether all sampling intervals are equal, as far as a decimal clock tells."""
+        return bool(np.ptp(self.steps) <= EVEN * self.step)
 
     @property
     def nodes(self) -> slice:
@@ -60,7 +74,8 @@ class Measured:
     def times(self, abscissa: float, refine: int) -> np.ndarray:
         """(intervals * refine,) times [s] of a point of each collocation interval."""
         fractions = (np.arange(refine) + abscissa) / refine
-        return (self.time[self.first:self.last, None] + self.step * fractions).ravel()
+        steps = self.step if self.even else self.steps[:, None]
+        return (self.time[self.first:self.last, None] + steps * fractions).ravel()
 
     def mesh(self, refine: int) -> np.ndarray:
         """(intervals * refine + 1,) times [s] of the mesh's nodes; every `refine`-th is a sample."""

@@ -16,7 +16,7 @@ from symid.errors import TranscriptionError
 from symid.model import Model, Row, initial, terminal
 from symid.transcription.block import Block
 from symid.transcription.data import Measured
-from symid.transcription.known import input_at, scales, values_of
+from symid.transcription.known import input_at, interval_steps, scales, values_of
 from symid.transcription.layout import Layout
 from symid.transcription.schemes import Scheme
 
@@ -27,12 +27,13 @@ class Demands:
     Parameters
     ----------
     duration : name of the parameter that is the motion's duration, or None.
+    graded : whether intervals differ in length.
     seconds : what compiling took is added to it.
     """
 
     def __init__(self, model: Model, scheme: Scheme, layout: Layout, measured: tuple[Measured, ...], recording_of: tuple[int, ...],
-                 duration: str | None, backend: str, seconds: dict[str, float]):
-        self.model, self.scheme, self.layout, self.duration = model, scheme, layout, duration
+                 duration: str | None, graded: bool, backend: str, seconds: dict[str, float]):
+        self.model, self.scheme, self.layout, self.duration, self.graded = model, scheme, layout, duration, graded
         self.measured, self.recording_of, self.backend, self.seconds = measured, recording_of, backend, seconds
 
     def demanded(self) -> tuple[Block, ...]:
@@ -49,9 +50,9 @@ class Demands:
             self.seconds[name] = self.seconds.get(name, 0.0) + value
         return kernel
 
-    def _constants(self, e: int) -> np.ndarray:
+    def _constants(self, e: int, graded: bool = False) -> np.ndarray:
         step = self.measured[self.recording_of[e]].step / self.layout.refine
-        return np.concatenate([values_of(self.model), [step], scales(self.layout)])
+        return np.concatenate([values_of(self.model), [] if graded else [step], scales(self.layout)])
 
     def _path(self) -> Iterator[Block]:
         rows = path_rows(self.model)
@@ -86,13 +87,14 @@ class Demands:
     def _running(self) -> Iterator[Block]:
         if not has_running(self.model):
             return
-        kernel, layout = self._compiled(running_program(self.model, self.scheme.stencil, self.duration)), self.layout
+        kernel, layout = self._compiled(running_program(self.model, self.scheme.stencil, self.duration, self.graded)), self.layout
         for e, r in enumerate(self.recording_of):
             stations = (0.0, *self.scheme.stencil.abscissae, 1.0)
             data = [input_at(self.model, self.scheme, self.measured[r], str(u), float(c), layout.refine)
                     for c in stations for u in running_data(self.model)]
+            data += interval_steps(self.measured[r], layout.refine, self.graded)
             yield Block(kernel, lambda z, e=e: layout.local_view(z, e), layout.parameter_columns(e),
-                        _columns(data, layout.intervals[e]), self._constants(e), layout.size,
+                        _columns(data, layout.intervals[e]), self._constants(e, self.graded), layout.size,
                         weights=np.ones((layout.intervals[e], 1)))
 
     def _terminal(self) -> Iterator[Block]:

@@ -18,7 +18,7 @@ from symid.transcription.scales import equation_scale
 from symid.transcription.schemes import Scheme
 
 
-def episode_data(model: Model, scheme: Scheme, m: Measured, noise: np.ndarray, refine: int) -> EpisodeData:
+def episode_data(model: Model, scheme: Scheme, m: Measured, noise: np.ndarray, refine: int, graded: bool) -> EpisodeData:
     """Known numbers of one episode, in the order of `interval_program` and `objective_program`."""
     points = [input_at(model, scheme, m, str(u), c, refine) for c in scheme.stencil.abscissae
               for u in used_data(model, model.residual())]
@@ -26,8 +26,13 @@ def episode_data(model: Model, scheme: Scheme, m: Measured, noise: np.ndarray, r
     shown = [] if m.targets is None else [m.time if str(u) == "t" else m.inputs[str(u)] for u in used_data(model, model.observed())]
     nodes = np.zeros((m.intervals + 1, 0)) if m.targets is None else m.targets[m.nodes]
     return EpisodeData(
-        interval=np.ascontiguousarray(np.hstack([columns, np.repeat(noise, refine, axis=0)])),
+        interval=np.ascontiguousarray(np.hstack([columns, np.repeat(noise, refine, axis=0), *interval_steps(m, refine, graded)])),
         node=np.ascontiguousarray(np.column_stack([*(u[m.nodes] for u in shown), nodes])), noise=noise, step=m.step)
+
+
+def interval_steps(m: Measured, refine: int, graded: bool) -> list[np.ndarray]:
+    """On a graded mesh one column, (intervals, 1): the length of each collocation interval."""
+    return [np.repeat(m.steps / refine, refine)[:, None]] if graded else []
 
 
 def input_at(model: Model, scheme: Scheme, m: Measured, name: str, abscissa: float, refine: int) -> np.ndarray:
@@ -50,23 +55,25 @@ def scales(layout: Layout) -> np.ndarray:
 
 
 def interval_constants(model: Model, scheme: Scheme, interval: Kernel, layout: Layout, measured: Sequence[Measured],
-                       data: Sequence[EpisodeData], recording_of: Sequence[int], parameters: np.ndarray) -> tuple[np.ndarray, ...]:
+                       data: Sequence[EpisodeData], recording_of: Sequence[int], parameters: np.ndarray,
+                       graded: bool) -> tuple[np.ndarray, ...]:
     """Per episode: the constants of `interval_program`, with equation scales found at the recorded motion.
 
     parameters : (free parameters,) SI, at which the scales are found.
     """
     def build(step, scale):
-        return np.concatenate([values_of(model), [step], scales(layout), scale])
+        return np.concatenate([values_of(model), [] if graded else [step], scales(layout), scale])
     equation = equation_of_rows(model, scheme)
     first = measured[recording_of[0]]
     states = [measured[r].on_mesh(measured[r].states[measured[r].nodes], layout.refine) for r in recording_of]
     z, step = layout.fill(states, parameters), first.step / layout.refine
     slopes = interval.jacobian(layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
                                build(step, np.ones(len(model.equations))))
+    steps = data[0].interval[:, -1:] if graded else np.full((len(slopes), 1), step)
     counted = (interval.jacobian_cols < interval.n_local) & (equation[interval.jacobian_rows] >= 0)
     over = np.isin(equation[interval.jacobian_rows[counted]], equations_over(model))
     scale = equation_scale(equation[interval.jacobian_rows[counted]], slopes[:, counted], len(model.equations),
-                           np.where(over, step, 1.0))
+                           np.where(over, steps, 1.0))
     return tuple(build(d.step / layout.refine, scale) for d in data)
 
 

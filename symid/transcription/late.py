@@ -15,9 +15,13 @@ from symid.transcription.layout import Layout
 from symid.transcription.schemes import Scheme
 
 
-def refuse_late(model: Model) -> None:
+def refuse_late(model: Model, measured: Sequence[Measured]) -> None:
     """TranscriptionError for delayed signals that a collocation does not handle."""
     late = set(model.delays)
+    for m in measured if late else ():
+        if not m.even:
+            raise TranscriptionError(f"model '{model.name}' has delayed signals, which need even steps, and the samples of "
+                                     f"{m.name} are uneven: use symid.recording.resample, or nodes at equal distances")
     for d in model.delays.values():
         held = model.inputs.get(str(d.of)) or model.controls.get(str(d.of))
         if held is not None and held.hold == "zero":

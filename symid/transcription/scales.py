@@ -37,9 +37,9 @@ def equation_scale(equation: np.ndarray, values: np.ndarray, equations: int, ste
     ----------
     equation : (nnz,) equation that each entry belongs to.
     values : (intervals, nnz) unscaled derivatives to the unknowns of an interval.
-    step : (nnz,) [s] in an equation with rates, where a state enters with coefficient / step; one in others.
+    step : (intervals, nnz) [s] in an equation with rates, where a state enters with coefficient / step; one in others.
     """
     size = np.zeros(equations)
     # An expression may have no value at the recorded motion: the solver says so, in words.
-    np.maximum.at(size, equation, np.where(np.isfinite(values), np.abs(values), 0.0).max(axis=0, initial=0.0) * step)
+    np.maximum.at(size, equation, (np.where(np.isfinite(values), np.abs(values), 0.0) * step).max(axis=0, initial=0.0))
     return np.where(np.isfinite(size) & (size > 0), size, 1.0)

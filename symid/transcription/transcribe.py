@@ -73,19 +73,21 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
         `measured` is then a share of it.
     """
     model.check(units=False)
-    refuse_late(model)
+    refuse_late(model, measured)
     _refuse_averaged(model, scheme)
-    interval = compile_program(interval_program(model, scheme.stencil, duration), backend=backend)
+    graded = not all(m.even for m in measured)
+    interval = compile_program(interval_program(model, scheme.stencil, duration, graded), backend=backend)
     error = compile_program(objective_program(model), backend=backend) if measured[0].targets is not None else None
     layout, recording_of = _lay_out(model, measured, scheme, episodes, per_recording, refine)
-    data = [episode_data(model, scheme, measured[r], noise, refine)
+    data = [episode_data(model, scheme, measured[r], noise, refine, graded)
             for r in range(len(measured)) for noise in episodes.draw(model, measured[r].intervals)]
     seconds = {k: sum(kernel.seconds.get(k, 0.0) for kernel in (interval, error) if kernel) for k in interval.seconds}
-    demands = Demands(model, scheme, layout, tuple(measured), recording_of, duration, backend, seconds)
+    demands = Demands(model, scheme, layout, tuple(measured), recording_of, duration, graded, backend, seconds)
     tied, tie_names = ties(model, layout, _linked_episodes(episodes, recording_of))
     program = CollocationProgram(
         layout=layout, interval=interval, error=error, data=tuple(data),
-        constants=interval_constants(model, scheme, interval, layout, measured, data, recording_of, _typical(model, layout)),
+        constants=interval_constants(model, scheme, interval, layout, measured, data, recording_of, _typical(model, layout),
+                                     graded),
         error_constants=error_constants(model, layout, weights),
         late=tuple(gather_late(model, scheme, layout, measured, recording_of, interval.m * sum(layout.intervals))),
         ties=tied, tie_names=tie_names, bounds=bounds(model, layout), row_names=row_names(model, scheme),
