@@ -12,9 +12,9 @@ FLOOR = {
     "errors": -1,  # the ground: even units may raise
     "units": 0, "files": 0, "generated": 0, "threads": 0,
     "recording": 1, "model": 1, "nlp": 1,
-    "mechanics": 2, "codegen": 2, "ipopt_solver": 2,
-    "transcription": 3, "simulation": 3,
-    "estimation": 4,
+    "mechanics": 2, "codegen": 2,
+    "transcription": 3, "simulation": 3, "kkt": 3,
+    "estimation": 4, "ipopt_solver": 4,
     "identification": 5, "optimization": 5,
     "analysis": 6,
     "discrepancy": 7,

@@ -397,7 +397,7 @@ def test_other_directories_are_refused(tmp_path):
     with pytest.raises(SolveError, match="is a file: give a directory"):
         Study({"a": Solve(problem())}, tmp_path / "full" / "thesis.tex")
     register = tmp_path / "first" / "study.json"
-    register.write_text(register.read_text().replace("symid study 1", "symid study 9"))
+    register.write_text(register.read_text().replace("symid study 2", "symid study 9"))
     with pytest.raises(SolveError, match="has the format 'symid study 9'"):
         Study({"a": Solve(problem())}, tmp_path / "first")
     register.write_text("{")

@@ -209,7 +209,8 @@ class Solution:
                            | {"bounds": [row["lower"], row["upper"]]} for name, row in rows.items()},
             "fit": self.fit,
             "solver": {"status": self.result.status_name, "solved": self.solved, "sentence": self.message,
-                       "iterations": self.result.iterations, "seconds": self.seconds},
+                       "iterations": self.result.iterations, "seconds": self.seconds,
+                       "linear_solver": asdict(self.result.linear_solver)},
             "starts": [asdict(row) for row in self.starts],
             "provenance": self.provenance,
         }

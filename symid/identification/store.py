@@ -21,9 +21,9 @@ from symid.errors import SolveError
 from symid.files import plain, write_atomically, write_json
 from symid.identification.solution import StartRow
 from symid.identification.worker import Outcome
-from symid.ipopt_solver import SolverResult, WorstConstraint
+from symid.ipopt_solver import LinearSolver, SolverResult, WorstConstraint
 
-FORMAT = "symid study 1"
+FORMAT = "symid study 2"
 ARRAYS = tuple(f.name for f in fields(SolverResult) if "ndarray" in str(f.type))
 
 
@@ -119,6 +119,7 @@ def _taken_apart(outcome: Outcome) -> tuple[dict, bytes]:
         content["result"] = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ARRAYS}
         if result.worst_constraint is not None:
             content["result"]["worst_constraint"] = asdict(result.worst_constraint)
+        content["result"]["linear_solver"] = asdict(result.linear_solver)
     file = io.BytesIO()
     np.savez(file, **arrays)
     return plain(content), file.getvalue()
@@ -131,6 +132,7 @@ def _put_together(content: dict, arrays: bytes) -> Outcome:
         return Outcome(row)
     worst = values["worst_constraint"]
     values["worst_constraint"] = None if worst is None else WorstConstraint(**_with_nan(worst, WorstConstraint))
+    values["linear_solver"] = LinearSolver(**values["linear_solver"])
     with np.load(io.BytesIO(arrays), allow_pickle=False) as file:
         return Outcome(row, SolverResult(**_with_nan(values, SolverResult), **{name: file[name] for name in ARRAYS}))
 

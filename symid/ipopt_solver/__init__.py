@@ -1,8 +1,9 @@
 """Solve a nonlinear program with Ipopt. The only room that imports cyipopt."""
 
 from symid.ipopt_solver.evaluation import Iteration
+from symid.ipopt_solver.linear import LinearSolver
 from symid.ipopt_solver.result import SolverResult, WorstConstraint
 from symid.ipopt_solver.solve import solve_nlp
 from symid.ipopt_solver.version import ipopt_version
 
-__all__ = ["Iteration", "SolverResult", "WorstConstraint", "ipopt_version", "solve_nlp"]
+__all__ = ["Iteration", "LinearSolver", "SolverResult", "WorstConstraint", "ipopt_version", "solve_nlp"]

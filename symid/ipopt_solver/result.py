@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.ipopt_solver.evaluation import Evaluation
+from symid.ipopt_solver.linear import LinearSolver
 from symid.ipopt_solver.status import SOLVED, explain
 from symid.nlp import NonlinearProgram
 
@@ -41,6 +42,8 @@ class SolverResult:
         ``functions``, their sum; ``solver``, the rest (Ipopt, mostly linear algebra); ``total``.
     worst_constraint : WorstConstraint or None
         None where there are no constraints.
+    linear_solver : LinearSolver
+        Which one worked, and what it did.
     """
 
     z: np.ndarray
@@ -56,6 +59,7 @@ class SolverResult:
     iterations: int
     seconds: dict[str, float]
     worst_constraint: WorstConstraint | None
+    linear_solver: LinearSolver
 
     def __repr__(self) -> str:
         return (
@@ -65,7 +69,8 @@ class SolverResult:
 
 
 def make_result(
-    nlp: NonlinearProgram, evaluation: Evaluation, status: int, point: dict, total: float
+    nlp: NonlinearProgram, evaluation: Evaluation, status: int, point: dict, total: float,
+    linear: LinearSolver,
 ) -> SolverResult:
     """Put together what Ipopt left in `point` after `total` seconds."""
     name, message = explain(status)
@@ -82,6 +87,7 @@ def make_result(
         bound_multipliers_lower=point["lower"], bound_multipliers_upper=point["upper"],
         status=status, status_name=name, solved=status in SOLVED, message=message,
         iterations=evaluation.iterations, seconds=seconds, worst_constraint=worst,
+        linear_solver=linear,
     )  # fmt: skip
 
 

@@ -12,22 +12,16 @@ import numpy as np
 from symid.ipopt_solver import library as ipopt_library
 from symid.errors import SolveError
 from symid.ipopt_solver.evaluation import Evaluation, Iteration, RejectedPoint
+from symid.ipopt_solver.linear import run_with
 from symid.ipopt_solver.result import SolverResult, WorstConstraint, make_result
 from symid.ipopt_solver.status import SOLVED, STOPPED_BY_LIMIT, explain
 from symid.nlp import NonlinearProgram
 
 __all__ = ["Iteration", "SolverResult", "WorstConstraint", "solve_nlp"]
 
-# MUMPS without its matching and scaling: collocation systems are well scaled already. Its ordering for
-# quasi-dense rows (QAMD), because every equation holds the parameters: against its own choice a third
-# to a fifth of the time with several episodes, and half with one.
 DEFAULTS: dict[str, str | float] = {
     "tol": 1e-6,
     "mu_strategy": "adaptive",
-    "linear_solver": "mumps",
-    "mumps_permuting_scaling": 0,
-    "mumps_scaling": 0,
-    "mumps_pivot_order": 6,
     "honor_original_bounds": "yes",
     "print_level": 0,
     "sb": "yes",
@@ -59,6 +53,7 @@ def solve_nlp(
     max_iterations: int = 3000,
     time_limit_s: float | None = None,
     hessian: str = "exact",
+    linear_solver: str = "mumps",
 ) -> SolverResult:
     """Solve `nlp` with Ipopt.
 
@@ -77,6 +72,9 @@ def solve_nlp(
         Wall time [s].
     hessian : {"exact", "limited-memory"}
         Which second derivatives Ipopt uses.
+    linear_solver : {"auto", "chain", "mumps"} or Ipopt's name of another
+        "chain" is symid's own, for collocation (`symid.kkt`); "auto" takes it where the problem is a
+        chain and a C compiler is there, else MUMPS. `options` may name one as well.
 
     Returns
     -------
@@ -96,12 +94,20 @@ def solve_nlp(
     run = _runner()
     _keep_freed_memory()
     evaluation = Evaluation(nlp, on_iteration)
+    wanted = chosen.pop("linear_solver", linear_solver)
+    begin = {name: value.copy() for name, value in point.items()}
+
+    def run_from_start(linear: dict[str, str | float]) -> int:
+        for name, value in begin.items():
+            point[name][...] = value
+        return run(nlp, evaluation, linear | chosen, _scales(nlp), point)
+
     with _ONE_AT_A_TIME, evaluation.ctrl_c_stops():
         began = time.perf_counter()
-        status = run(nlp, evaluation, chosen, _scales(nlp), point)
+        status, linear = run_with(wanted, run_from_start)
         total = time.perf_counter() - began
     _raise_failure(evaluation, status)
-    return make_result(nlp, evaluation, status, point, total)
+    return make_result(nlp, evaluation, status, point, total, linear)
 
 
 def _starting_point(nlp, start, warm_start) -> dict[str, np.ndarray]:

@@ -137,7 +137,12 @@ def _in_words(status: str, solved: bool) -> str:
 
 
 def _solver(solution: Solution) -> str:
-    return facts({"status": _in_words(solution.result.status_name, solution.solved), "iterations": solution.result.iterations,
+    linear = solution.result.linear_solver
+    details = {"factorisations": linear.factorisations, "numbers in the largest factor": linear.fill,
+               "delayed pivots": linear.delayed}
+    return facts({"status": _in_words(solution.result.status_name, solution.solved),
+                  "iterations": solution.result.iterations,
+                  "linear solver": f"{linear.name}: {linear.reason}", **{k: v for k, v in details.items() if v is not None},
                   **{f"{k.replace('_', ' ')} [s]": round(v, 3) for k, v in solution.seconds.items()}})
 
 
