@@ -41,7 +41,7 @@ def parameter_rows(model: Model) -> list[tuple[str, Row]]:
 
 def end_rows(model: Model) -> list[tuple[str, Row]]:
     """(name, row) of the boundary conditions but those that `transcription.bounds` keeps as bounds."""
-    along = set(node_symbols(model))
+    along = set(node_symbols(model)) | {u.symbol for u in model.inputs.values()}
     return [(f"boundary {name}", _inlined(model, row)) for name, b in model.boundaries.items()
             for row in b.rows(along) if not is_bound(model, row)]
 
@@ -101,8 +101,9 @@ def running_data(model: Model) -> tuple[sm.Symbol, ...]:
 
 
 def ends_program(model: Model, rows: list[sm.Expr], name: str, duration: str | None = None) -> Program:
-    """Rows of values at both ends; local = first node | last node; data = the end's time, as a share if it is free.
+    """Rows of values at both ends; local = first node | last node.
 
+    data = the end's time, as a share of the duration if that is free | inputs at the start | inputs at the end.
     A symbol that is neither ``.initial`` nor ``.terminal`` is taken at the end.
     """
     node = node_symbols(model)
@@ -111,8 +112,11 @@ def ends_program(model: Model, rows: list[sm.Expr], name: str, duration: str | N
     for s in node:
         first, last = (scale_symbol(s) * at(s, place) for place in (FIRST, LAST))
         table |= {initial(s): first, terminal(s): last, s: last}
+    inputs = [u.symbol for u in model.inputs.values()]
+    for u in inputs:
+        table |= {initial(u): at(u, FIRST), terminal(u): at(u, LAST), u: at(u, LAST)}
     return _program(model, name, [r.xreplace(table) for r in rows], [at(s, place) for place in (FIRST, LAST) for s in node],
-                    [at(TIME, LAST)])
+                    [at(TIME, LAST), *(at(u, place) for place in (FIRST, LAST) for u in inputs)])
 
 
 def parameter_program(model: Model) -> Program:

@@ -6,6 +6,8 @@ numbers in them, so that one compiled kernel serves every body, mesh and scaling
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import sympy as sm
 
 from symid.codegen.program import Program
@@ -92,21 +94,28 @@ def interval_program(model: Model, stencil: Stencil, duration: str | None = None
     )
 
 
-def objective_program(model: Model) -> Program:
+def objective_program(model: Model, gaps: bool = False, robust: Collection[str] = ()) -> Program:
     """The weighted squared output error at one node, a single row.
 
-    local = what the node holds; shared = parameters; data = used inputs (and time) | recorded outputs;
+    local = what the node holds; shared = parameters; data = used inputs (and time) | recorded outputs | whether
+    each was recorded, where there are `gaps` | widths of the `robust` outputs;
     constants = model constants | scales as in `interval_program` | weights of outputs.
+
+    The square e^2 of a robust output's error of width d is 2 d^2 (sqrt(1 + (e/d)^2) - 1), which grows like |e|
+    beyond d and is smooth everywhere (pseudo-Huber; Charbonnier et al. 1997).
     """
     observed = model.observed()
     data = used_data(model, observed)
-    recorded = [at(y, "recorded") for y in model.outputs]
-    weights = [at(y, "weight") for y in model.outputs]
-    table = node_table(model)
-    error = sum((w * (y.xreplace(table) - d) ** 2 for w, y, d in zip(weights, observed, recorded, strict=True)),
-                sm.Integer(0))
+    recorded, weights, present, width = ([at(y, what) for y in model.outputs] for what in ("recorded", "weight", "present", "width"))
+    table, error = node_table(model), sm.Integer(0)
+    for i, (name, y) in enumerate(zip(model.outputs, observed, strict=True)):
+        e = y.xreplace(table) - recorded[i]
+        square = 2 * width[i] ** 2 * (sm.sqrt(1 + (e / width[i]) ** 2) - 1) if name in robust else e**2
+        error += weights[i] * (present[i] if gaps else 1) * square
     return Program(name=f"{model.name} objective", rows=(error,), local=tuple(node_symbols(model)),
-                   shared=tuple(parameter_symbols(model)), data=(*data, *recorded),
+                   shared=tuple(parameter_symbols(model)),
+                   data=(*data, *recorded, *(present if gaps else ()),
+                         *(w for w, name in zip(width, model.outputs, strict=True) if name in robust)),
                    constants=(*constant_symbols(model), *scales(model), *weights))
 
 

@@ -24,7 +24,7 @@ def parameter_covariance(t: Transcription, result: SolverResult, errors: list[np
 
     Parameters
     ----------
-    errors : per recording (K + 1, m) output error, mean over episodes.
+    errors : per recording (K + 1, m) output error, mean over episodes; NaN where none was recorded.
     output_slopes : per episode (K + 1, m, n) derivative of the outputs to the scaled states.
     """
     first, free = t.layout.offsets[-1], len(t.layout.parameter_names)
@@ -37,7 +37,8 @@ def parameter_covariance(t: Transcription, result: SolverResult, errors: list[np
     total = np.zeros((len(keep), len(keep)))
     for r, error in enumerate(errors):
         influence = sum(_influence(t, e, response, output_slopes[e]) for e, of in enumerate(t.recording_of) if of == r)
-        total += _coloured(influence, error)
+        there = np.isfinite(error)
+        total += _coloured(influence * there[:, :, None], np.where(there, error, 0.0)) / there.mean()
     scale = t.layout.parameter_scale[keep]
     covariance[np.ix_(keep, keep)] = total * np.outer(scale, scale)
     return covariance

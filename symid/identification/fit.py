@@ -14,7 +14,7 @@ def fit_measures(names: Sequence[str], units: Sequence[str], model: np.ndarray, 
 
     Parameters
     ----------
-    model, recorded : (samples, m) SI; samples of several episodes one below the other.
+    model, recorded : (samples, m) SI; samples of several episodes one below the other; NaN where missing.
 
     Returns
     -------
@@ -24,14 +24,14 @@ def fit_measures(names: Sequence[str], units: Sequence[str], model: np.ndarray, 
         ``r_squared`` = 1 - sum(error^2) / sum((recorded - mean)^2).
     """
     error = recorded - model
-    rms = dict(zip(names, np.sqrt(np.mean(error**2, axis=0)), strict=True))
-    measures = {"rms": rms | {"all": np.sqrt(np.mean(error**2))}}
+    rms = dict(zip(names, np.sqrt(np.nanmean(error**2, axis=0)), strict=True))
+    measures = {"rms": rms | {"all": np.sqrt(np.nanmean(error**2))}}
     if all(u == "rad" for u in units):
         measures["rms_deg"] = {k: np.rad2deg(v) for k, v in measures["rms"].items()}
-    spread = np.var(recorded, axis=0)
+    spread = np.nanvar(recorded, axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        measures["vaf_percent"] = dict(zip(names, 100 * (1 - np.var(error, axis=0) / spread), strict=True))
-        measures["r_squared"] = dict(zip(names, 1 - np.mean(error**2, axis=0) / spread, strict=True))
+        measures["vaf_percent"] = dict(zip(names, 100 * (1 - np.nanvar(error, axis=0) / spread), strict=True))
+        measures["r_squared"] = dict(zip(names, 1 - np.nanmean(error**2, axis=0) / spread, strict=True))
     return {k: {c: float(x) for c, x in v.items()} for k, v in measures.items()}
 
 

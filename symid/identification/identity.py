@@ -58,7 +58,7 @@ def problem_identity(problem: Identification) -> dict[str, str]:
         "window": digest(problem.windows),
         "scheme": digest(problem.scheme),
         "episodes": digest(problem.episodes),
-        "weights": digest(problem.weights),
+        "weights": digest(problem.weights if not problem.loss else (problem.weights, problem.loss)),
         "per_recording": digest(tuple(problem.per_recording)),
         "ridge": digest(problem.ridge if problem.ridge_about == "zero" else (problem.ridge, problem.ridge_about)),
         "backend": problem.backend,

@@ -44,6 +44,8 @@ class Identification:
     scheme : collocation scheme.
     episodes : how many noisy repetitions of each recording; one without noise by default.
     weights : output name -> weight of its squared error, 1 by default.
+    loss : output name -> width [its unit] beyond which its error counts by its size instead of its square, against
+        outliers (`codegen.interval.objective_program`).
     per_recording : names of parameters that differ between the recordings.
     backend : "auto", "c" or "numpy".
     refine : collocation intervals in each sample interval: 2 halves the step of the mesh, and divides the
@@ -65,6 +67,7 @@ class Identification:
     scheme: Scheme = field(default_factory=Midpoint)
     episodes: Episodes = field(default_factory=Episodes)
     weights: dict[str, float] = field(default_factory=dict)
+    loss: dict[str, float] = field(default_factory=dict)
     per_recording: Sequence[str] = ()
     backend: str = "auto"
     refine: int = 1
@@ -97,7 +100,7 @@ class Identification:
         began = time.perf_counter()
         measured = [measure(self.model, r, w) for r, w in zip(self.recordings, self.windows, strict=True)]
         made = transcribe(self.model, measured, self.scheme, self.episodes, self.weights, self.per_recording, self.backend,
-                          int(self.refine))
+                          int(self.refine), loss=self.loss)
         made.seconds["build"] = time.perf_counter() - began
         return made
 

@@ -50,7 +50,7 @@ class StartRow:
         error = np.concatenate([(y - d).ravel() for y, d in outputs_and_targets(t, result.z)])
         values = dict(zip(t.layout.parameter_names, map(float, t.layout.parameters(result.z)), strict=True))
         return cls(number=number, kind=kind if isinstance(kind, str) else "given", solved=result.solved,
-                   status=result.status_name, objective=result.objective, rms=float(np.sqrt(np.mean(error**2))),
+                   status=result.status_name, objective=result.objective, rms=float(np.sqrt(np.nanmean(error**2))),
                    iterations=result.iterations, seconds=result.seconds["total"] + at_start, parameters=values,
                    message=result.message)
 
@@ -250,10 +250,9 @@ def _output_arguments(t: Transcription, z: np.ndarray, e: int) -> tuple[np.ndarr
 
 
 def outputs_and_targets(t: Transcription, z: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Per episode the model's outputs and the recorded ones, (nodes, m) each, SI."""
+    """Per episode the model's outputs and the recorded ones, (nodes, m) each, SI; NaN where none was recorded."""
     kernel = compile_program(output_program(t.model), backend="numpy")
-    return [(kernel.residual(*_output_arguments(t, z, e)), t.program.data[e].node[:, -len(t.model.outputs):])
-            for e in range(len(t.recording_of))]
+    return [(kernel.residual(*_output_arguments(t, z, e)), t.measured[r].recorded) for e, r in enumerate(t.recording_of)]
 
 
 def output_slopes(t: Transcription, z: np.ndarray) -> list[np.ndarray]:

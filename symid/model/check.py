@@ -62,7 +62,8 @@ _NO_SYMBOL = (Equation, Port, Constraint, Boundary, Objective)
 
 def along_time(model: Model) -> set[sm.Symbol]:
     """The symbols of quantities that have a value at each node, and so at both ends."""
-    return {c.symbol for c in (*model.states.values(), *model.algebraics.values(), *model.controls.values())}
+    kinds = (model.states, model.algebraics, model.controls, model.inputs)
+    return {c.symbol for kind in kinds for c in kind.values()}
 
 
 def _expressions(model: Model, c) -> list[sm.Expr]:

@@ -84,8 +84,8 @@ class Boundary(Component):
     Parameters
     ----------
     *conditions : comparisons or expressions (that are zero) of ``.initial`` and ``.terminal`` values.
-    initial, terminal : quantity or expression -> its value there, a number, an expression of
-        parameters, or a pair (lower, upper).
+    initial, terminal : quantity or expression -> its value there, a number, an expression (of parameters, or
+        of an Input, which is taken at the same end), or a pair (lower, upper).
     periodic : quantities that end as they began; or quantity -> expression whose initial value
         it has at the end.
     """
@@ -112,7 +112,7 @@ class Boundary(Component):
         for ends, table in ((self.initial, first), (self.terminal, last)):
             for quantity, value in ends.items():
                 expr, (low, high) = sm.sympify(quantity).xreplace(table), _interval(value)
-                found.append(Row(expr, low, high) if low is not None else Row(expr - high, 0.0, 0.0))
+                found.append(Row(expr, low, high) if low is not None else Row(expr - high.xreplace(table), 0.0, 0.0))
         return found + [Row(sm.sympify(x).xreplace(last) - sm.sympify(y).xreplace(first), 0.0, 0.0)
                         for x, y in self.periodic.items()]
 

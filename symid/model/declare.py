@@ -110,7 +110,7 @@ class Control(AlongTime, Component):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Input(Quantity, Component):
+class Input(AlongTime, Component):
     """A signal known from a recording.
 
     Parameters

@@ -46,7 +46,7 @@ def _conditions(part, model: Model, tex) -> list[str]:
     """What a Constraint, Boundary or Objective says."""
     if isinstance(part, Objective):
         return [rf"\text{{minimise}} &\quad \int {tex(part.running)}\,dt + {tex(part.terminal)}"]
-    along = {c.symbol for c in (*model.states.values(), *model.algebraics.values(), *model.controls.values())}
+    along = {c.symbol for c in (*model.states.values(), *model.algebraics.values(), *model.controls.values(), *model.inputs.values())}
     rows = [part.row] if isinstance(part, Constraint) else part.rows(along) if isinstance(part, Boundary) else []
     return [rf"{_number(r.lower)} &= {tex(r.expr)}" if r.equality else
             rf"{_number(r.lower)} &\le {tex(r.expr)} \le {_number(r.upper)}" for r in rows]

@@ -29,6 +29,8 @@ class Measured:
     states : (samples, n) recorded or differentiated states, zero where nothing is known.
     first, last : the window's first and last sample.
     controls : control name -> (samples,) its values before the window, for delays; zero where left out.
+    present : (samples, outputs) whether each output was recorded; None where all were. `targets` are
+        interpolated where they were not.
     """
 
     name: str
@@ -39,6 +41,13 @@ class Measured:
     first: int
     last: int
     controls: dict[str, np.ndarray] = field(default_factory=dict)
+    present: np.ndarray | None = None
+
+    @property
+    def recorded(self) -> np.ndarray:
+        """(samples of the window, outputs) recorded outputs, NaN where they are missing."""
+        targets = self.targets[self.nodes]
+        return targets if self.present is None else np.where(self.present[self.nodes], targets, np.nan)
 
     def signal(self, name: str, model: Model) -> np.ndarray:
         """(samples,) a state, input or control."""
@@ -114,15 +123,36 @@ def measure(model: Model, recording: Recording, window: tuple[float, float] | No
             f"'{name}' of model '{model.name}' needs the channel '{channel}', which {recording.name} does not have: "
             + nearest(channel, recording.channels) for name, channel in missing))
     _refuse_other_units(model, recording)
-    if not recording.complete or len(recording.runs) > 1:
-        raise TranscriptionError(
-            f"{recording.name} has uneven or missing samples, or several segments; use symid.recording.resample or "
-            "fill_gaps, and recording.segments() as a list of recordings")
+    if len(recording.runs) > 1:
+        raise TranscriptionError(f"{recording.name} has several segments, between which nothing is known: give "
+                                 "recording.segments() as a list of recordings")
     first, last = _window_samples(recording, window)
-    outputs = model.outputs.values()
-    targets = np.column_stack([recording.channels[y.channel] for y in outputs]) if outputs else np.zeros((len(recording.time), 0))
+    for u in model.inputs.values():
+        gaps = np.flatnonzero(~np.isfinite(recording.channels[u.channel]))
+        if len(gaps):
+            raise TranscriptionError(f"the input '{u.name}' is missing in {len(gaps)} samples of {recording.name}, first at "
+                                     f"{recording.time[gaps[0]]:g} s: an input must be known throughout; use "
+                                     "symid.recording.fill_gaps, or declare it as a Control that is estimated")
+    channels = {name: filled(recording.time, recording.channels[name], name, recording.name) for name in needed_channels(model, recording)}
+    outputs = [y.channel for y in model.outputs.values()]
+    targets = np.column_stack([channels[c] for c in outputs]) if outputs else np.zeros((len(recording.time), 0))
+    present = np.column_stack([np.isfinite(recording.channels[c]) for c in outputs]) if outputs else np.ones((0, 0), bool)
     return Measured(recording.name, recording.time, {u.name: recording.channels[u.channel] for u in model.inputs.values()},
-                    targets, first_states(model, recording), first, last)
+                    targets, first_states(model, recording.time, channels), first, last,
+                    present=None if present.all() else present)
+
+
+def needed_channels(model: Model, recording: Recording) -> list[str]:
+    """The channels of outputs, and those that have the name of a state."""
+    return list(dict.fromkeys([*(y.channel for y in model.outputs.values()), *(s for s in model.states if s in recording.channels)]))
+
+
+def filled(time: np.ndarray, values: np.ndarray, channel: str, name: str) -> np.ndarray:
+    """(samples,) with straight lines over what is missing: only for a first trajectory."""
+    known = np.isfinite(values)
+    if not known.any():
+        raise TranscriptionError(f"the channel '{channel}' of {name} holds no sample")
+    return values if known.all() else np.interp(time, time[known], values[known])
 
 
 def _refuse_other_units(model: Model, recording: Recording) -> None:
@@ -149,7 +179,7 @@ def _window_samples(recording: Recording, window: tuple[float, float] | None) ->
     return int(first), int(last)
 
 
-def first_states(model: Model, recording: Recording) -> np.ndarray:
+def first_states(model: Model, time: np.ndarray, channels: dict[str, np.ndarray]) -> np.ndarray:
     """(samples, n) a first trajectory of all states.
 
     A state is taken from the channel of its name, or from that of an output which shows just this
@@ -157,11 +187,9 @@ def first_states(model: Model, recording: Recording) -> np.ndarray:
     else it is zero (the internal states of controllers and added physics).
     """
     shown = {str(y.expr): y.channel for y in model.outputs.values()}
-    known = {s: recording.channels[c] for s in model.states
-             for c in (s, shown.get(s)) if c in recording.channels}
+    known = {s: channels[c] for s in model.states for c in (s, shown.get(s)) if c in channels}
     for rate, of in model.rates().items():
         if rate not in known and of in known:
-            known[rate] = np.gradient(known[of], recording.time, edge_order=2)
-    zero = np.zeros(len(recording.time))
-    return np.column_stack([known.get(s, zero) for s in model.states])
-
+            known[rate] = np.gradient(known[of], time, edge_order=2)
+    zero = np.zeros(len(time))
+    return np.column_stack([known.get(s, zero) for s in model.states] or [np.zeros((len(time), 0))])

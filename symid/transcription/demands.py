@@ -71,7 +71,7 @@ class Demands:
         if rows:
             kernel = self._compiled(ends_program(self.model, [r.expr for _, r in rows], name, self.duration), "numpy")
             for e in range(len(self.recording_of)):
-                yield Block(kernel, self._both_ends(e), self.layout.parameter_columns(e), self._end_time(e), self._constants(e),
+                yield Block(kernel, self._both_ends(e), self.layout.parameter_columns(e), self._end_data(e), self._constants(e),
                             self.layout.size, **_bounds_and_names(rows), where=f" of episode {e + 1}")
 
     def _parameters(self) -> Iterator[Block]:
@@ -102,16 +102,16 @@ class Demands:
         if total != 0:
             kernel = self._compiled(ends_program(self.model, [total], "terminal", self.duration), "numpy")
             for e in range(len(self.recording_of)):
-                yield Block(kernel, self._both_ends(e), self.layout.parameter_columns(e), self._end_time(e), self._constants(e),
+                yield Block(kernel, self._both_ends(e), self.layout.parameter_columns(e), self._end_data(e), self._constants(e),
                             self.layout.size, weights=np.ones((1, 1)))
 
     def _both_ends(self, e: int):
         columns = self.layout.node_view(np.arange(self.layout.size), e)[[0, -1]].reshape(1, -1)
         return lambda z: z[columns]
 
-    def _end_time(self, e: int) -> np.ndarray:
+    def _end_data(self, e: int) -> np.ndarray:
         m = self.measured[self.recording_of[e]]
-        return np.array([[m.time[m.last]]], dtype=float)
+        return np.array([[m.time[m.last], *(m.inputs[u][node] for node in (m.first, m.last) for u in self.model.inputs)]], dtype=float)
 
 
 def _columns(data: list[np.ndarray], points: int) -> np.ndarray:

@@ -18,7 +18,8 @@ from symid.transcription.scales import equation_scale
 from symid.transcription.schemes import Scheme
 
 
-def episode_data(model: Model, scheme: Scheme, m: Measured, noise: np.ndarray, refine: int, graded: bool) -> EpisodeData:
+def episode_data(model: Model, scheme: Scheme, m: Measured, noise: np.ndarray, refine: int, graded: bool,
+                 gaps: bool, loss: dict[str, float]) -> EpisodeData:
     """Known numbers of one episode, in the order of `interval_program` and `objective_program`."""
     points = [input_at(model, scheme, m, str(u), c, refine) for c in scheme.stencil.abscissae
               for u in used_data(model, model.residual())]
@@ -27,7 +28,15 @@ def episode_data(model: Model, scheme: Scheme, m: Measured, noise: np.ndarray, r
     nodes = np.zeros((m.intervals + 1, 0)) if m.targets is None else m.targets[m.nodes]
     return EpisodeData(
         interval=np.ascontiguousarray(np.hstack([columns, np.repeat(noise, refine, axis=0), *interval_steps(m, refine, graded)])),
-        node=np.ascontiguousarray(np.column_stack([*(u[m.nodes] for u in shown), nodes])), noise=noise, step=m.step)
+        node=np.ascontiguousarray(np.column_stack([*(u[m.nodes] for u in shown), nodes])), noise=noise, step=m.step,
+        loss=np.hstack([_present(m) if gaps else np.zeros((len(nodes), 0)),
+                        np.tile([loss[y] for y in model.outputs if y in loss], (len(nodes), 1))]))
+
+
+def _present(m: Measured) -> np.ndarray:
+    """(samples, m) one where an output of the window was recorded, else zero."""
+    targets = m.targets[m.nodes]
+    return np.ones(targets.shape) if m.present is None else m.present[m.nodes].astype(float)
 
 
 def interval_steps(m: Measured, refine: int, graded: bool) -> list[np.ndarray]:

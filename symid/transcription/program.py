@@ -22,13 +22,15 @@ class EpisodeData:
     interval : (intervals, n_data) of each collocation interval.
     node : (samples, n_data) of each sample.
     noise : (samples - 1, w) process noise, constant from sample to sample.
-    step : sampling interval [s].
+    step : mean sampling interval [s].
+    loss : (samples, ...) what the error's kernel sees beside `node`: which outputs are there, widths of robust ones.
     """
 
     interval: np.ndarray
     node: np.ndarray
     noise: np.ndarray
     step: float
+    loss: np.ndarray
 
 
 class CollocationProgram:
@@ -69,7 +71,8 @@ class CollocationProgram:
 
     def _error_block(self, e: int) -> Block:
         node = self.data[e].node
-        return Block(self.error, lambda z: self.layout.sample_view(z, e), self.layout.parameter_columns(e), node,
+        data = np.ascontiguousarray(np.hstack([node, self.data[e].loss]))
+        return Block(self.error, lambda z: self.layout.sample_view(z, e), self.layout.parameter_columns(e), data,
                      self.error_constants, self.layout.size, weights=np.full((len(node), 1), self.data[e].step))
 
     def _constraint_bounds(self) -> tuple[np.ndarray, np.ndarray]:

@@ -66,20 +66,23 @@ class Transcription:
 
 def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episodes: Episodes,
                weights: dict[str, float], per_recording: Sequence[str], backend: str, refine: int = 1,
-               duration: str | None = None) -> Transcription:
+               duration: str | None = None, loss: dict[str, float] | None = None) -> Transcription:
     """Compile the kernels, lay out the free vector, and gather the data of every episode.
 
     duration : name of the parameter that is the motion's duration [s], where this is unknown; the time of
         `measured` is then a share of it.
+    loss : output name -> width [its unit] beyond which its error counts by its size instead of its square.
     """
     model.check(units=False)
     refuse_late(model, measured)
     _refuse_averaged(model, scheme)
     graded = not all(m.even for m in measured)
     interval = compile_program(interval_program(model, scheme.stencil, duration, graded), backend=backend)
-    error = compile_program(objective_program(model), backend=backend) if measured[0].targets is not None else None
+    loss, gaps = _checked_loss(model, loss or {}), any(m.present is not None for m in measured)
+    recorded = all(m.targets is not None for m in measured)
+    error = compile_program(objective_program(model, gaps, loss), backend=backend) if recorded else None
     layout, recording_of = _lay_out(model, measured, scheme, episodes, per_recording, refine)
-    data = [episode_data(model, scheme, measured[r], noise, refine, graded)
+    data = [episode_data(model, scheme, measured[r], noise, refine, graded, gaps, loss)
             for r in range(len(measured)) for noise in episodes.draw(model, measured[r].intervals)]
     seconds = {k: sum(kernel.seconds.get(k, 0.0) for kernel in (interval, error) if kernel) for k in interval.seconds}
     demands = Demands(model, scheme, layout, tuple(measured), recording_of, duration, graded, backend, seconds)
@@ -93,6 +96,15 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
         ties=tied, tie_names=tie_names, bounds=bounds(model, layout), row_names=row_names(model, scheme),
         times=tuple(measured[r].mesh(refine) for r in recording_of), demanded=demands.demanded(), wanted=demands.wanted())
     return Transcription(model, scheme, episodes, tuple(measured), recording_of, layout, program, model.fingerprint, seconds)
+
+
+def _checked_loss(model: Model, loss: dict[str, float]) -> dict[str, float]:
+    for name, width in loss.items():
+        if name not in model.outputs:
+            raise TranscriptionError(f"loss: model '{model.name}' has no output '{name}'; {nearest(name, model.outputs)}")
+        if not (np.isfinite(width) and width > 0):
+            raise TranscriptionError(f"loss: the width {width:g} of '{name}' must be a positive number, in the output's unit")
+    return loss
 
 
 def _refuse_averaged(model: Model, scheme: Scheme) -> None:

@@ -1,0 +1,69 @@
+"""Missing and uneven samples, outliers: what is not there has no weight, and the mesh goes on."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import pendulum, pendulum_recording
+
+import symid as si
+from symid.errors import TranscriptionError
+from symid.nlp import check_derivatives
+
+
+def with_gaps(recording: si.Recording, share: float = 0.3, seed: int = 0) -> si.Recording:
+    angle = recording["angle"].copy()
+    angle[np.random.default_rng(seed).random(len(angle)) < share] = np.nan
+    return replace(recording, channels=dict(recording.channels) | {"angle": angle})
+
+
+def test_missing_samples_have_no_weight():
+    recording = pendulum_recording(noise=0.01)
+    gappy = with_gaps(recording)
+    solution = si.Identification(pendulum(), gappy).solve()
+    assert solution.solved and solution.values["damping"] == pytest.approx(0.4, abs=5 * solution.parameters.std_error["damping"])
+    assert solution.fit["rms"]["measured"] == pytest.approx(0.01, rel=0.15)
+    # The objective is the whole one with the missing samples left out.
+    whole = si.Identification(pendulum(), recording)
+    z, missing = solution.result.z, ~np.isfinite(gappy["angle"])
+    error = whole.transcription.layout.states(z, 0)[:, 0] - recording["angle"]
+    weight = whole.transcription.program.objective(z) / np.sum(error**2)
+    assert solution.problem.transcription.program.objective(z) == pytest.approx(weight * np.sum(error[~missing] ** 2))
+
+
+def test_derivatives_with_gaps_and_robust_loss_agree_with_central_differences():
+    problem = si.Identification(pendulum(), with_gaps(pendulum_recording(duration=0.6, step=0.05)), loss={"measured": 0.02},
+                                backend="numpy")
+    t = problem.transcription
+    z = t.start(np.array([0.7])) + np.random.default_rng(1).normal(0, 0.1, t.layout.size)
+    assert check_derivatives(t.nonlinear_program(t.start(np.array([0.7]))), z).worst_error < 1e-6
+
+
+@pytest.mark.parametrize("scheme", [si.Midpoint(), si.HermiteSimpson()])
+def test_uneven_samples_need_no_resampling(scheme):
+    recording = pendulum_recording(step=0.01)
+    rng = np.random.default_rng(0)
+    kept = np.sort(rng.choice(np.arange(1, len(recording) - 1), 200, replace=False))
+    kept = np.r_[0, kept, len(recording) - 1]
+    uneven = replace(recording, time=recording.time[kept], channels={k: v[kept] for k, v in recording.channels.items()})
+    solution = si.Identification(pendulum(), uneven, scheme=scheme).solve()
+    assert solution.values["damping"] == pytest.approx(0.4, abs=2e-3 if scheme.order == 2 else 1e-4)
+
+
+def test_outliers_hardly_move_a_robust_fit():
+    recording = pendulum_recording(noise=0.01)
+    angle = recording["angle"].copy()
+    angle[100:130] += 1.0
+    spoilt = replace(recording, channels=dict(recording.channels) | {"angle": angle})
+    plain, robust = (si.Identification(pendulum(), spoilt, loss=loss).solve().values["damping"] for loss in ({}, {"measured": 0.02}))
+    assert abs(plain - 0.4) > 4 * abs(robust - 0.4) and robust == pytest.approx(0.4, abs=0.02)
+
+
+def test_what_cannot_be_missing_is_refused_in_words():
+    recording = pendulum_recording()
+    drive = recording["drive"].copy()
+    drive[7] = np.nan
+    with pytest.raises(TranscriptionError, match="input 'drive' is missing in 1 samples .* first at 0.14 s"):
+        si.Identification(pendulum(), replace(recording, channels=dict(recording.channels) | {"drive": drive})).solve()
+    with pytest.raises(TranscriptionError, match="no output 'angel'"):
+        si.Identification(pendulum(), recording, loss={"angel": 1}).solve()
