@@ -18,6 +18,7 @@ TRUTH = json.loads((DATA / "truth.json").read_text())["parameters"]
 IDENTIFY = ["identify", str(DATA / "recording.csv"), "--body", str(DATA / "body.json")]
 
 
+@pytest.mark.elsewhere
 def test_identify_writes_summary_json_and_report(tmp_path, capsys):
     out, report = tmp_path / "a.json", tmp_path / "a.html"
     code = main([*IDENTIFY, "--window", "0", "60", "--held-out", "60", "100", "--json", str(out), "--report", str(report)])
@@ -65,6 +66,7 @@ def test_a_solve_that_gives_up_is_told_and_still_written(tmp_path, capsys):
     assert all(row["std_error"] is None for row in content["parameters"].values())
 
 
+@pytest.mark.elsewhere
 def test_simulate_makes_the_recording_that_ships(tmp_path, capsys):
     new = tmp_path / "new.csv"
     code = main(["simulate", str(new), "--body", str(DATA / "body.json"), "--parameters", str(DATA / "truth.json"),
@@ -132,6 +134,7 @@ def test_interrupting_ends_without_a_traceback(monkeypatch, capsys):
     assert capsys.readouterr().err == "symid: interrupted\n"
 
 
+@pytest.mark.elsewhere
 def test_as_a_program_a_warning_is_one_line_and_the_exit_code_reaches_the_shell(tmp_path):
     lines = (DATA / "recording.csv").read_text().splitlines()[:502]
     cells = lines[300].split(",")
@@ -141,7 +144,7 @@ def test_as_a_program_a_warning_is_one_line_and_the_exit_code_reaches_the_shell(
                "--window", "0", "2"]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == SOLVED
-    (warning,) = [line for line in done.stderr.splitlines() if "warning" in line]
-    assert warning.startswith("symid: warning: ") and "row 300" in warning
+    (warning,) = [line for line in done.stderr.splitlines() if "row 300" in line]    # no cache and no compiler warn, too
+    assert warning.startswith("symid: warning: ")
     done = subprocess.run([*command[:-2], "9", "99"], capture_output=True, text=True)
     assert done.returncode == BAD_INPUT and "Traceback" not in done.stderr

@@ -260,6 +260,7 @@ def test_command_writes_cases_that_follow_those_that_are_there(tmp_path, capsys,
     assert csv_text(offset).splitlines()[0] == "time_s,link1_angle_rad,link2_angle_rad"
 
 
+@pytest.mark.elsewhere
 @pytest.mark.parametrize("name", ["s02", "r01"])
 def test_the_shipped_cases_are_made_anew_to_the_last_written_digit(tmp_path, name):
     shipped = Path(__file__).parents[1] / "data" / "concealed"

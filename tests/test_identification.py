@@ -47,6 +47,7 @@ def test_article_pd_from_random_starts(shared):
     assert optimality(solution).ok
 
 
+@pytest.mark.elsewhere
 def test_article_fpd_from_the_default_start(shared):
     solution = standing(shared, si.mechanics.FullStatePD()).solve()
     assert solution.fit["rms_deg"]["all"] == pytest.approx(0.9553, abs=3e-4)
@@ -64,6 +65,7 @@ def standing(shared, law) -> si.Identification:
     return si.Identification(model, recording, window=(160, 260))
 
 
+@pytest.mark.elsewhere
 def test_backends_give_the_same_solution():
     c, numpy = (si.Identification(pendulum(), pendulum_recording(noise=0.01), backend=b).solve() for b in ("c", "numpy"))
     assert c.values["damping"] == pytest.approx(numpy.values["damping"], rel=1e-9)

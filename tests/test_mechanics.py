@@ -141,6 +141,7 @@ def test_a_platform_that_starts_forward_leaves_the_body_behind():
     assert rates[2] < 0
 
 
+@pytest.mark.elsewhere
 @needs_shared
 def test_published_eigenvalues_follow_from_published_gains():
     body = DoubleLinkPendulum.from_json(SHARED / "recordings/standing_subject05/body.json")

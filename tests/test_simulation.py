@@ -86,6 +86,7 @@ def test_order_of_accuracy(method, order, lag):
     assert np.log2(errors[0] / errors[1]) > order - (0.2 if lag is None else 0.8)
 
 
+@pytest.mark.elsewhere
 @pytest.mark.parametrize("method", ["rk4", "euler"])
 @pytest.mark.parametrize("lag", [None, 0.13, 0.0])
 @pytest.mark.parametrize("hold", ["smooth", "zero"])
@@ -127,6 +128,7 @@ def test_delayed_input_is_the_shifted_input(Simulator):
         np.testing.assert_allclose(x, exact, atol=1e-4)
 
 
+@pytest.mark.elsewhere
 def test_pendulum_keeps_its_energy(Simulator):
     t = np.linspace(0, 10, 1001)
     energy = Simulator(double_pendulum()).simulate({"g": 9.81}, [1.0, -0.5, 0.3, 0.0], t, substeps=8).y[:, 0]

@@ -54,6 +54,7 @@ def solved(monkeypatch) -> list[str]:
 # ---- the same numbers everywhere -------------------------------------------------------
 
 
+@pytest.mark.elsewhere
 def test_solves_here_give_the_numbers_of_the_pool(undisturbed):
     here = study()
     assert numbers(here.run_here(on_finished=None)) == undisturbed
@@ -523,6 +524,7 @@ def test_bad_calls_are_refused():
         problem(window=(50, 60)).solve()
 
 
+@pytest.mark.elsewhere
 def test_the_command_line_resumes(shared, tmp_path, capsys, solved):
     from argparse import ArgumentParser
 

@@ -21,6 +21,7 @@ def model():
     return BODY.with_feedback(FullStatePD())
 
 
+@pytest.mark.elsewhere
 def test_shipped_files_are_made_again_to_the_last_written_digit(tmp_path):
     write_standing(tmp_path)
     assert_same_table(tmp_path / "recording.csv", SHIPPED / "recording.csv")
