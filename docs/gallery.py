@@ -1,0 +1,19 @@
+"""The gallery page: every script of notebooks/gallery, its docstring as text and its code below."""
+
+import ast
+from pathlib import Path
+
+SCRIPTS = Path(__file__).parents[1] / "notebooks" / "gallery"
+
+
+def on_page_markdown(markdown: str, **_) -> str:
+    """Called by MkDocs for each page: `GALLERY` on a line of its own becomes the scripts."""
+    return markdown.replace("\nGALLERY\n", "\n".join(map(_section, sorted(SCRIPTS.glob("*.py")))))
+
+
+def _section(path: Path) -> str:
+    source = path.read_text(encoding="utf-8")
+    text = ast.get_docstring(ast.parse(source))
+    title, _, rest = text.partition("\n")
+    code = source.split('"""', 2)[2].strip()
+    return f"\n## {path.stem.replace('_', ' ').capitalize()}\n\n{title}\n{rest}\n\n```python\n{code}\n```\n"
