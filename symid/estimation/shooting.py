@@ -24,10 +24,10 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarra
 
     The search begins from each of the `candidates` (free parameters,) SI, and the best end is kept.
     Process noise enters only the final simulation of each episode. None where parameters belong to
-    single recordings or the model has controls or algebraic variables, where from every candidate the first simulation errs by more than the
+    single recordings or the model has no states, or controls or algebraic variables, where from every candidate the first simulation errs by more than the
     recorded outputs vary, or where an episode cannot be simulated.
     """
-    if len(t.layout.parameter_names) != len(t.model.parameters) or t.layout.beside_names or t.layout.own_names:
+    if len(t.layout.parameter_names) != len(t.model.parameters) or not t.layout.n or t.layout.beside_names or t.layout.own_names:
         return None
     shooting = _Shooting(t)
     ends = [shooting.fit(z) for z in map(shooting.unknowns, candidates) if shooting.follows(z)]

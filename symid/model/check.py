@@ -118,7 +118,7 @@ def _missing_equations(model: Model, residual) -> Iterator[str]:
         if a.symbol not in used:
             yield f"algebraic '{a.name}' occurs in no equation, so nothing determines it"
     states, algebraics, equations = len(model.states), len(model.algebraics), len(model.equations)
-    if states + algebraics == 0:
+    if states + algebraics == 0 and not model.outputs:
         yield "there is no State"
     if states + algebraics != equations:
         yield (f"there are {states} states" + (f" and {algebraics} algebraic variables" if algebraics else "")
