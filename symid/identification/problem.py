@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from symid.errors import TranscriptionError
+from symid.identification.arguments import as_recordings, refuse_wrong_types
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution, StartRow
@@ -75,8 +76,8 @@ class Identification:
     ridge_about: str = "zero"
 
     def __post_init__(self):
-        many = self.recordings if isinstance(self.recordings, Sequence) else (self.recordings,)
-        object.__setattr__(self, "recordings", tuple(many))
+        object.__setattr__(self, "recordings", as_recordings(self.recordings))
+        refuse_wrong_types(self)
         if int(self.refine) != self.refine or self.refine < 1:
             raise TranscriptionError(f"refine={self.refine}: give a whole number of collocation intervals in a sample interval")
         if self.ridge_about not in ("zero", "start"):

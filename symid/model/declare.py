@@ -32,6 +32,7 @@ class Component:
         it is (``"ankle"``). Missing-physics laws find where they can act by these two.
     latex : how the symbol prints; made from the name where empty.
     name : set by attaching; never written by the user.
+    unit : as text, which every quantity must have (``"1"`` for a number without one).
     index : where a part repeats itself, the indices of its copies: ``m.x = State(unit="m", index=range(4))``
         declares ``x_0`` to ``x_3``, and ``m.x[2]`` is one of them. An Equation, Constraint, Expression or Output
         repeats itself where it is given a dictionary of index -> expression, or a SymPy matrix.
@@ -68,7 +69,7 @@ class Component:
 class State(AlongTime, Component):
     """A quantity with a time derivative, unknown at every node. Bounds in its unit."""
 
-    unit: str
+    unit: str = None
     bounds: Bounds = (-inf, inf)
 
     @property
@@ -85,7 +86,7 @@ class Algebraic(AlongTime, Component):
     >>> m.aerodynamics = Equation(m.lift - m.c * m.speed**2)
     """
 
-    unit: str
+    unit: str = None
     bounds: Bounds = (-inf, inf)
 
 
@@ -103,7 +104,7 @@ class Control(AlongTime, Component):
         objective: it makes the control an estimated disturbance that is as smooth as the data allow.
     """
 
-    unit: str
+    unit: str = None
     bounds: Bounds = (-inf, inf)
     hold: str = "linear"
     smooth: float = 0.0
@@ -122,7 +123,7 @@ class Input(AlongTime, Component):
         the scheme is of second order on the samples themselves, else a cubic spline.
     """
 
-    unit: str
+    unit: str = None
     channel: str = ""
     hold: str = "smooth"
 
@@ -131,7 +132,7 @@ class Input(AlongTime, Component):
 class Parameter(Quantity, Component):
     """A constant of the system that is to be identified. `guess` is used as a start if given."""
 
-    unit: str
+    unit: str = None
     bounds: Bounds = (-inf, inf)
     guess: float | None = None
 
@@ -141,14 +142,14 @@ class Constant(Quantity, Component):
     """A known number, in its unit. Changing the value never needs new code."""
 
     value: float
-    unit: str = field(kw_only=True)
+    unit: str = field(default=None, kw_only=True)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Noise(Quantity, Component):
     """Process noise: drawn for an episode, then known. Zero in a deterministic problem."""
 
-    unit: str
+    unit: str = None
 
 
 @dataclass(frozen=True)
@@ -156,7 +157,7 @@ class Expression(Quantity, Component):
     """A named intermediate quantity, such as a joint torque, that a Term can redefine."""
 
     expr: sm.Expr
-    unit: str = field(kw_only=True)
+    unit: str = field(default=None, kw_only=True)
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ class Model:
     def __setattr__(self, name: str, part: Component) -> None:
         if not isinstance(part, Component):
             raise ModelError(
-                f"model '{self.name}': cannot attach {name} = {part!r}; attach a State, Algebraic, Control, "
+                f"model '{self.name}': cannot attach {name} = {part!r}{self._hint(part)}; attach a State, Algebraic, Control, "
                 "Input, Parameter, Constant, Noise, Expression, Equation, Output, Port, Constraint, Boundary or Objective"
             )
         if name in self.components or name in self.groups:
@@ -72,11 +72,18 @@ class Model:
             setattr(self, f"{name}_{i}", copy)
         self.groups[name] = {i: f"{name}_{i}" for i in copies}
 
+    @staticmethod
+    def _hint(part) -> str:
+        if isinstance(part, sm.core.relational.Relational):
+            return " (a comparison becomes a Constraint(...))"
+        return " (an expression becomes an Equation(...), which is zero, or an Expression(...))" if isinstance(part, sm.Expr) else ""
+
     def _completed(self, part: Component, name: str) -> Component:
         """The part with its name, its expression as SymPy, and defaults taken from its state."""
         changes: dict = {"name": name}
+        self._refuse_wrong_types(part, name)
         if isinstance(part, (Expression, Equation, Output)):
-            changes["expr"] = sm.sympify(part.expr)
+            changes["expr"] = self._expression(part.expr, name)
         if isinstance(part, Output):
             state = self.components.get(str(changes["expr"]))
             changes["unit"] = part.unit or getattr(state, "unit", "")
@@ -86,11 +93,35 @@ class Model:
         if isinstance(part, Constraint):
             part.row  # noqa: B018 - a condition that is none is refused where it is written
         if isinstance(part, Objective):
-            changes |= {"running": sm.sympify(part.running), "terminal": sm.sympify(part.terminal)}
+            changes |= {k: self._expression(getattr(part, k), name) for k in ("running", "terminal")}
         if isinstance(part, Port):
             changes |= {"position": sm.sympify(part.position), "rate": sm.sympify(part.rate)}
             changes["unit"] = part.unit or self._unit_of_force(part, changes["position"])
         return replace(part, **changes)
+
+    def _refuse_wrong_types(self, part: Component, name: str) -> None:
+        kind = type(part).__name__
+        unit = getattr(part, "unit", "1")
+        if not isinstance(unit, str):
+            raise ModelError(f"model '{self.name}': the {kind} '{name}' has no unit: write {kind}(..., unit=\"m\"), or "
+                             "unit=\"1\" for a number without one")
+        if isinstance(part, Constant) and not isinstance(part.value, (int, float)):
+            try:
+                float(part.value)
+            except (TypeError, ValueError):
+                raise ModelError(f"model '{self.name}': the value of the Constant '{name}' is {part.value!r}; give a "
+                                 f"number [{part.unit}]") from None
+
+    def _expression(self, expr, name: str) -> sm.Expr:
+        """`expr` as SymPy; ModelError where it is none."""
+        try:
+            found = sm.sympify(expr, strict=not isinstance(expr, str))
+        except (sm.SympifyError, TypeError, AttributeError):
+            found = None
+        if isinstance(expr, str) or not isinstance(found, sm.Expr):
+            raise ModelError(f"model '{self.name}': '{name}' is made of {expr!r}, which is no expression: write it with the "
+                             "model's parts, for instance m.x.dot - m.v (a comparison belongs into a Constraint)")
+        return found
 
     def _unit_of_force(self, port: Port, position: sm.Expr) -> str:
         """Unit of the first equation that a port's force enters; "" where that cannot be told."""

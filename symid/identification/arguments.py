@@ -1,0 +1,68 @@
+"""Arguments of a wrong type, refused in words before anything is built."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from symid.errors import TranscriptionError
+from symid.model import Model
+from symid.recording import Recording
+from symid.transcription import SCHEMES, Episodes, Scheme
+
+if TYPE_CHECKING:
+    from symid.identification.problem import Identification
+
+
+def as_recordings(recordings) -> tuple[Recording, ...]:
+    """One recording or several as a tuple; TranscriptionError for what is none."""
+    many = tuple(recordings) if isinstance(recordings, Sequence) and not isinstance(recordings, str) else (recordings,)
+    for r in many:
+        if not isinstance(r, Recording):
+            raise TranscriptionError(f"a Recording is needed, not {_shown(r)}: {_way(r)}")
+    if not many:
+        raise TranscriptionError("no recording was given: an Identification needs at least one")
+    return many
+
+
+def _way(thing) -> str:
+    if isinstance(thing, str) or hasattr(thing, "__fspath__"):
+        return "read the file first, symid.read_recording(path)"
+    if hasattr(thing, "columns"):
+        return ("write the table to a CSV with units in its column names and read that, or give "
+                "Recording(name, time, channels, units)")
+    return "make one with symid.read_recording(path) or Recording(name, time, channels, units)"
+
+
+def refuse_wrong_types(problem: Identification) -> None:
+    """TranscriptionError at the first argument that is not what it should be."""
+    if not isinstance(problem.model, Model):
+        raise TranscriptionError(f"an Identification begins with a Model, not {_shown(problem.model)}")
+    refuse_scheme(problem.scheme)
+    if not isinstance(problem.episodes, Episodes):
+        raise TranscriptionError(f"episodes={_shown(problem.episodes)}: give Episodes(count, amplitude), for instance Episodes(3, 0.25)")
+    if isinstance(problem.per_recording, str) or not isinstance(problem.per_recording, Sequence):
+        raise TranscriptionError(f"per_recording={_shown(problem.per_recording)}: give a list of names of parameters")
+    for name in ("weights", "loss"):
+        table = getattr(problem, name)
+        if table is not None and not isinstance(table, Mapping):
+            raise TranscriptionError(f"{name}={_shown(table)}: give a dictionary of output name -> number")
+    if problem.window is not None and not _is_window(problem.window):
+        raise TranscriptionError(f"window={_shown(problem.window)}: give (t0, t1) [s], or one such pair for each recording")
+
+
+def refuse_scheme(scheme) -> None:
+    if not isinstance(scheme, Scheme):
+        known = ", ".join(f"{make.__name__}()" for make in SCHEMES.values())
+        raise TranscriptionError(f"scheme={_shown(scheme)}: give one of {known}")
+
+
+def _is_window(window) -> bool:
+    if not isinstance(window, Sequence) or isinstance(window, str) or not len(window):
+        return False
+    pairs = [window] if isinstance(window[0], (int, float)) else window
+    return all(p is None or (isinstance(p, Sequence) and len(p) == 2 and all(isinstance(t, (int, float)) for t in p)) for p in pairs)
+
+
+def _shown(thing) -> str:
+    return repr(thing) if isinstance(thing, (str, int, float, bool, type(None))) else f"a {type(thing).__name__}"
