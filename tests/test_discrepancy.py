@@ -12,10 +12,10 @@ from conftest import pendulum, pendulum_recording
 import symid as si
 from symid.cases import read_case
 from symid.discrepancy import Suspect, diagnose, established_suspects
-from symid.discrepancy.diagnose import _reexamined
 from symid.discrepancy.locate.remainder import remainder
-from symid.discrepancy.model.hypothesis import Hypothesis, fit_with
-from symid.discrepancy.name.search import explore
+from symid.discrepancy.model.hypothesis import hypothesis
+from symid.discrepancy.name.explore import explore
+from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.certain import sure
 from symid.discrepancy.say.words import quantity
 from symid.errors import DiagnosisError
@@ -155,10 +155,10 @@ def test_effects_that_could_as_well_be_nothing_are_left_out():
     data = data_of(recorded(4, friction.term, {"torque_Nm": 0.35}))
     base = fit_model(cart(), data)
     start = base.values | friction.named({"torque_Nm": 0.3}) | gain.named({"gain": 1.0})
-    both = fit_with([gain, friction], base, base, data, start)
-    assert sure(both, base, data).suspects == (friction,)
-    alone = Hypothesis((gain,), fit_with([gain], base, base, data, start).fit, 0.0)
-    assert sure(alone, base, data) is alone
+    both = hypothesis([gain, friction], base, base, data, start)
+    assert sure(both).suspects == (friction,)
+    alone = hypothesis([gain], base, base, data, start)
+    assert sure(alone) is alone
 
 
 def test_a_suspect_that_no_longer_earns_its_place_is_dropped():
@@ -166,8 +166,9 @@ def test_a_suspect_that_no_longer_earns_its_place_is_dropped():
     data = data_of(recorded(4, friction.term, {"torque_Nm": 0.35}))
     base = fit_model(cart(), data)
     start = base.values | friction.named({"torque_Nm": 0.3}) | cubic.named({"k3_Nm_rad3": 0.0}) | gain.named({"gain": 1.0})
-    three = fit_with([friction, cubic, gain], base, base, data, start)
-    assert _reexamined(three, [], base, data).suspects == (friction, gain)
+    three = hypothesis([friction, cubic, gain], base, base, data, start)
+    search = Search(base, data, [friction, cubic, gain], lambda: None)
+    assert search._reexamined(three, []).suspects == (friction, gain)
 
 
 @pytest.mark.slow

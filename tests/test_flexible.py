@@ -10,7 +10,8 @@ from test_discrepancy import cart, data_of, few, finding, recorded
 from symid.conceal import conceal, draw_case, rig_facts, setup_from_facts
 from symid.discrepancy import established_suspects
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
-from symid.discrepancy.name.search import NEAR, explore
+from symid.discrepancy.name.explore import explore
+from symid.discrepancy.policy import POLICY
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data, segments_between
 from symid.estimation.fit import Fitter
@@ -75,7 +76,7 @@ def test_a_distorted_sensor_is_unexplained_and_placed():
 def test_suspects_near_the_best_are_converged():
     data = data_of(recorded(4, LIBRARY["coulomb_friction"].at("cart"), {"torque_Nm": 0.35}))
     found = explore(fit_model(cart(), data), data, few())
-    near = [c for c in found if c.score > found[0].score - NEAR]
+    near = [c for c in found if c.score > found[0].score - POLICY.near]
     assert near and all(c.fit.converged for c in near)
 
 

@@ -5,7 +5,8 @@ from test_discrepancy import cart, data_of, finding, recorded
 
 from symid.discrepancy.locate.modulation import modulated
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.locate.remainder import REMAINDER, remainder
+from symid.discrepancy.locate.remainder import remainder
+from symid.discrepancy.policy import POLICY
 from symid.estimation.cold_start import fit_model
 from symid.model import Law, LawParameter
 
@@ -27,7 +28,7 @@ def test_a_spring_that_comes_and_goes_is_noticed_and_chance_is_not():
         data = data_of(breathing(seed, 3.0))
         found = remainder(fit_model(cart(), data), data)[0]
         assert (found.place, found.what) == ("cart", "a stiffness or damping that comes and goes")
-        assert found.minus_log10_p > REMAINDER
+        assert found.minus_log10_p > POLICY.remainder
         data = data_of(breathing(seed, 0.0))
         chance = [t for t in remainder(fit_model(cart(), data), data) if "comes and goes" in t.what]
         assert len(chance) == 1 and chance[0].minus_log10_p < 2

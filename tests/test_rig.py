@@ -217,7 +217,7 @@ def losing():
 def test_several_losses_are_told_apart_and_no_clock_is_needed():
     recording, model = losing(), rig_model(SINGLE)
     names = ("viscous_friction", "coulomb_friction", "quadratic_drag", "periodic_torque", "sensor_offset")
-    finding = diagnose(model, recording, fit_window="fit", held_out="held_out", driven=False, mechanism=True, threads=1,
+    finding = diagnose(model, recording, fit_window="fit", held_out="held_out", driven=False, threads=1,
                        suspects=[s for s in established_suspects(model) if s.term.name in names])
     assert finding.verdict == "missing_physics" and finding.confirmed
     found = {e.name: next(iter(e.parameters.values())) for e in finding.effects}

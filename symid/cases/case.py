@@ -37,7 +37,6 @@ class Case:
     segment_length : seconds of one piece with an initial state of its own; None for one piece.
     driven : whether random forces act on the system besides the recorded input.
     settling : seconds at the start of the fit window that the fit measure leaves out.
-    mechanism : whether several laws may be missing at once, as in any real mechanism.
     """
 
     name: str
@@ -49,7 +48,6 @@ class Case:
     segment_length: float | None
     driven: bool
     settling: float
-    mechanism: bool = False
 
 
 def read_case(directory: str | Path) -> Case:
@@ -80,8 +78,7 @@ def read_case(directory: str | Path) -> Case:
               "held_out_window": held_out, "sensor_noise": facts.get("angle_noise_rms_rad_approx")}
     if facts["system"] == "standing":
         return Case(**common, segment_length=None, driven=True, settling=3.0)
-    return Case(**common, segment_length=facts.get("segment_s") or _pieces(model, recording, fit), driven=False, settling=0.0,
-                mechanism=isinstance(fit, str))
+    return Case(**common, segment_length=facts.get("segment_s") or _pieces(model, recording, fit), driven=False, settling=0.0)
 
 
 def rig_case(recording: str | os.PathLike, parameters: str | os.PathLike | Mapping[str, object], *, friction: Iterable[str] = (),
@@ -103,14 +100,14 @@ def rig_case(recording: str | os.PathLike, parameters: str | os.PathLike | Mappi
     table = with_base_acceleration(read_recording(recording))
     model = rig_model(parameters, table.channels, friction)
     fit, later = parts_of(table, fit_window, held_out, source=str(recording))
-    return Case(table.name, model, table, fit, later, sensor_noise, _pieces(model, table, fit), driven=False, settling=0.0, mechanism=True)
+    return Case(table.name, model, table, fit, later, sensor_noise, _pieces(model, table, fit), driven=False, settling=0.0)
 
 
 def diagnose_case(case: Case, **options) -> Diagnosis:
     """`diagnose` with everything that the case says."""
     return diagnose(case.model, case.recording, fit_window=case.fit_window, held_out=case.held_out_window,
                     sensor_noise=case.sensor_noise, segment_length=case.segment_length, driven=case.driven,
-                    settling=case.settling, mechanism=case.mechanism, **options)
+                    settling=case.settling, **options)
 
 
 def parts_of(recording: Recording, fit: Part | None, held_out: Part | None, source: str = "") -> tuple[Part, Part | None]:

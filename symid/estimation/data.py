@@ -169,10 +169,14 @@ def segments_between(model: Model, time: np.ndarray, channels: Mapping[str, np.n
 
 
 def swing(segment: Segment) -> float:
-    """Seconds of one swing of the output that swings fastest, from how often it crosses its mean."""
-    centred = segment.recorded - segment.recorded.mean(axis=0)
-    crossings = np.max(np.sum(centred[1:] * centred[:-1] < 0, axis=0))
-    return 2 * float(segment.time[-1] - segment.time[0]) / max(int(crossings), 1)
+    """Seconds of one swing of the output that swings fastest, from the times at which it crosses its mean."""
+    centred, time = segment.recorded - segment.recorded.mean(axis=0), segment.time
+    found = []
+    for y in centred.T:
+        k = np.flatnonzero(y[1:] * y[:-1] < 0)
+        at = time[k] + (time[k + 1] - time[k]) * y[k] / (y[k] - y[k + 1])
+        found.append(2 * (at[-1] - at[0]) / (len(at) - 1) if len(at) > 1 else 2 * (time[-1] - time[0]))
+    return float(min(found))
 
 
 def piece_length(segments: tuple[Segment, ...]) -> float:

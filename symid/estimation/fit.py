@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.data import Data
+from symid.estimation.data import Data, swing
 from symid.estimation.growth import growth, growth_normal, runs_away
 from symid.estimation.kalman import kalman_gain, linearised_along
 from symid.estimation.step import damped_step
@@ -25,6 +25,8 @@ TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
 LONGEST_STEP = {True: 0.01, False: 0.005}
 """The integrator takes no longer steps than this [s], with random forces and without: free motion shows dry friction's corners."""
+STEPS_A_SWING = 300
+"""Free motion that is slower than that takes longer steps: so many of Runge and Kutta's a swing err by 1e-9 of it."""
 PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
 REACH = 0.03
@@ -91,7 +93,9 @@ class Fitter:
         self.driven = data.driven and bool(model.noises)
         self.bounded = False
         self.step = data.segments[0].step
-        self.substeps = max(1, int(np.ceil(self.step / (1.01 * LONGEST_STEP[self.driven]))))
+        longest = LONGEST_STEP[self.driven]
+        longest = longest if self.driven else max(longest, min(swing(s) for s in data.segments) / STEPS_A_SWING)
+        self.substeps = max(1, int(np.ceil(self.step / (1.01 * longest))))
 
     # ---- one evaluation --------------------------------------------------------------
     def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs"):

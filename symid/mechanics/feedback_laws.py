@@ -139,7 +139,7 @@ FEEDBACK_LAWS: tuple[Law, ...] = (
          LawParameter("time_constant_s", "s", (0.3, 60.0), None, (0.5, 2.0, 10.0), 2.0)), _torque_feedback,
         "The torque at the {place} feeds itself back by {gain} through a filter of {time_constant_s}", "Peterka 2003"),
     Law("gain_change", "feedback_torque",
-        (LawParameter("factor", "1", (0.0, 5.0), 1.0, (0.7, 1.5), 0.3), LawParameter("time_s", "s", (-inf, inf), None)),
+        (LawParameter("factor", "1", (0.0, 5.0), 1.0, (0.7, 1.5), 0.3), LawParameter("time_s", "s", (-inf, inf), None, clock="moment")),
         _gain_change, "From {time_s} on the feedback at the {place} is {factor} times what it was", "Peterka 2002"),
 )
 

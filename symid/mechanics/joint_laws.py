@@ -59,14 +59,14 @@ JOINT_LAWS: tuple[Law, ...] = (
                "The {place} stiffens with the cube of its angle, {k3_Nm_rad3}", "Duffing 1918"),
     effort_law("periodic_torque", "joint",
                (LawParameter("amplitude_Nm", "N*m", _POSITIVE),
-                LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.2, 0.5, 1.0, 2.0, 4.0)),
-                LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,))),
+                LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.2, 0.5, 1.0, 2.0, 4.0), clock="frequency"),
+                LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,), clock="phase")),
                lambda m, port, p: p.amplitude_Nm * sm.sin(2 * sm.pi * p.frequency_Hz * m.time + p.phase_rad),
                "A torque of {amplitude_Nm} shakes the {place} at {frequency_Hz}", "Newton 1687"),
     effort_law("external_push", "joint",
                (LawParameter("peak_Nm", "N*m", _BOTH_SIGNS),
-                LawParameter("start_s", "s", _BOTH_SIGNS, None),
-                LawParameter("duration_s", "s", (0.02, 5.0), None, (0.2, 0.5, 1.0), 0.3)),
+                LawParameter("start_s", "s", _BOTH_SIGNS, None, clock="start"),
+                LawParameter("duration_s", "s", (0.02, 5.0), None, (0.2, 0.5, 1.0), 0.3, clock="duration")),
                _push,
                "Something pushed the {place} with up to {peak_Nm} at {start_s}, for {duration_s}", "Newton 1687"),
 )
@@ -75,6 +75,15 @@ LINK_LAWS: tuple[Law, ...] = (
     effort_law("quadratic_drag", "link", (LawParameter("coefficient_Nm_s2_rad2", "N*m*s^2/rad^2", _POSITIVE),),
                lambda m, port, p: -p.coefficient_Nm_s2_rad2 * port.rate * sm.Abs(port.rate),
                "Drag holds the {place} back with the square of its speed, {coefficient_Nm_s2_rad2}", "Newton 1687"),
+)
+
+FURTHER_LINK_LAWS: tuple[Law, ...] = (
+    effort_law("link_drag", "link", (LawParameter("coefficient_Nms_rad", "N*m*s/rad", _POSITIVE),),
+               lambda m, port, p: -p.coefficient_Nms_rad * port.rate,
+               "A cable or slow air holds the {place} back in proportion to its speed, {coefficient_Nms_rad}", "Stokes 1851"),
+    effort_law("cable_stiffness", "link", (LawParameter("k_Nm_rad", "N*m/rad", _BOTH_SIGNS),),
+               lambda m, port, p: -p.k_Nm_rad * port.position,
+               "A cable pulls the {place} with a stiffness of {k_Nm_rad}", "Hooke 1678"),
 )
 
 FURTHER_JOINT_LAWS: tuple[Law, ...] = (

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from symid.mechanics.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
-from symid.mechanics.joint_laws import FURTHER_JOINT_LAWS, JOINT_LAWS, LINK_LAWS
-from symid.mechanics.world_laws import FURTHER_WORLD_LAWS, WORLD_LAWS
+from symid.mechanics.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
+from symid.mechanics.world_laws import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
 from symid.model import Law, Model, Term
 
 CANONICAL: tuple[str, ...] = tuple(law.name for law in (*FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS))
 """Names of the laws that answer files know."""
 
 LIBRARY: dict[str, Law] = {law.name: law for law in (
-    *FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS, *FURTHER_FEEDBACK_LAWS, *FURTHER_JOINT_LAWS,
-    *FURTHER_WORLD_LAWS)}
+    *FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS, *GEOMETRY_LAWS, *FURTHER_FEEDBACK_LAWS, *FURTHER_JOINT_LAWS,
+    *FURTHER_LINK_LAWS, *FURTHER_WORLD_LAWS)}
 """Every law by name: the canonical ones first, then what else the field knows."""
 
 

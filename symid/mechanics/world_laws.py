@@ -12,9 +12,9 @@ from symid.errors import ModelError
 from symid.mechanics.laws import give_unit, late_symbols, parameter_name, time_derivative
 from symid.model import Equation, Expression, Law, LawParameter, Model, Port, State
 
-_OFFSET = LawParameter("offset_rad", "rad", (-inf, inf), typical=0.01)
-_PERIODIC = (LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.5, 1.0, 2.0, 4.0, 8.0)),
-             LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,)))
+_OFFSET = LawParameter("offset_rad", "rad", (-inf, inf), typical=0.01, plausible=0.01)
+_PERIODIC = (LawParameter("frequency_Hz", "Hz", (0.02, 20.0), None, (0.5, 1.0, 2.0, 4.0, 8.0), clock="frequency"),
+             LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,), clock="phase"))
 UNNOTICED = 0.05
 """Nobody overlooks that a base moves up and down by more than this [m]; a stiffness that changes would look like it."""
 
@@ -55,6 +55,16 @@ def _stated(model: Model, role: str, place: str) -> sm.Symbol:
 def _inertia(model: Model, place: str, p: SimpleNamespace) -> None:
     inertia = _stated(model, "inertia", place)
     model.substitute({inertia: p.factor * inertia})
+
+
+def _length(model: Model, place: str, p: SimpleNamespace) -> None:
+    length = _stated(model, "length", place)
+    model.substitute({length: p.factor * length})
+
+
+def _center_of_mass(model: Model, place: str, p: SimpleNamespace) -> None:
+    com = _stated(model, "center_of_mass", place)
+    model.substitute({com: p.factor * com})
 
 
 def _sensor_gain(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -138,6 +148,15 @@ def _conjugate_rates(model: Model) -> dict[str, sm.Expr]:
     return dict(zip(balances, rates, strict=True))
 
 
+GEOMETRY_LAWS: tuple[Law, ...] = (
+    Law("link_length_error", "length", (LawParameter("factor", "1", (0.5, 2.0), 1.0, typical=0.01, plausible=0.01),),
+        _length, "The length of the {place} is {factor} times the stated one", "Featherstone 2008"),
+    Law("center_of_mass_error", "center_of_mass",
+        (LawParameter("factor", "1", (0.5, 2.0), 1.0, typical=0.01, plausible=0.02),),
+        _center_of_mass, "The centre of mass of the {place} is {factor} times as far from its joint as stated", "Featherstone 2008"),
+)
+"""What may be stated wrongly of the parts, besides their inertia."""
+
 FURTHER_WORLD_LAWS: tuple[Law, ...] = (
     Law("elastic_mount", ("base_acceleration",),
         (LawParameter("inverse_mass_1_kg", "1/kg", (0.0, 100.0), typical=0.1),  # of all that the springs carry
@@ -145,7 +164,7 @@ FURTHER_WORLD_LAWS: tuple[Law, ...] = (
          LawParameter("damping_ratio", "1", (0.0, 2.0), None, (0.05,), 0.05)),
         _elastic_mount, "The {place} gives way like a mass on springs of {frequency_Hz}", "Den Hartog 1934"),
     Law("vertical_base_motion", "gravity",
-        (LawParameter("amplitude_m", "m", (0.0, UNNOTICED), typical=1e-3), *_PERIODIC), _vertical_motion,
+        (LawParameter("amplitude_m", "m", (0.0, UNNOTICED), typical=1e-3, plausible=1e-3), *_PERIODIC), _vertical_motion,
         "The base moves up and down by {amplitude_m} at {frequency_Hz}", "Stephenson 1908", "base"),
 )
 
@@ -159,20 +178,20 @@ WORLD_LAWS: tuple[Law, ...] = (
         (LawParameter("mass_kg", "kg", (0.0, inf)),
          LawParameter("height_m", "m", (0.0, 2.0), None, (0.1, 0.4, 0.7), 0.3)),
         _extra_mass, "The {place} carries a further {mass_kg} at {height_m} from its joint", "Steiner 1840"),
-    Law("link_inertia_error", "inertia", (LawParameter("factor", "1", (0.2, 5.0), 1.0, (0.8, 1.25), 0.1),), _inertia,
+    Law("link_inertia_error", "inertia", (LawParameter("factor", "1", (0.2, 5.0), 1.0, (0.8, 1.25), 0.1, plausible=0.1),), _inertia,
         "The inertia of the {place} is {factor} times the stated one", "Euler 1765"),
-    Law("sensor_gain", "sensor", (LawParameter("gain", "1", (0.2, 5.0), 1.0, (0.8, 1.25), 0.1),), _sensor_gain,
+    Law("sensor_gain", "sensor", (LawParameter("gain", "1", (0.2, 5.0), 1.0, (0.8, 1.25), 0.1, plausible=0.002),), _sensor_gain,
         "The {place} shows {gain} times the truth", "Ljung 1999"),
     Law("sensor_offset", "sensor", (_OFFSET,), _sensor_offset,
         "The {place} is off by {offset_rad}", "Ljung 1999"),
-    Law("sensor_delay", "sensor", (LawParameter("delay_s", "s", (0.0, 0.2), 0.0, (0.005, 0.02, 0.05), 0.01),),
+    Law("sensor_delay", "sensor", (LawParameter("delay_s", "s", (0.0, 0.2), 0.0, (0.005, 0.02, 0.05), 0.01, plausible=0.005),),
         _sensor_delay, "The {place} shows what was {delay_s} before", "Ljung 1999"),
     Law("gravity_tilt", "gravity",
-        (LawParameter("g_scale", "1", (0.5, 1.5), 1.0, typical=0.01),
-         LawParameter("bias_rad", "rad", (-0.5, 0.5), typical=0.01)),
+        (LawParameter("g_scale", "1", (0.5, 1.5), 1.0, typical=0.01, plausible=0.01),
+         LawParameter("bias_rad", "rad", (-0.5, 0.5), typical=0.01, plausible=0.02)),
         _tilt, "Gravity is {g_scale} times the stated one and the vertical is turned by {bias_rad}",
         "Newton 1687", "global"),
     Law("base_motion", "base_acceleration",
-        (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3), *_PERIODIC), _base_motion,
+        (LawParameter("amplitude_m", "m", (0.0, inf), typical=1e-3, plausible=1e-3), *_PERIODIC), _base_motion,
         "The base moves back and forth by {amplitude_m} at {frequency_Hz}", "d'Alembert 1743"),
 )

@@ -24,6 +24,10 @@ class LawParameter:
     null : value at which the law has no effect; None where no single value switches it off.
     starts : finite values from which a refit begins, for laws that a slope at zero cannot see.
     typical : a size that would be ordinary in this field, used for scaling.
+    plausible : departure from `null` that surprises nobody, such as 0.002 for the gain of an encoder; a
+        diagnosis believes in larger ones less (a Cauchy prior of this width). 0 where any size is as likely.
+    clock : how the parameter follows a clock instead of the state: "frequency", "phase", "start", "duration"
+        or "moment"; "" for all others.
     """
 
     key: str
@@ -32,6 +36,8 @@ class LawParameter:
     null: float | None = 0.0
     starts: tuple[float, ...] = ()
     typical: float = 1.0
+    plausible: float = 0.0
+    clock: str = ""
 
 
 @dataclass(frozen=True)

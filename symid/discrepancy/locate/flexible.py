@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from symid.discrepancy.model.hypothesis import Candidate, extended, penalty
+from symid.discrepancy.model.hypothesis import Hypothesis, extended
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
 from symid.estimation.data import Data
@@ -58,7 +58,7 @@ def along(path: np.ndarray, expr, model: Model) -> np.ndarray:
     return sum(float(expr.coeff(s.symbol)) * path[:, i] for i, s in enumerate(model.states.values()))
 
 
-def flexible_fits(base: Fit, data: Data, terms: Sequence[Term]) -> list[Candidate]:
+def flexible_fits(base: Fit, data: Data, terms: Sequence[Term]) -> list[Hypothesis]:
     """Each of these terms added to `base` and refitted, best score first."""
     found = []
     for term in terms:
@@ -69,6 +69,5 @@ def flexible_fits(base: Fit, data: Data, terms: Sequence[Term]) -> list[Candidat
             fit = fitter.fit(base.values | off, extended(base.initial, fitter.sim), base.process, MOST_ITERATIONS, errors=False)
         except SymidError:
             continue
-        log_ratio = fit.loglik2 - base.loglik2
-        found.append(Candidate(suspect, fit, log_ratio, log_ratio - penalty([suspect], data, base, fit), 0.0))
-    return sorted(found, key=lambda c: -c.score)
+        found.append(Hypothesis((suspect,), fit, base, data))
+    return sorted(found, key=lambda h: -h.score)

@@ -18,8 +18,6 @@ from symid.estimation.fit import Fit
 from symid.model import Term
 from symid.simulation import Simulator, simulator
 
-REMAINDER = 4.5
-"""-log10 of the probability by chance from which a remainder counts as systematic."""
 ROUNDINGS = 12
 """So often the rounding of encoders is simulated."""
 WHITENING = 0.6

@@ -1,64 +1,142 @@
-"""Suspects added to a model and refitted with all of its unknowns: alone, or several together."""
+"""Suspects added to a model and refitted with all of its unknowns, and how much they explain beyond chance."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from math import log
 
 import numpy as np
 
 from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.data import Data
+from symid.estimation.data import Data, swing
 from symid.estimation.fit import Fit, Fitter
-from symid.simulation import Simulator, simulator
-
-MOST_EFFECTS = {True: 3, False: 6}
-"""So many effects are looked for, with random forces and without. Three beside random forces are more likely one of no list."""
+from symid.estimation.independence import independent_share
+from symid.simulation import Simulator
 
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
-    """Suspects that were added together, and their fit."""
+    """Suspects that were added together to a fitted model.
+
+    Attributes
+    ----------
+    suspects : what was added to the model of `base`; nothing for the model as given.
+    fit, base : with them and without. data : what both were fitted to.
+    forecast : `log_ratio` as it was forecast before the fit.
+    """
 
     suspects: tuple[Suspect, ...]
     fit: Fit
-    score: float
+    base: Fit
+    data: Data
+    forecast: float = 0.0
+
+    @property
+    def suspect(self) -> Suspect:
+        """The one that was added last."""
+        return self.suspects[-1]
 
     @property
     def established(self) -> bool:
         return all(s.established for s in self.suspects)
 
+    @property
+    def log_ratio(self) -> float:
+        """Twice the log-likelihood ratio to `base`, as if what is left were white."""
+        return self.fit.loglik2 - self.base.loglik2
 
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """One suspect added to a model and refitted with all of the model's own unknowns.
+    @cached_property
+    def share(self) -> float:
+        """Part of the samples that what is left lets count as independent."""
+        return min(1.0, independent_share(self.fit.innovations) / self.data.weight)
 
-    Attributes
-    ----------
-    log_ratio : growth of twice the log-likelihood over the model without the suspect.
-    score : log_ratio less the penalty of its parameters (BIC; Schwarz 1978).
-    """
+    @property
+    def score(self) -> float:
+        """`log_ratio` of independent samples less the BIC penalty: more than chance explains, prior belief apart."""
+        return self.evidence(self.share)
 
-    suspect: Suspect
-    fit: Fit
-    log_ratio: float
-    score: float
-    forecast: float
+    def evidence(self, share: float) -> float:
+        """The same where another hypothesis says which part of the samples counts."""
+        return share * self.log_ratio - penalty(self.suspects, self.data, self.base, self.fit, share)
+
+    def belief(self) -> float:
+        """What is to be subtracted from the evidence because of what the suspects are, and of their sizes."""
+        return self.doubt() + sum(POLICY.odds[s.kind] + _surprise(s, self.fit) for s in self.suspects)
+
+    def doubt(self) -> float:
+        """The part of `belief` that decides whether a suspect is believed at all, however it is called."""
+        return sum(POLICY.doubt * (not s.established) + POLICY.harmonic * self._is_harmonic(s) for s in self.suspects)
+
+    def _is_harmonic(self, suspect: Suspect) -> bool:
+        """Whether a clock strikes where a motion that nothing drives has its own harmonics."""
+        key = suspect.clock("frequency")
+        if key is None or self.fit.kalman_gain is not None or any(np.ptp(u) > 0 for s in self.data.segments for u in s.inputs.values()):
+            return False
+        t0, t1 = self.data.span
+        ratio = self.fit.values[suspect.term.parameter_name(key)] * np.median([swing(s) for s in self.data.segments])
+        nearest = min(max(round(ratio), 1), POLICY.harmonics)
+        return abs(ratio - nearest) < nearest * 0.02 + ratio * 0.5 / (t1 - t0)
 
     def __str__(self) -> str:
-        return f"{self.suspect.term} log ratio {self.log_ratio:.1f} score {self.score:.1f} (forecast {self.forecast:.1f})"
+        names = ", ".join(str(s.term) for s in self.suspects) or "nothing added"
+        return f"{names}: log-likelihood ratio {self.log_ratio:.1f}, score {self.score:.1f}, share {self.share:.2f}"
 
 
-def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit) -> float:
+def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, share: float = 1.0) -> float:
     """What suspects cost: log N for each parameter, twice for one that was scanned for, and for each new initial value."""
     states = after.initial.size - before.initial.size
-    return log(data.weight * data.samples) * (states + sum(s.size + (s.scanned is not None) for s in suspects))
+    count = states + sum(s.size + (s.scanned is not None) for s in suspects)
+    return log(max(share * data.weight * data.samples, 2.0)) * count
+
+
+def _surprise(suspect: Suspect, fit: Fit) -> float:
+    """Minus twice the logarithm of the Cauchy priors of its sizes, relative to none."""
+    sizes = [(fit.values[suspect.term.parameter_name(q.key)] - q.null) / q.plausible
+             for q in suspect.law.parameters if q.plausible and q.null is not None]
+    return sum(2 * log(1 + z**2) for z in sizes)
+
+
+# ---- fits ------------------------------------------------------------------------------------
+def refit(suspects: Sequence[Suspect], near: Fit, base: Fit, data: Data, more: dict[str, float] | None = None,
+          iterations: int = 40) -> Fit | None:
+    """The model of `base` with exactly these suspects, from the values and states of a fit nearby (else of `more`).
+
+    None where it cannot be fitted.
+    """
+    model = base.model
+    for s in suspects:
+        model = model.with_term(s.term)
+    fitter, values = Fitter(model, data), (more or {}) | near.values
+    columns = {k: i for i, k in enumerate(near.simulator.states)}
+    start = np.column_stack([near.initial[:, columns[k]] if k in columns else np.zeros(len(near.initial))
+                             for k in fitter.sim.states])
+    try:
+        return fitter.fit({k: values[k] for k in fitter.sim.parameters}, start, near.process, iterations)
+    except SymidError:
+        return None
+
+
+def hypothesis(suspects: Sequence[Suspect], near: Fit, base: Fit, data: Data, more: dict[str, float] | None = None
+               ) -> Hypothesis | None:
+    """These suspects refitted together; None where they cannot be."""
+    fit = refit(suspects, near, base, data, more)
+    return None if fit is None else Hypothesis(tuple(suspects), fit, base, data)
+
+
+def polished(found: Hypothesis) -> Hypothesis:
+    """The same hypothesis fitted until nothing moves."""
+    if not found.suspects:
+        return found
+    fit = Fitter(found.fit.model, found.data).again(found.fit)
+    return Hypothesis(found.suspects, fit, found.base, found.data, found.forecast)
 
 
 def padded(gain: np.ndarray | None, sim: Simulator) -> np.ndarray | None:
-    """The gain with rows of zero for states that a term added."""
+    """The Kalman gain with rows of zero for states that a term added."""
     if gain is None:
         return None
     rows = len(sim.states) - gain.shape[-2]
@@ -68,25 +146,3 @@ def padded(gain: np.ndarray | None, sim: Simulator) -> np.ndarray | None:
 def extended(initial: np.ndarray, sim: Simulator) -> np.ndarray:
     """Initial states with zero for states that a term added."""
     return np.hstack([initial, np.zeros((len(initial), len(sim.states) - initial.shape[1]))])
-
-
-def fit_with(suspects: list[Suspect], near: Fit, base: Fit, data: Data, values: dict | None = None) -> Hypothesis | None:
-    """The base model with exactly these suspects, started from values that a larger model had."""
-    model = base.model
-    for s in suspects:
-        model = model.with_term(s.term)
-    sim = simulator(model)
-    try:
-        start = {k: (values or near.values)[k] for k in sim.parameters}
-        fit = Fitter(model, data).fit(start, extended(base.initial, sim), near.process)
-    except SymidError:
-        return None
-    return Hypothesis(tuple(suspects), fit, fit.loglik2 - base.loglik2 - penalty(suspects, data, base, fit))
-
-
-def polished(found: Hypothesis, data: Data) -> Hypothesis:
-    """The same explanation fitted until nothing moves."""
-    if not found.suspects:
-        return found
-    fit = Fitter(found.fit.model, data).again(found.fit)
-    return Hypothesis(found.suspects, fit, found.score + fit.loglik2 - found.fit.loglik2)

@@ -11,10 +11,13 @@ import numpy as np
 from symid.errors import ModelError
 from symid.estimation.data import Data, Segment
 from symid.mechanics import CANONICAL, suspects
+from symid.mechanics.world_laws import GEOMETRY_LAWS
 from symid.model import Law, LawParameter, Model, Term
 
-SCANNED = ("frequency_Hz", "start_s", "time_s")
-"""Keys of parameters that say when or how often: their starts are a grid over the recording."""
+SCANNED = ("frequency", "start", "moment")
+"""What of a clock is looked for on a grid over the recording."""
+KINDS = {"sensor": "sensor", "gravity": "geometry", "center_of_mass": "geometry", "inertia": "geometry", "length": "geometry"}
+"""Role of the parts that a law changes -> what kind of suspect it is; "state" where it is none of these, nor follows a clock."""
 HIGHEST_FREQUENCY = 5.0
 """Up to here a periodic suspect is looked for [Hz]."""
 
@@ -43,7 +46,14 @@ class Suspect:
 
     @property
     def scanned(self) -> LawParameter | None:
-        return next((q for q in self.law.parameters if q.key in SCANNED and (q.key != "frequency_Hz" or self.phase)), None)
+        """The parameter that says when or how often, whose starts are a grid over the recording."""
+        return next((q for q in self.law.parameters if q.clock in SCANNED), None)
+
+    @property
+    def kind(self) -> str:
+        """One of the kinds that `Policy.odds` knows."""
+        first = self.law.acts_on if isinstance(self.law.acts_on, str) else self.law.acts_on[0]
+        return "clock" if self.scanned is not None else KINDS.get(first, "state")
 
     @property
     def bypasses(self) -> bool:
@@ -69,15 +79,19 @@ class Suspect:
 
     def touches(self, values: dict[str, float], segment: Segment) -> bool:
         """Whether the law with these values acts at all in an segment: a push lasts from start to end."""
-        if not {"start_s", "duration_s"} <= values.keys():
+        start, duration = self.clock("start"), self.clock("duration")
+        if start is None or duration is None:
             return True
-        start = values["start_s"]
-        return start < segment.time[-1] and start + values["duration_s"] > segment.time[0]
+        return values[start] < segment.time[-1] and values[start] + values[duration] > segment.time[0]
+
+    def clock(self, what: str) -> str | None:
+        """Key of the parameter that follows a clock in this way."""
+        return next((q.key for q in self.law.parameters if q.clock == what), None)
 
     @property
     def phase(self) -> str | None:
         """Key of the parameter that turns a sine into a cosine."""
-        return next((q.key for q in self.law.parameters if q.key == "phase_rad"), None)
+        return self.clock("phase")
 
     def quadratures(self, values: dict[str, float]) -> list[dict[str, float]]:
         """`values` at the phases that must be scored together."""
@@ -94,31 +108,43 @@ class Suspect:
         q, (t0, t1) = self.scanned, data.span
         span = t1 - t0
         for values in self.shapes():
-            if q.key == "frequency_Hz":
+            if q.clock == "frequency":
                 places = np.arange(max(q.bounds[0], 1.5 / span), min(q.bounds[1], HIGHEST_FREQUENCY), 0.75 / span)
-            elif q.key == "time_s":
+            elif q.clock == "moment":
                 places = np.linspace(t0 + 0.04 * span, t1 - 0.04 * span, 40)
             else:
-                width = values.get("duration_s", 1.0)
+                width = values.get(self.clock("duration"), 1.0)
                 places = np.arange(t0 - 0.25 * width, t1 - 0.5 * width, max(0.5 * width, span / 60))
             for place in places:
                 yield values | {q.key: float(place)}
 
 
 def established_suspects(model: Model) -> list[Suspect]:
-    """Every law of the library at every place: the canonical ones established, the others hypotheses."""
-    return [Suspect(t, t.name in CANONICAL) for t in suspects(model) if not _given(model, t) and _fits(model, t)]
+    """Every law of the library at every place: the canonical ones established, the others hypotheses.
+
+    Of laws that write the same equations, such as a drag on the first link and friction at its joint, the first stands.
+    """
+    found = {}
+    for term in suspects(model):
+        equations = _equations(model, term)
+        if equations is not None:
+            found.setdefault(equations, Suspect(term, term.name in ESTABLISHED))
+    return list(found.values())
 
 
-def _given(model: Model, term: Term) -> bool:
-    """Whether the model contains this term already."""
-    return any(str(t) == str(term) for t in model.terms)
+ESTABLISHED = {*CANONICAL, *(law.name for law in GEOMETRY_LAWS), "constant_torque"}
+"""Names that are an answer: of the answer files, of what may be stated wrongly, and the plainest force of all."""
 
 
-def _fits(model: Model, term: Term) -> bool:
-    """Whether the model declares all that the law needs, such as both components of gravity for a tilt."""
+def _equations(model: Model, term: Term) -> tuple | None:
+    """What the model is with a term, whatever its parameters are called; None if it is there, or something it needs is not."""
+    if any(str(t) == str(term) for t in model.terms):
+        return None
     try:
-        model.with_term(term)
+        more = model.with_term(term)
     except ModelError:
-        return False
-    return True
+        return None
+    own = [more[term.parameter_name(q.key)].symbol for q in term.law.parameters]
+    plain = {s: s.func(f"unknown{i}") for i, s in enumerate(own)}
+    shown = (y.expr.xreplace(plain) for y in more.outputs.values())
+    return (*(e.xreplace(plain) for e in more.residual()), *shown, *(d.of for d in more.delays.values()), *(d.lag.xreplace(plain) for d in more.delays.values()))

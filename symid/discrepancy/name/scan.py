@@ -16,12 +16,12 @@ def scan(projection: Projection, suspect: Suspect, model: Model) -> list[tuple[f
     """Forecasts over the grid of the scanned parameter, best first, with start values."""
     sim, found = simulator(model), []
     strength = suspect.strength.key
-    if projection.data.driven and suspect.scanned.key == "start_s":
+    if projection.data.driven and suspect.scanned.clock == "start":
         grid = slide(projection, suspect, sim)
-    elif projection.data.driven and suspect.scanned.key == "frequency_Hz":
+    elif projection.data.driven and suspect.scanned.clock == "frequency":
         grid = sweep(projection, suspect, sim)
-    elif suspect.scanned.key == "frequency_Hz":
-        grid = comb(projection, suspect, sim, HIGHEST_FREQUENCY)
+    elif suspect.scanned.clock == "frequency":
+        grid = comb(projection, suspect, sim, min(HIGHEST_FREQUENCY, 0.4 / projection.data.segments[0].step))
     else:
         grid = suspect.grid(projection.data)
     for values in grid:
@@ -51,7 +51,7 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
     rest = projection.rest.reshape(-1, len(projection.white))
     for values in suspect.shapes():
         middle = 0.5 * (t0 + t1)
-        column = projection.response(suspect, sim, values | {"start_s": middle})
+        column = projection.response(suspect, sim, values | {suspect.scanned.key: middle})
         if column is None:
             continue
         first = int((middle - t0) / step) - 1
@@ -59,7 +59,7 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
         score = sum(fftconvolve(rest[:, o], kernel[::-1, o])[len(kernel) - 1:] for o in range(rest.shape[1]))
         gain = score**2 / (kernel**2).sum()
         for k in _peaks(gain, int(0.5 / step), keep):
-            found.append((gain[k], values | {"start_s": float(t0 + (k + 1) * step)}))
+            found.append((gain[k], values | {suspect.scanned.key: float(t0 + (k + 1) * step)}))
     return [v for _, v in sorted(found, key=lambda f: -f[0])[:2 * keep]]
 
 
@@ -71,7 +71,7 @@ def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
     known = np.geomspace(0.05, HIGHEST_FREQUENCY, 24)
     answers = []
     for f in known:
-        column = projection.response(suspect, sim, suspect.starts()[0] | {"frequency_Hz": float(f), suspect.phase: 0.0})
+        column = projection.response(suspect, sim, suspect.starts()[0] | {suspect.scanned.key: float(f), suspect.phase: 0.0})
         if column is None:
             return []
         late = slice(n // 5, None)
@@ -85,7 +85,7 @@ def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
     G = np.column_stack([np.interp(f[use], known, [a[o].real for a in answers])
                          + 1j * np.interp(f[use], known, [a[o].imag for a in answers]) for o in range(rest.shape[1])])
     gain = 2 * np.abs((G.conj() * spectrum).sum(1)) ** 2 / (n * (np.abs(G) ** 2).sum(1) + 1e-300)
-    return [suspect.starts()[0] | {"frequency_Hz": float(f[use][k])} for k in _peaks(gain, 6, keep)]
+    return [suspect.starts()[0] | {suspect.scanned.key: float(f[use][k])} for k in _peaks(gain, 6, keep)]
 
 
 def _peaks(values: np.ndarray, apart: int, keep: int) -> list[int]:

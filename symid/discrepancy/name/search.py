@@ -1,173 +1,155 @@
-"""Try suspects on top of a fitted model: forecast all, refit the promising ones completely."""
+"""Which suspects are missing: one search for one effect or eight, by the evidence that is left after all penalties."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from math import log
 
 import numpy as np
 
-from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.hypothesis import Candidate, extended, padded, penalty
+from symid.discrepancy.locate.remainder import Test, remainder
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.name.scan import scan
-from symid.errors import SymidError
+from symid.discrepancy.name.explore import by_score, explore
+from symid.discrepancy.policy import POLICY
 from symid.estimation.data import Data
-from symid.estimation.fit import Fit, Fitter
-
-WORTH_REFITTING = 8.0
-"""A suspect with a smaller forecast gain than this is refitted only if it is among the best few."""
-ALWAYS_REFITTED = 6
-FIRST_ITERATIONS = 6
-NEAR, NEAR_SHARE = 50.0, 0.1
-"""Suspects whose first score is so near the best, in units and as a share of it, are converged however many they are."""
-MOMENTS = 0.3
-"""Spacing [s] of the moments at which a lasting change is tried."""
+from symid.estimation.fit import Fit
 
 
-@dataclass(frozen=True)
-class Effort:
-    """How many suspects are refitted at all, and how many of those to convergence."""
+@dataclass(eq=False)
+class Search:
+    """A search over sets of suspects.
 
-    refitted: int = 20
-    converged: int = 5
+    Each step adds the suspect that is worth most, puts the earlier ones to the test again, and tries others
+    in their place: greedy choices mislead. What follows a clock is looked for where what follows the state
+    leaves something.
 
-
-FULL, LIGHT = Effort(), Effort(10, 3)
-CONVERGING_ITERATIONS = 20
-
-
-@dataclass(frozen=True, eq=False)
-class Start:
-    forecast: float
-    suspect: Suspect
-    values: dict[str, float]
-
-
-def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, effort: Effort = FULL, threads: int = 2,
-            progress: Callable[[str], None] = lambda text: None) -> list[Candidate]:
-    """All suspects on top of `fit`, best score first."""
-    projection = Projection(fit, data)
-    with ThreadPoolExecutor(threads) as pool:
-        starts = [s for s in pool.map(lambda s: _starts(fit, data, projection, s), suspects) if s]
-        starts.sort(key=lambda s: -s[0].forecast)
-        chosen = [s for i, s in enumerate(starts) if s[0].forecast > WORTH_REFITTING or i < ALWAYS_REFITTED]
-        chosen = chosen[:effort.refitted]
-        chosen += [s for s in starts if s not in chosen and s[0].suspect.bypasses]
-        progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
-        first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen) if c is not None]
-        first.sort(key=lambda c: -c.score)
-        others = {s[0].suspect: s[1:3] for s in chosen}
-        found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), first[:effort.converged]))
-        rest = first[effort.converged:]
-        near = max((c.score for c in found), default=0.0) * (1 - NEAR_SHARE) - NEAR
-        close = [c for c in rest if c.score > max(near, 0.0) and not c.fit.converged]
-        found += list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), close))
-    return sorted(found + [c for c in rest if c not in close], key=lambda c: -c.score)
-
-
-def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> list[Start]:
-    """Start values of one suspect, best forecast first; none where it cannot be simulated."""
-    model = fit.model.with_term(suspect.term)
-    if suspect.scanned is not None:
-        found = scan(projection, suspect, model)
-        return [Start(g, suspect, v) for g, v in found[:1] + [f for f in found[1:] if f[0] > 0.7 * found[0][0]][:2]]
-    fitter, found = Fitter(model, data), []
-    if suspect.strength is not None:
-        for values in suspect.starts():
-            try:
-                columns = projection.response(suspect, fitter.sim, values)
-            except SymidError:
-                continue
-            if columns is not None:
-                found.append(Start(projection.score(columns)[0], suspect, values))
-    found.sort(key=lambda s: -s.forecast)
-    if found and not suspect.strength.starts:
-        return found[:1]
-    # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
-    finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
-    finite = [v for here, v in finite if np.isfinite(here)][:2]
-    if found:
-        return found[:1] + [Start(found[0].forecast, suspect, v) for v in finite]
-    tried = [_refit(fit, data, Start(0.0, suspect, v), 4) for v in finite[:1]]
-    forecasts = [c.log_ratio for c in tried if c is not None]
-    return [Start(forecasts[0] if forecasts else 0.0, suspect, v) for v in finite]
-
-
-def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
-    """Twice the log-likelihood with the suspect at these values and nothing refitted."""
-    p = np.array([(fit.values | suspect.named(values))[k] for k in fitter.sim.parameters])
-    return fitter.evaluate(p, extended(fit.initial, fitter.sim), padded(fit.kalman_gain, fitter.sim))
-
-
-def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Candidate | None:
-    suspect = start.suspect
-    fitter = Fitter(fit.model.with_term(suspect.term), data)
-    try:
-        new = fitter.fit(fit.values | suspect.named(start.values), extended(fit.initial, fitter.sim), fit.process, iterations,
-                         errors=iterations >= 40)
-    except SymidError:
-        return None
-    log_ratio = new.loglik2 - fit.loglik2
-    return Candidate(suspect, new, log_ratio, log_ratio - penalty([suspect], data, fit, new), start.forecast)
-
-
-def _begin(fit: Fit, data: Data, starts: list[Start]) -> Candidate | None:
-    """A few iterations from the best start, and from the others where it does not keep its promise.
-
-    A law that a slope at zero does not see also begins at one finite size.
+    Attributes
+    ----------
+    base : the model as given, fitted to `data`. pool : the suspects.
+    flexible : the best flexible law at one place, made when asked for.
     """
-    best, least = None, 2 if starts[0].suspect.bypasses else 1
-    for tried, start in enumerate(starts, 1):
-        new = _refit(fit, data, start, FIRST_ITERATIONS)
-        if new is not None and (best is None or new.log_ratio > best.log_ratio):
-            best = new
-        if best is not None and best.log_ratio > 0.5 * start.forecast and tried >= least:
-            break
-    return best
 
+    base: Fit
+    data: Data
+    pool: Sequence[Suspect]
+    flexible: Callable[[], Hypothesis]
+    threads: int = 2
+    progress: Callable[[str], None] = lambda text: None
+    left: dict[int, list[Test]] = field(default_factory=dict)
+    tried: list[Hypothesis] = field(default_factory=list)
 
-def _converge(fit: Fit, data: Data, first: Candidate, others: list[Start]) -> Candidate:
-    """The candidate fitted to convergence, or what another start leads to if that is better."""
-    found = [_continued(fit, data, first)]
-    for start in others:
-        other = _refit(fit, data, start, FIRST_ITERATIONS)
-        if other is not None and other.log_ratio > found[0].log_ratio + 1.0:
-            found.append(_continued(fit, data, other))
-    best = max(found, key=lambda c: c.log_ratio)
-    moved = _profiled(best, data)
-    again = _refit(fit, data, moved) if moved is not None else None
-    return again if again is not None and again.log_ratio > best.log_ratio else best
+    def run(self) -> tuple[Hypothesis, list[Hypothesis]]:
+        """The best hypothesis, and each suspect alone, best first."""
+        best = Hypothesis((), self.base, self.base, self.data)
+        single = self._added(best)
+        while len(best.suspects) < POLICY.most_effects:
+            more = self._preferred(best, self._added(best) if best.suspects else single)
+            if more is None:
+                break
+            if len(more.suspects) == 2 and not self.quiet(more) and not self.beaten(more):
+                more = self._preferred(best, [more, *self._other_pairs(best, single)])
+            if len(more.suspects) > 1:
+                more = self._reexamined(more, single)
+                if not self._worth(more, best):
+                    break
+            best = polished(more)
+            self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
+            if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best):
+                break
+        return best, single
 
+    # ---- judging -----------------------------------------------------------------------------
+    def value(self, found: Hypothesis, share: float, belief: bool = True) -> float:
+        """Evidence less the price of each suspect for being one of many, and less prior belief."""
+        price = 2 * log(max(len(self.pool), 1)) + POLICY.accept
+        return found.evidence(share) - price * len(found.suspects) - (found.belief() if belief else found.doubt())
 
-def _continued(fit: Fit, data: Data, begun: Candidate) -> Candidate:
-    """The same candidate after more iterations, with standard errors."""
-    new = Fitter(begun.fit.model, data).again(begun.fit, CONVERGING_ITERATIONS)
-    log_ratio = new.loglik2 - fit.loglik2
-    return Candidate(begun.suspect, new, log_ratio, log_ratio - penalty([begun.suspect], data, fit, new), begun.forecast)
+    def _worth(self, more: Hypothesis, less: Hypothesis) -> bool:
+        """Whether what `more` explains is worth its price, whatever its names."""
+        share = max(more, less, key=lambda h: h.log_ratio).share
+        return self.value(more, share, belief=False) > self.value(less, share, belief=False)
 
+    def _preferred(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
+        """The one that is believed most, of those that are worth their price on top of `less`."""
+        worth = [h for h in found if self._worth(h, less)]
+        if not worth:
+            return None
+        share = max(worth, key=lambda h: h.log_ratio).share
+        return max(worth, key=lambda h: self.value(h, share))
 
-def _profiled(best: Candidate, data: Data) -> Start | None:
-    """A better moment for a lasting change: its likelihood has a peak for every swing of the motion."""
-    q = best.suspect.scanned
-    if q is None or q.key != "time_s" or best.score < 0:
-        return None
-    fit, name = best.fit, best.suspect.term.parameter_name(q.key)
-    moments, values = moment_profile(fit, data, name, data.span, MOMENTS)
-    value, moment = values.max(), float(moments[np.argmax(values)])
-    own = {k.key: fit.values[best.suspect.term.parameter_name(k.key)] for k in best.suspect.law.parameters}
-    return Start(best.forecast, best.suspect, own | {q.key: moment}) if value > fit.loglik2 + 0.1 else None
+    def remainder(self, found: Hypothesis) -> list[Test]:
+        """The tests for something left over, made once."""
+        if id(found.fit) not in self.left:
+            self.left[id(found.fit)] = remainder(found.fit, self.data)
+        return self.left[id(found.fit)]
 
+    def quiet(self, found: Hypothesis) -> bool:
+        """Whether nothing is left that more suspects could explain."""
+        return self.remainder(found)[0].minus_log10_p <= POLICY.quiet
 
-def moment_profile(fit: Fit, data: Data, name: str, within: tuple[float, float], spacing: float):
-    """Moments of a lasting change and twice the log-likelihood of each, all else as fitted."""
-    t0, t1 = data.span
-    fitter = Fitter(fit.model, data)
-    at = fitter.sim.parameters.index(name)
-    p = np.array([fit.values[k] for k in fitter.sim.parameters])
-    moments, values = np.arange(max(t0 + spacing, within[0]), min(t1 - spacing, within[1]), spacing), []
-    for moment in moments:
-        p[at] = moment
-        values.append(fitter.evaluate(p, fit.initial, fit.kalman_gain))
-    return moments, np.array(values)
+    def equivalents(self, found: Hypothesis) -> list[Hypothesis]:
+        """What was tried with one suspect exchanged and explains almost as well, that suspect last."""
+        terms, others = {s.term for s in found.suspects}, {}
+        for h in self.tried:
+            new = [s for s in h.suspects if s.term not in terms]
+            if len(h.suspects) == len(found.suspects) and len(new) == 1:
+                share = max(h, found, key=lambda k: k.log_ratio).share
+                if h.evidence(share) > found.evidence(share) - POLICY.equivalent:
+                    kept = [s for s in h.suspects if s.term in terms]
+                    others[new[0].term] = Hypothesis((*kept, new[0]), h.fit, h.base, h.data, h.forecast)
+        return sorted(others.values(), key=lambda h: -h.log_ratio)
+
+    def beaten(self, found: Hypothesis) -> bool:
+        """Whether a flexible law at one place explains more than all that has a name: what acts there is in no list."""
+        flexible = self.flexible()
+        if not self._enough(flexible):
+            return False
+        share = max(flexible, found, key=lambda h: h.log_ratio).share
+        return flexible.evidence(share) > max(found.evidence(share), 0.0) + POLICY.doubt
+
+    def _enough(self, found: Hypothesis) -> bool:
+        """Whether what it leaves of a free motion is not far above the sensors' noise: else more than one thing is missing."""
+        rms = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
+        return found.fit.kalman_gain is not None or bool(np.all(rms < POLICY.far * self.data.sensor_noise))
+
+    # ---- trying ------------------------------------------------------------------------------
+    def _added(self, best: Hypothesis) -> list[Hypothesis]:
+        """`best` with each of the other suspects, clocks only where states leave something."""
+        taken = {s.term for s in best.suspects}
+        others = [s for s in self.pool if s.term not in taken]
+        states, clocks = ([s for s in others if (s.kind == "clock") is clock] for clock in (False, True))
+        found = self._explored(best, states)
+        first = self._preferred(best, found)
+        if clocks and (first is None or not self.quiet(first)):
+            self.progress("looking for what follows a clock")
+            found += self._explored(best, clocks)
+        self.tried += found
+        return by_score(found)
+
+    def _explored(self, best: Hypothesis, pool: Sequence[Suspect]) -> list[Hypothesis]:
+        found = explore(best.fit, self.data, pool, later=bool(best.suspects), threads=self.threads, progress=self.progress)
+        return [Hypothesis((*best.suspects, h.suspect), h.fit, self.base, self.data, h.forecast) for h in found]
+
+    def _other_pairs(self, best: Hypothesis, single: list[Hypothesis]) -> list[Hypothesis]:
+        """Pairs that begin with any of the other good suspects: the best single one may belong to none."""
+        rivals = [h for h in single if h.established and h.suspect != best.suspect
+                  and h.score > POLICY.beam_share * best.score and self._worth(h, Hypothesis((), self.base, self.base, self.data))]
+        pairs = []
+        for h in rivals[:POLICY.beam]:
+            self.progress(f"looking for what would complete {h.suspect.term}")
+            pairs.append(self._preferred(h, self._added(h)))
+        return [p for p in pairs if p is not None]
+
+    def _reexamined(self, found: Hypothesis, single: list[Hypothesis]) -> Hypothesis:
+        """Earlier suspects are left out in turn, and other good single ones tried in the place of the first."""
+        kept, taken = list(found.suspects[1:]), {s.term for s in found.suspects}
+        sets = [([s for s in found.suspects if s is not earlier], None) for earlier in found.suspects[:-1]]
+        rivals = [h for h in single if h.suspect.term not in taken and h.established == found.suspects[0].established]
+        sets += [([h.suspect, *kept], h.fit.values) for h in rivals[:POLICY.rivals]]
+        tried = [hypothesis(chosen, found.fit, self.base, self.data, more) for chosen, more in sets]
+        tried = [found, *(h for h in tried if h is not None)]
+        self.tried += tried
+        share = max(tried, key=lambda h: h.log_ratio).share
+        return max(tried, key=lambda h: self.value(h, share))

@@ -6,40 +6,47 @@ from dataclasses import replace
 
 import numpy as np
 
-from symid.discrepancy.model.hypothesis import Hypothesis, fit_with, polished
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.halves import survivals
-from symid.estimation.data import Data
+from symid.estimation.bias import unbiased
 from symid.estimation.fit import Fit
 from symid.estimation.robust_errors import with_robust_errors
 
-UNSURE = 2.0
-"""An effect that is not this many honest standard errors from nothing is left out."""
+
+def honest(found: Hypothesis, white: bool, threads: int) -> Hypothesis:
+    """The hypothesis with errors that do not believe in white innovations where they are not, without what these take back."""
+    if white:
+        names = [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters] if found.established else []
+        return replace(found, fit=unbiased(found.fit, found.data, names, threads))
+    kept = steady(found) or found
+    return sure(replace(kept, fit=with_robust_errors(kept.fit, kept.data)))
 
 
-def steady(found: Hypothesis, base: Fit, data: Data) -> Hypothesis | None:
-    """The explanation without oscillations that one half of the data contradicts: what is no sine keeps no frequency."""
+def steady(found: Hypothesis) -> Hypothesis | None:
+    """The hypothesis without oscillations that one half of the data contradicts: what is no sine keeps no frequency."""
     sines = [s for s in found.suspects if s.phase]
-    survived = survivals(sines, found.fit, base, data, white=False, others=found.suspects)
+    survived = survivals(sines, found.fit, found.base, found.data, white=False, others=found.suspects)
     fickle = {(v.name, v.location) for v in survived if v.reason}
     kept = [s for s in found.suspects if (s.term.name, s.term.location) not in fickle]
     if not kept or len(kept) == len(found.suspects):
         return None
-    less = fit_with(kept, found.fit, base, data)
-    return None if less is None else polished(less, data)
+    less = hypothesis(kept, found.fit, found.base, found.data)
+    return None if less is None else polished(less)
 
 
-def sure(found: Hypothesis, base: Fit, data: Data) -> Hypothesis:
-    """The explanation without effects that could as well be nothing, the least certain dropped first; one at least is kept."""
+def sure(found: Hypothesis) -> Hypothesis:
+    """The hypothesis without effects that could as well be nothing, the least certain dropped first; one at least is kept."""
     while len(found.suspects) > 1:
         doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
-        if _certainty(doubtful, found.fit) > UNSURE:
+        if _certainty(doubtful, found.fit) > POLICY.sure:
             break
-        less = fit_with([s for s in found.suspects if s is not doubtful], found.fit, base, data)
+        less = hypothesis([s for s in found.suspects if s is not doubtful], found.fit, found.base, found.data)
         if less is None:
             break
-        less = polished(less, data)
-        found = replace(less, fit=with_robust_errors(less.fit, data))
+        less = polished(less)
+        found = replace(less, fit=with_robust_errors(less.fit, less.data))
     return found
 
 

@@ -8,17 +8,15 @@ from math import hypot
 
 import numpy as np
 
-from symid.discrepancy.locate.remainder import REMAINDER, remainder
-from symid.discrepancy.model.hypothesis import penalty
+from symid.discrepancy.locate.remainder import remainder
+from symid.discrepancy.model.hypothesis import penalty, refit
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.name.search import explore
-from symid.errors import SymidError
+from symid.discrepancy.name.explore import explore
+from symid.discrepancy.policy import POLICY
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.robust_errors import with_robust_errors
 
-APART = 3.0
-"""Values from two halves that differ by more than so many of their standard errors contradict each other."""
 ITERATIONS = 15
 _UNITS = ("Nm", "Nms", "N", "rad", "rad2", "rad3", "s", "s2", "Hz", "kg", "m", "m2")
 
@@ -65,12 +63,12 @@ def verdicts(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, rival
     found = []
     for half, initial in zip(data.halves(), _states(fit, data), strict=True):
         near = replace(fit, initial=initial)
-        given, whole = _refit([], near, base, half), _refit(suspects, near, base, half)
+        given, whole = refit([], near, base, half, iterations=ITERATIONS), refit(suspects, near, base, half, iterations=ITERATIONS)
         if given is None or whole is None:
             return ()
         score = whole.loglik2 - given.loglik2 - penalty(suspects, half, given, whole)
         explained = score > 0 and bool(suspects)
-        verdict = "unexplained" if remainder(whole, half)[0].minus_log10_p > REMAINDER else "missing_physics" if explained else "adequate"
+        verdict = "unexplained" if remainder(whole, half)[0].minus_log10_p > POLICY.remainder else "missing_physics" if explained else "adequate"
         found.append(HalfVerdict(half.span, verdict, _better(rivals, score, given, half) if len(suspects) == 1 else None))
     return tuple(found)
 
@@ -92,7 +90,7 @@ def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, whit
     others : all suspects in `fit`, where those asked for are not all.
     white : whether innovations are white, so that plain standard errors are believed.
     """
-    lasting = [s for s in suspects if s.scanned is None or s.scanned.key == "frequency_Hz"]
+    lasting = [s for s in suspects if s.scanned is None or s.scanned.clock == "frequency"]
     if not lasting or not fit.errors:
         return ()
     states, found = _states(fit, data), []
@@ -117,29 +115,16 @@ def _states(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
 
 def _on_half(lasting: list[Suspect], suspects: list[Suspect], near: Fit, base: Fit, data: Data, white: bool) -> list[Half] | None:
     """The lasting effects on one half, or None where the found model cannot be fitted to it."""
-    whole = _refit(suspects, near, base, data)
+    whole = refit(suspects, near, base, data, iterations=ITERATIONS)
     if whole is None:
         return None
     trusted, halves = whole if white else with_robust_errors(whole, data), []
     for s in lasting:
-        less = _refit([t for t in suspects if t is not s], near, base, data)
+        less = refit([t for t in suspects if t is not s], near, base, data, iterations=ITERATIONS)
         score = np.inf if less is None else whole.loglik2 - less.loglik2 - penalty([s], data, less, whole)
         names = {q.key: s.term.parameter_name(q.key) for q in s.law.parameters}
         halves.append(Half(data.span, float(score), {key: (trusted.values[k], trusted.errors[k]) for key, k in names.items()}))
     return halves
-
-
-def _refit(suspects: list[Suspect], near: Fit, base: Fit, data: Data) -> Fit | None:
-    """The base model with these suspects, from the values and states of a fit that has them all."""
-    model = base.model
-    for s in suspects:
-        model = model.with_term(s.term)
-    fitter = Fitter(model, data)
-    columns = [near.simulator.states.index(k) for k in fitter.sim.states]
-    try:
-        return fitter.fit({k: near.values[k] for k in fitter.sim.parameters}, near.initial[:, columns], near.process, ITERATIONS)
-    except SymidError:
-        return None
 
 
 def _reason(halves: tuple[Half, Half]) -> str:
@@ -149,7 +134,7 @@ def _reason(halves: tuple[Half, Half]) -> str:
             return f"the {which} half alone does not ask for it"
     for key in halves[0].parameters:
         (a, s), (b, r) = (h.parameters[key] for h in halves)
-        if abs(a - b) > APART * hypot(s, r):
+        if abs(a - b) > POLICY.apart * hypot(s, r):
             return f"its {_said(key)} differs between the halves by {abs(a - b) / hypot(s, r):.0f} standard errors"
     return ""
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.remainder import Test
-from symid.discrepancy.model.hypothesis import Candidate
+from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
@@ -60,8 +60,8 @@ class Diagnosis:
 
     verdict: str
     effects: tuple[Effect, ...]
-    ranking: tuple[Candidate, ...]
-    equivalent: tuple[Candidate, ...]
+    ranking: tuple[Hypothesis, ...]
+    equivalent: tuple[Hypothesis, ...]
     baseline: Fit
     final: Fit
     runs: dict[str, FreeRun]

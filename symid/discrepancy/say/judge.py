@@ -6,28 +6,25 @@ from collections.abc import Callable
 
 import numpy as np
 
-from symid.discrepancy.locate.remainder import REMAINDER, Test
-from symid.discrepancy.model.hypothesis import MOST_EFFECTS, Candidate, Hypothesis
+from symid.discrepancy.locate.remainder import Test
+from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.name.search import moment_profile
+from symid.discrepancy.name.explore import moment_profile
+from symid.discrepancy.policy import POLICY
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.words import sentence
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
 
-EQUIVALENT = 12.0
-"""Suspects whose score is so near explain the recording almost as well."""
 RIVALS = 3
 """So many suspects are compared with the finding on each half."""
 
 
-def judge(found: Hypothesis, ranking: list[Candidate], left: list[Test], base: Fit, data: Data, flexible: Callable[[], Hypothesis]):
-    """Verdict, effects and equivalent candidates."""
-    effects = tuple(_effect(s, found, base, data) for s in found.suspects)
-    rest = _located(left) if left and left[0].minus_log10_p > REMAINDER else None
-    first = found.suspects[0] if len(found.suspects) == 1 else None
-    equivalent = tuple(c for c in ranking if first is not None and c.suspect.established and c.suspect.term != first.term
-                       and c.score > found.score - EQUIVALENT)
+def judge(found: Hypothesis, likes: list[Hypothesis], left: list[Test], flexible: Callable[[], Hypothesis]):
+    """Verdict, effects and equivalent hypotheses."""
+    effects = tuple(_effect(s, found) for s in found.suspects)
+    rest = _located(left) if left and left[0].minus_log10_p > POLICY.remainder else None
+    equivalent = tuple(likes)
     if not found.suspects and rest is None:
         return "adequate", (), ()
     if rest is not None and not found.suspects:
@@ -37,8 +34,8 @@ def judge(found: Hypothesis, ranking: list[Candidate], left: list[Test], base: F
         effects = tuple(sorted(effects, key=lambda e: (e.name, e.location) != (unestablished.term.name, unestablished.term.location)))
         place = unestablished.term.location if rest is None else _voted(flexible(), effects[0], rest)
         unknown = () if place == unestablished.term.location else (_unknown(place, left, rest, found),)
-        return "unexplained", (*unknown, *effects), ()
-    if rest is not None or base.kalman_gain is not None and len(effects) == MOST_EFFECTS[True]:
+        return "unexplained", (*unknown, *effects), equivalent
+    if rest is not None:
         return "unexplained", (_unknown(_voted(flexible(), effects[0], rest), left, rest, found), *effects), equivalent
     return "missing_physics", effects, equivalent
 
@@ -55,14 +52,14 @@ def _unknown(place: str, left: list[Test], rest: Test | None, found: Hypothesis)
     return Effect("unknown", place, {}, None, rest.log_ratio if rest else found.score, what, established=False)
 
 
-def rivals(found: Hypothesis, ranking: list[Candidate]) -> list[Suspect]:
+def rivals(found: Hypothesis, ranking: list[Hypothesis]) -> list[Suspect]:
     """The best named suspects that were not chosen."""
     return [c.suspect for c in ranking if c.suspect.established and c.suspect.term not in {s.term for s in found.suspects}][:RIVALS]
 
 
 def _located(left: list[Test]) -> Test:
     """The test that tells where a remainder acts: whiteness is a good alarm and a poor locator."""
-    places = [t for t in left if t.locates and t.minus_log10_p > 2.0]
+    places = [t for t in left if t.locates and t.minus_log10_p > POLICY.located]
     return places[0] if places else left[0]
 
 
@@ -75,17 +72,16 @@ def _moment(fit: Fit, data: Data, name: str, error: float) -> tuple[float, float
     return mean, float(np.hypot(error, np.sqrt(np.sum(weight * (moments - mean) ** 2) / weight.sum())))
 
 
-def _effect(suspect: Suspect, found: Hypothesis, base: Fit, data: Data) -> Effect:
+def _effect(suspect: Suspect, found: Hypothesis) -> Effect:
     fit, term = found.fit, suspect.term
     parameters = {q.key: (fit.values[term.parameter_name(q.key)], fit.errors[term.parameter_name(q.key)])
                   for q in suspect.law.parameters if term.parameter_name(q.key) in fit.errors}
-    window = None
-    if "start_s" in parameters:
-        begin = parameters["start_s"][0]
-        window = (begin, begin + parameters.get("duration_s", (0.5, 0.0))[0])
-    elif "time_s" in parameters:
-        at, error = _moment(fit, data, term.parameter_name("time_s"), parameters["time_s"][1])
-        parameters["time_s"] = (at, error)
+    window, start, moment = None, suspect.clock("start"), suspect.clock("moment")
+    if start in parameters:
+        begin = parameters[start][0]
+        window = (begin, begin + parameters.get(suspect.clock("duration"), (0.5, 0.0))[0])
+    elif moment in parameters:
+        at, error = _moment(fit, found.data, term.parameter_name(moment), parameters[moment][1])
+        parameters[moment] = (at, error)
         window = (at - min(2 * error, 3.0), at + min(2 * error, 3.0))
-    log_ratio = fit.loglik2 - base.loglik2
-    return Effect(term.name, term.location, parameters, window, log_ratio, sentence(suspect, parameters), suspect.established)
+    return Effect(term.name, term.location, parameters, window, found.log_ratio, sentence(suspect, parameters), suspect.established)

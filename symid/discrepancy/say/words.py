@@ -11,7 +11,7 @@ import numpy as np
 
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.remainder import Test
-from symid.discrepancy.model.hypothesis import Candidate
+from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.say.diagnosis import Effect
@@ -90,8 +90,8 @@ class Story:
 
     verdict: str
     effects: tuple[Effect, ...]
-    equivalent: tuple[Candidate, ...]
-    ranking: Sequence[Candidate]
+    equivalent: tuple[Hypothesis, ...]
+    ranking: Sequence[Hypothesis]
     left: Sequence[Test]
     runs: Mapping[str, FreeRun]
     audit: Audit

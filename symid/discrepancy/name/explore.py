@@ -1,0 +1,162 @@
+"""Try suspects on top of a fitted model: forecast all, refit the promising ones completely."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+
+from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.model.hypothesis import Hypothesis, extended, padded
+from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.name.scan import scan
+from symid.discrepancy.policy import POLICY
+from symid.errors import SymidError
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit, Fitter
+
+FIRST_ITERATIONS, CONVERGING_ITERATIONS = 6, 20
+MOMENTS = 0.3
+"""Spacing [s] of the moments at which a lasting change is tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    forecast: float
+    suspect: Suspect
+    values: dict[str, float]
+
+
+def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, later: bool = False, threads: int = 2,
+            progress: Callable[[str], None] = lambda text: None) -> list[Hypothesis]:
+    """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found."""
+    projection = Projection(fit, data)
+    refitted, converged = ((POLICY.refitted_later, POLICY.converged_later) if later else (POLICY.refitted, POLICY.converged))
+    with ThreadPoolExecutor(threads) as pool:
+        starts = [s for s in pool.map(lambda s: _starts(fit, data, projection, s), suspects) if s]
+        starts.sort(key=lambda s: -s[0].forecast)
+        chosen = [s for i, s in enumerate(starts) if s[0].forecast > POLICY.worth_refitting or i < POLICY.always_refitted]
+        chosen = chosen[:refitted]
+        chosen += [s for s in starts if s not in chosen and s[0].suspect.bypasses]
+        progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
+        first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen) if c is not None]
+        first.sort(key=lambda c: -c.log_ratio)
+        others = {s[0].suspect: s[1:3] for s in chosen}
+        found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), first[:converged]))
+        rest = first[converged:]
+        near = max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near
+        close = [c for c in rest if c.log_ratio > max(near, 0.0) and not c.fit.converged]
+        found += list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), close))
+    return by_score(found + [c for c in rest if c not in close])
+
+
+def by_score(found: Sequence[Hypothesis]) -> list[Hypothesis]:
+    """Best first, all judged by the samples that the one with the least error lets count."""
+    share = max(found, key=lambda c: c.log_ratio).share if found else 1.0
+    return sorted(found, key=lambda c: -c.evidence(share))
+
+
+def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> list[Start]:
+    """Start values of one suspect, best forecast first; none where it cannot be simulated."""
+    model = fit.model.with_term(suspect.term)
+    if suspect.scanned is not None:
+        found = scan(projection, suspect, model)
+        return [Start(g, suspect, v) for g, v in found[:1] + [f for f in found[1:] if f[0] > 0.7 * found[0][0]][:2]]
+    fitter, found = Fitter(model, data), []
+    if suspect.strength is not None:
+        for values in suspect.starts():
+            try:
+                columns = projection.response(suspect, fitter.sim, values)
+            except SymidError:
+                continue
+            if columns is not None:
+                found.append(Start(projection.score(columns)[0], suspect, values))
+    found.sort(key=lambda s: -s.forecast)
+    if found and not suspect.strength.starts:
+        return found[:1]
+    # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
+    finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
+    finite = [v for here, v in finite if np.isfinite(here)][:2]
+    if found:
+        return found[:1] + [Start(found[0].forecast, suspect, v) for v in finite]
+    tried = [_refit(fit, data, Start(0.0, suspect, v), 4) for v in finite[:1]]
+    forecasts = [c.log_ratio for c in tried if c is not None]
+    return [Start(forecasts[0] if forecasts else 0.0, suspect, v) for v in finite]
+
+
+def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
+    """Twice the log-likelihood with the suspect at these values and nothing refitted."""
+    p = np.array([(fit.values | suspect.named(values))[k] for k in fitter.sim.parameters])
+    return fitter.evaluate(p, extended(fit.initial, fitter.sim), padded(fit.kalman_gain, fitter.sim))
+
+
+def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothesis | None:
+    suspect = start.suspect
+    fitter = Fitter(fit.model.with_term(suspect.term), data)
+    try:
+        new = fitter.fit(fit.values | suspect.named(start.values), extended(fit.initial, fitter.sim), fit.process, iterations,
+                         errors=iterations >= 40)
+    except SymidError:
+        return None
+    return Hypothesis((suspect,), new, fit, data, start.forecast)
+
+
+def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
+    """A few iterations from the best start, and from the others where it does not keep its promise.
+
+    A law that a slope at zero does not see also begins at one finite size.
+    """
+    best, least = None, 2 if starts[0].suspect.bypasses else 1
+    for tried, start in enumerate(starts, 1):
+        new = _refit(fit, data, start, FIRST_ITERATIONS)
+        if new is not None and (best is None or new.log_ratio > best.log_ratio):
+            best = new
+        if best is not None and best.log_ratio > 0.5 * start.forecast and tried >= least:
+            break
+    return best
+
+
+def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start]) -> Hypothesis:
+    """The candidate fitted to convergence, or what another start leads to if that is better."""
+    found = [_continued(fit, data, first)]
+    for start in others:
+        other = _refit(fit, data, start, FIRST_ITERATIONS)
+        if other is not None and other.log_ratio > found[0].log_ratio + 1.0:
+            found.append(_continued(fit, data, other))
+    best = max(found, key=lambda c: c.log_ratio)
+    moved = _profiled(best, data)
+    again = _refit(fit, data, moved) if moved is not None else None
+    return again if again is not None and again.log_ratio > best.log_ratio else best
+
+
+def _continued(fit: Fit, data: Data, begun: Hypothesis) -> Hypothesis:
+    """The same candidate after more iterations, with standard errors."""
+    new = Fitter(begun.fit.model, data).again(begun.fit, CONVERGING_ITERATIONS)
+    return Hypothesis(begun.suspects, new, fit, data, begun.forecast)
+
+
+def _profiled(best: Hypothesis, data: Data) -> Start | None:
+    """A better moment for a lasting change: its likelihood has a peak for every swing of the motion."""
+    q = best.suspect.scanned
+    if q is None or q.clock != "moment" or best.log_ratio < POLICY.worth_refitting:
+        return None
+    fit, name = best.fit, best.suspect.term.parameter_name(q.key)
+    moments, values = moment_profile(fit, data, name, data.span, MOMENTS)
+    value, moment = values.max(), float(moments[np.argmax(values)])
+    own = {k.key: fit.values[best.suspect.term.parameter_name(k.key)] for k in best.suspect.law.parameters}
+    return Start(best.forecast, best.suspect, own | {q.key: moment}) if value > fit.loglik2 + 0.1 else None
+
+
+def moment_profile(fit: Fit, data: Data, name: str, within: tuple[float, float], spacing: float):
+    """Moments of a lasting change and twice the log-likelihood of each, all else as fitted."""
+    t0, t1 = data.span
+    fitter = Fitter(fit.model, data)
+    at = fitter.sim.parameters.index(name)
+    p = np.array([fit.values[k] for k in fitter.sim.parameters])
+    moments, values = np.arange(max(t0 + spacing, within[0]), min(t1 - spacing, within[1]), spacing), []
+    for moment in moments:
+        p[at] = moment
+        values.append(fitter.evaluate(p, fit.initial, fit.kalman_gain))
+    return moments, np.array(values)

@@ -1,0 +1,75 @@
+"""Every number that decides something in a diagnosis, with its reason.
+
+Evidence is counted in units of twice the log-likelihood. `symid conceal` makes recordings with known
+answers on which these numbers can be measured again; where a study set one, it is named.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Policy:
+    """What a finding costs, and when a search or a proof ends.
+
+    Each suspect pays log N per unknown (BIC; Schwarz 1978), twice for one that is looked for over a grid,
+    2 log K for being one of K (extended BIC; Chen & Chen 2008), and `accept`. N counts independent samples.
+
+    Attributes
+    ----------
+    accept : evidence beyond all that, an odds ratio of exp(accept / 2).
+    doubt : what a law without an established name must explain more than one with a name, odds of 150 to 1.
+    odds : by kind of suspect, what it must explain more than a force that follows the state: a stated geometry
+        or a sensor is checked by whoever builds the machine (7 to 1), a clock explains any regular motion (150 to 1).
+    harmonic : what a clock must explain more whose frequency is a multiple of the one at which a motion swings that
+        nothing drives: any bent force or bent scale makes such harmonics, so that none is ever named.
+    harmonics : multiples that count.
+    equivalent : answers whose evidence is so near are told; the better test then errs in 4 % (Phi(-sqrt(12)/2)).
+    most_effects : a search ends here.
+    quiet : -log10 of the probability by chance of the most suspicious test, below which no search goes on:
+        of about ten tests one reaches it in a quarter of the recordings with nothing left.
+    remainder : likewise, above which a rest counts as systematic: 30 nulls of `symid conceal` stayed below 4.
+    located : likewise, above which a test tells the place of a rest.
+    far : errors so many times the sensors' noise are not explained by whatever acts at one place alone.
+    sure : an effect not so many honest standard errors from nothing is left out.
+    apart : values of two halves that differ by so many standard errors contradict each other.
+    confirm : probability that the held-out data must give to the improvement.
+    block : seconds of a block of held-out data: longer than errors remember (seconds, in all recordings at hand).
+    fewest_blocks : with fewer the scatter of their differences is not known (a t with 5 degrees of freedom).
+    nulls : simulated recordings without the finding, from which its probability by chance is read.
+    """
+
+    accept: float = 3.0
+    doubt: float = 10.0
+    odds: dict[str, float] = field(default_factory=lambda: {"state": 0.0, "geometry": 4.0, "sensor": 4.0, "clock": 10.0})
+    harmonic: float = 1000.0
+    harmonics: int = 6
+    equivalent: float = 12.0
+    most_effects: int = 8
+    quiet: float = 1.5
+    remainder: float = 4.5
+    located: float = 2.0
+    far: float = 5.0
+    sure: float = 2.0
+    apart: float = 3.0
+    confirm: float = 0.95
+    block: float = 3.0
+    fewest_blocks: int = 6
+    nulls: int = 19
+
+    # ---- how much work a search does: more changes no answer of the practice cases ------------------
+    worth_refitting: float = 8.0
+    always_refitted: int = 6
+    refitted: int = 20
+    converged: int = 5
+    refitted_later: int = 10
+    converged_later: int = 3
+    near: float = 50.0
+    near_share: float = 0.1
+    rivals: int = 5
+    beam: int = 3
+    beam_share: float = 0.3
+
+
+POLICY = Policy()
