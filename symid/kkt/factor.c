@@ -4,8 +4,9 @@
    leave there, some pivots at a time, and the border's front adds up the tasks. */
 
 #define BATCH 32            /* pivots whose traces on the border are subtracted at once */
-#define MANY_DELAYED 16     /* a front with more delayed unknowns takes pivots down to LAST_RESORT */
-#define LAST_RESORT 1e-11
+#define MANY_DELAYED 16     /* a front with more delayed unknowns takes pivots down to WEAK, */
+#define WEAK 1e-11
+#define MOST_DELAYED 200    /* ... with more than this any */
 
 typedef struct {
     Arena factors, handed; /* handed: what fronts give to their parents, last in first out */
@@ -25,7 +26,9 @@ typedef struct {
     Mark *mark;  /* (fronts + 1,) of `handed`, before each front's */
     Work *work;  /* (tasks + 2,) tasks, top, border */
     double *x;   /* (n,) of a solve, by position */
-    double *scale; /* (border,) powers of two that border unknowns are multiplied with */
+    double *scale, *most;     /* (n,) of the rows, in the matrix's order; room for finding it */
+    const double *values;     /* the matrix at hand */
+    const int *irn, *jcn;
     double threshold;
     int rank, negative, threads;
     Counts counts;
@@ -135,34 +138,11 @@ static void mirror(Part *p) {
         for (int i = j + 1; i < p->size; i++) p->panel[(size_t)i * p->stride + j] = p->panel[(size_t)j * p->stride + i];
 }
 
-/* Bring the border's rows to the size of the chain's: a parameter's unit must not decide on pivots.
-   Powers of two, so that nothing is rounded. */
-static void scale_border(Factor *s, const double *a) {
-    const Tree *t = &s->tree;
-    double sum = 0;
-    int64_t count = 0;
-    for (int b = 0; b < t->border; b++) s->scale[b] = 0;
-    for (int f = 0; f < t->fronts; f++) {
-        const Front *v = &t->front[f];
-        const int *touched = t->plan[v->task].touched;
-        for (int64_t k = v->entry_at; k < v[1].entry_at; k++) {
-            Entry e = t->entry[k];
-            double size = fabs(a[e.source]);
-            if (e.row >= v->own + v->chain) {
-                double *most = &s->scale[touched[e.row - v->own - v->chain]];
-                if (size > *most) *most = size;
-            } else if (e.row != e.column && size > 0) sum += size * size, count++;
-        }
-    }
-    double usual = sqrt(sum / (double)(count ? count : 1));
-    for (int b = 0; b < t->border; b++) {
-        int power = 0;
-        if (s->scale[b] > 0 && usual > 0) frexp(usual / s->scale[b], &power);
-        s->scale[b] = ldexp(1, power);
-    }
+static inline double scaled(const Factor *s, int source) {
+    return s->values[source] * s->scale[s->irn[source] - 1] * s->scale[s->jcn[source] - 1];
 }
 
-static int factorise_front(Factor *s, Work *w, int f, const double *a) {
+static int factorise_front(Factor *s, Work *w, int f) {
     const Tree *t = &s->tree;
     const Front *v = &t->front[f];
     Part *p = &s->part[f];
@@ -172,9 +152,7 @@ static int factorise_front(Factor *s, Work *w, int f, const double *a) {
     for (int i = 0; i < v->own; i++) p->rows[i] = v->first + i;
     for (int64_t k = v->entry_at; k < v[1].entry_at; k++) {
         Entry e = t->entry[k];
-        double x = a[e.source];
-        if (e.row >= v->own + v->chain) x *= s->scale[t->plan[v->task].touched[e.row - v->own - v->chain]];
-        p->panel[e.column * p->stride + (e.row < v->own ? e.row : e.row - v->own + p->base)] += x;
+        p->panel[e.column * p->stride + (e.row < v->own ? e.row : e.row - v->own + p->base)] += scaled(s, e.source);
     }
     Target target = {p->panel, w->square, size, p->base, p->stride, padded(outer)};
     int delayed = v->own, first = t->child[f];
@@ -185,8 +163,8 @@ static int factorise_front(Factor *s, Work *w, int f, const double *a) {
     }
     if (first >= 0 && t->front[first].task == v->task && v->task < t->tasks) back_to(&w->handed, s->mark[first]);
     mirror(p);
-    double threshold = delayed - v->own > MANY_DELAYED && s->threshold > LAST_RESORT ? LAST_RESORT : s->threshold;
-    factorise_panel(p, threshold, w->column, w->columns, padded(outer), &w->counts);
+    int late = delayed - v->own;
+    factorise_panel(p, late > MOST_DELAYED ? 1e-30 : late > MANY_DELAYED ? WEAK : s->threshold, w->column, w->columns, padded(outer), &w->counts);
     update(w->square, padded(outer), outer, v->chain, p->panel + p->base, p->stride, w->columns, padded(outer), p->pivots);
     leave_on_border(w, p, v->chain, touched, padded(outer));
     if (!hand_over(s, w, f, v->chain, touched)) return 0;
@@ -195,19 +173,19 @@ static int factorise_front(Factor *s, Work *w, int f, const double *a) {
     return 1;
 }
 
-static void factorise_task(Factor *s, int a, const double *values) {
+static void factorise_task(Factor *s, int a) {
     Work *w = &s->work[a];
     const TaskPlan *plan = &s->tree.plan[a];
     empty(&w->factors), empty(&w->handed);
     w->counts = (Counts){.smallest = INFINITY};
     w->batched = w->failed = 0;
     memset(w->border, 0, sizeof(double) * padded(plan->border) * (size_t)plan->border);
-    for (int f = plan->first; f < plan->end && !w->failed; f++) w->failed = !factorise_front(s, w, f, values);
+    for (int f = plan->first; f < plan->end && !w->failed; f++) w->failed = !factorise_front(s, w, f);
     subtract_batch(w, plan->border);
 }
 
 /* The last front: the border, and what nobody could eliminate. Every pivot is taken there. */
-static int factorise_border(Factor *s, const double *a) {
+static int factorise_border(Factor *s) {
     const Tree *t = &s->tree;
     Work *w = &s->work[t->tasks + 1];
     Part *p = &s->part[t->fronts];
@@ -220,7 +198,7 @@ static int factorise_border(Factor *s, const double *a) {
     for (int i = 0; i < t->border; i++) p->rows[i] = t->top + i;
     for (int64_t k = t->front[t->fronts].entry_at; k < t->front[t->fronts + 1].entry_at; k++) {
         Entry e = t->entry[k];
-        *place(&target, e.row, e.column) += a[e.source] * s->scale[e.row] * s->scale[e.column];
+        *place(&target, e.row, e.column) += scaled(s, e.source);
     }
     for (int b = 0; b <= t->tasks; b++) {
         const TaskPlan *plan = &t->plan[b];

@@ -80,6 +80,7 @@ void ma27ad_(const int *n, const int *nz, const int *irn, const int *jcn, int *i
             free_factor(&s->factor);
         }
     }
+    for (int i = 0; s->factor.scale && i < *n; i++) s->factor.scale[i] = 1;
     s->used = 1, s->last = ++clock_of_slots, s->factor.threads = threads;
     ikeep[0] = (int)(s - slots);
     *nsteps = 1;
@@ -91,7 +92,7 @@ void ma27ad_(const int *n, const int *nz, const int *irn, const int *jcn, int *i
 
 void ma27bd_(const int *n, const int *nz, const int *irn, const int *jcn, double *a, const int *la, int *iw, const int *liw,
              int *ikeep, const int *nsteps, int *maxfrt, int *iw1, const int *icntl, double *cntl, int *info) {
-    (void)irn, (void)jcn, (void)la, (void)liw, (void)nsteps, (void)iw1, (void)icntl;
+    (void)la, (void)liw, (void)nsteps, (void)iw1, (void)icntl;
     double began = seconds();
     Slot *s = &slots[ikeep[0]];
     Factor *f = &s->factor;
@@ -102,7 +103,7 @@ void ma27bd_(const int *n, const int *nz, const int *irn, const int *jcn, double
     if (!isfinite(largest(a, 0, *nz))) info[0] = -5;
     else {
         f->threshold = fmax(cntl[0], least_threshold);
-        if (!factorise(f, a)) info[0] = -7;
+        if (!factorise(f, *nz, irn, jcn, a)) info[0] = -7;
         else if (f->counts.null) info[0] = 3, info[1] = *n - (int)f->counts.null;
         info[14] = (int)f->counts.negative;
         report.factorisations++, report.delayed += (double)f->counts.delayed, report.null += (double)f->counts.null;

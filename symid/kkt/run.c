@@ -4,15 +4,14 @@ typedef enum { FACTORISE, FORWARD, BACKWARD } Step;
 
 typedef struct {
     Factor *s;
-    const double *values;
     Step step;
     int next;
 } Job;
 
-static void do_task(Factor *s, Step step, int a, const double *values) {
+static void do_task(Factor *s, Step step, int a) {
     Work *w = &s->work[a];
     size_t outside = sizeof(double) * (size_t)(s->tree.n - s->tree.inner);
-    if (step == FACTORISE) factorise_task(s, a, values);
+    if (step == FACTORISE) factorise_task(s, a);
     else if (step == FORWARD) memset(w->outside, 0, outside), w->failed = !forward_task(s, a, w->outside);
     else w->failed = !backward_task(s, a);
 }
@@ -20,12 +19,12 @@ static void do_task(Factor *s, Step step, int a, const double *values) {
 static void *work_through(void *argument) {
     Job *job = argument;
     for (int a; (a = __atomic_fetch_add(&job->next, 1, __ATOMIC_RELAXED)) < job->s->tree.tasks;)
-        do_task(job->s, job->step, a, job->values);
+        do_task(job->s, job->step, a);
     return NULL;
 }
 
-static int all_tasks(Factor *s, Step step, const double *values) {
-    Job job = {s, values, step, 0};
+static int all_tasks(Factor *s, Step step) {
+    Job job = {s, step, 0};
     pthread_t helper[64];
     int helpers = 0, wanted = s->threads < s->tree.tasks ? s->threads : s->tree.tasks, failed = 0;
     while (helpers + 1 < wanted && helpers < 64 && pthread_create(&helper[helpers], NULL, work_through, &job) == 0) helpers++;
@@ -41,12 +40,13 @@ static void add_counts(Counts *to, const Counts *from) {
     if (from->smallest < to->smallest) to->smallest = from->smallest;
 }
 
-static int factorise(Factor *s, const double *values) {
+static int factorise(Factor *s, int64_t nz, const int *irn, const int *jcn, const double *values) {
     s->counts = (Counts){.smallest = INFINITY};
-    scale_border(s, values);
-    if (!all_tasks(s, FACTORISE, values)) return 0;
-    factorise_task(s, s->tree.tasks, values);
-    if (s->work[s->tree.tasks].failed || !factorise_border(s, values)) return 0;
+    s->values = values, s->irn = irn, s->jcn = jcn;
+    equilibrate(s->tree.n, nz, irn, jcn, values, s->scale, s->most);
+    if (!all_tasks(s, FACTORISE)) return 0;
+    factorise_task(s, s->tree.tasks);
+    if (s->work[s->tree.tasks].failed || !factorise_border(s)) return 0;
     for (int a = 0; a <= s->tree.tasks + 1; a++) add_counts(&s->counts, &s->work[a].counts);
     return 1;
 }
@@ -56,16 +56,14 @@ static int solve(Factor *s, double *b) {
     const Tree *t = &s->tree;
     double *y = vector_of(&s->work[t->tasks + 1], &s->part[t->fronts]);
     if (!y) return 0;
-    for (int i = 0; i < t->n; i++) s->x[t->position[i]] = b[i];
-    for (int i = 0; i < t->border; i++) s->x[t->top + i] *= s->scale[i];
-    if (!all_tasks(s, FORWARD, NULL)) return 0;
+    for (int i = 0; i < t->n; i++) s->x[t->position[i]] = b[i] * s->scale[i];
+    if (!all_tasks(s, FORWARD)) return 0;
     for (int a = 0; a < t->tasks; a++) add_vector(s->x + t->inner, s->work[a].outside, t->n - t->inner);
     if (!forward_task(s, t->tasks, s->x + t->inner)) return 0;
     forward_front(s, t->fronts, s->x, s->x + t->inner, y);
     backward_front(s, t->fronts, s->x, y);
-    if (!backward_task(s, t->tasks) || !all_tasks(s, BACKWARD, NULL)) return 0;
-    for (int i = 0; i < t->border; i++) s->x[t->top + i] *= s->scale[i];
-    for (int i = 0; i < t->n; i++) b[i] = s->x[t->position[i]];
+    if (!backward_task(s, t->tasks) || !all_tasks(s, BACKWARD)) return 0;
+    for (int i = 0; i < t->n; i++) b[i] = s->x[t->position[i]] * s->scale[i];
     return 1;
 }
 
@@ -75,7 +73,7 @@ static void free_factor(Factor *s) {
         free_arena(&w->factors), free_arena(&w->handed);
         free(w->square), free(w->columns), free(w->border), free(w->left), free(w->right), free(w->outside);
     }
-    free(s->part), free(s->mark), free(s->work), free(s->x), free(s->scale);
+    free(s->part), free(s->mark), free(s->work), free(s->x), free(s->scale), free(s->most);
     free_tree(&s->tree);
     *s = (Factor){0};
 }
@@ -97,7 +95,7 @@ static int make_factor(Factor *s, int n, int64_t nz, const int *irn, const int *
     const Tree *t = &s->tree;
     s->part = zeros(t->fronts + 1, sizeof(Part)), s->mark = zeros(t->fronts + 1, sizeof(Mark));
     s->work = zeros(t->tasks + 2, sizeof(Work)), s->x = zeros(n, sizeof(double));
-    s->scale = zeros(t->border, sizeof(double));
+    s->scale = zeros(n, sizeof(double)), s->most = zeros(n, sizeof(double));
     for (int a = 0; a < t->tasks + 2; a++) {
         Work *w = &s->work[a];
         int border = a <= t->tasks ? t->plan[a].border : 0;
