@@ -30,7 +30,8 @@ SOLE_IMPORTERS = {
     "matplotlib": {"plots"},
 }
 BY_NAME = {"import_module", "__import__"}
-ALLOWED = {("symid.identification.solution", "symid.plots"), ("symid.discrepancy.say.diagnosis", "symid.report")}
+ALLOWED = {("symid.identification.solution", "symid.plots"), ("symid.optimization.plan", "symid.plots"),
+           ("symid.discrepancy.say.diagnosis", "symid.report")}
 """A result may open the room that draws it or writes of it, figure by figure: fetched by name, when asked for."""
 NOT_IN = {"pandas": {"model", "nlp", "codegen"}, "scipy": {"model"}}
 

@@ -1,6 +1,7 @@
 """The modeling layer: constants that become parameters, controls, constraints, objectives."""
 
 import pytest
+import sympy as sm
 from conftest import pendulum, pendulum_recording
 
 import symid as si
@@ -21,3 +22,25 @@ def test_a_constant_is_freed_within_given_bounds_and_zero_only_so():
         pendulum().with_constants(stiffness=0).free("stiffness")
     with pytest.raises(ModelError, match="'damping' is a Parameter"):
         pendulum().free("damping")
+
+
+def test_inputs_become_controls_for_a_plan_with_the_identified_model():
+    model = pendulum().fixed(damping=0.4).controlled(drive=(-2, 2))
+    assert model.drive.bounds == (-2, 2) and not model.inputs and list(model.controls) == ["drive"]
+    model.ends = si.Boundary(initial={model.angle: 0.3, model.rate: 0}, terminal={model.angle: 0, model.rate: 0})
+    model.effort = si.Objective(running=model.drive**2)
+    plan = si.Optimization(model, duration=2, nodes=21).solve()
+    assert plan.solved and abs(plan["angle"][-1]) < 1e-9
+    assert plan.plot().png().startswith(b"\x89PNG") and "objective" in plan._repr_html_()
+
+
+def test_parts_repeat_themselves_by_an_index():
+    m = si.Model("chain")
+    m.x, m.v = si.State(unit="m", index=range(3)), si.State(unit="m/s", index=range(3))
+    m.k = si.Constant(2.0, unit="1/s^2")
+    m.kinematics = si.Equation({i: m.x[i].dot - m.v[i] for i in m.x})
+    m.balance = si.Equation(sm.Matrix([m.v[i].dot + m.k * (m.x[i] - m.x[max(i - 1, 0)]) for i in m.x]))
+    assert list(m.states) == ["x_0", "x_1", "x_2", "v_0", "v_1", "v_2"] and m.x[1].name == "x_1"
+    assert list(m.equations)[3:] == ["balance_0", "balance_1", "balance_2"] and m.check().copy().x[2] == m.x[2]
+    with pytest.raises(ModelError, match="'x' is declared already"):
+        m.x = si.State(unit="m")

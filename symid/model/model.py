@@ -5,11 +5,13 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Mapping
 from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING
 
 import sympy as sm
 
 from symid.errors import ModelError
+from symid.model.attach import completed, hint
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
     Algebraic, Bounds, Component, Constant, Control, Delay, Equation, Expression, Input, Noise, Output,
@@ -54,7 +56,7 @@ class Model:
     def __setattr__(self, name: str, part: Component) -> None:
         if not isinstance(part, Component):
             raise ModelError(
-                f"model '{self.name}': cannot attach {name} = {part!r}{self._hint(part)}; attach a State, Algebraic, Control, "
+                f"model '{self.name}': cannot attach {name} = {part!r}{hint(part)}; attach a State, Algebraic, Control, "
                 "Input, Parameter, Constant, Noise, Expression, Equation, Output, Port, Constraint, Boundary or Objective"
             )
         if name in self.components or name in self.groups:
@@ -66,68 +68,11 @@ class Model:
             raise ModelError(f"model '{self.name}': the name '{name}' is reserved; choose another")
         copies = part.copies()
         if copies is None:
-            self.components[name] = self._completed(part, name)
+            self.components[name] = completed(self, part, name)
             return
         for i, copy in copies.items():
             setattr(self, f"{name}_{i}", copy)
         self.groups[name] = {i: f"{name}_{i}" for i in copies}
-
-    @staticmethod
-    def _hint(part) -> str:
-        if isinstance(part, sm.core.relational.Relational):
-            return " (a comparison becomes a Constraint(...))"
-        return " (an expression becomes an Equation(...), which is zero, or an Expression(...))" if isinstance(part, sm.Expr) else ""
-
-    def _completed(self, part: Component, name: str) -> Component:
-        """The part with its name, its expression as SymPy, and defaults taken from its state."""
-        changes: dict = {"name": name}
-        self._refuse_wrong_types(part, name)
-        if isinstance(part, (Expression, Equation, Output)):
-            changes["expr"] = self._expression(part.expr, name)
-        if isinstance(part, Output):
-            state = self.components.get(str(changes["expr"]))
-            changes["unit"] = part.unit or getattr(state, "unit", "")
-            changes["channel"] = part.channel or getattr(state, "name", name)
-        if isinstance(part, Input):
-            changes["channel"] = part.channel or name
-        if isinstance(part, Constraint):
-            part.row  # noqa: B018 - a condition that is none is refused where it is written
-        if isinstance(part, Objective):
-            changes |= {k: self._expression(getattr(part, k), name) for k in ("running", "terminal")}
-        if isinstance(part, Port):
-            changes |= {"position": sm.sympify(part.position), "rate": sm.sympify(part.rate)}
-            changes["unit"] = part.unit or self._unit_of_force(part, changes["position"])
-        return replace(part, **changes)
-
-    def _refuse_wrong_types(self, part: Component, name: str) -> None:
-        kind = type(part).__name__
-        unit = getattr(part, "unit", "1")
-        if not isinstance(unit, str):
-            raise ModelError(f"model '{self.name}': the {kind} '{name}' has no unit: write {kind}(..., unit=\"m\"), or "
-                             "unit=\"1\" for a number without one")
-        if isinstance(part, Constant) and not isinstance(part.value, (int, float)):
-            try:
-                float(part.value)
-            except (TypeError, ValueError):
-                raise ModelError(f"model '{self.name}': the value of the Constant '{name}' is {part.value!r}; give a "
-                                 f"number [{part.unit}]") from None
-
-    def _expression(self, expr, name: str) -> sm.Expr:
-        """`expr` as SymPy; ModelError where it is none."""
-        try:
-            found = sm.sympify(expr, strict=not isinstance(expr, str))
-        except (sm.SympifyError, TypeError, AttributeError):
-            found = None
-        if isinstance(expr, str) or not isinstance(found, sm.Expr):
-            raise ModelError(f"model '{self.name}': '{name}' is made of {expr!r}, which is no expression: write it with the "
-                             "model's parts, for instance m.x.dot - m.v (a comparison belongs into a Constraint)")
-        return found
-
-    def _unit_of_force(self, port: Port, position: sm.Expr) -> str:
-        """Unit of the first equation that a port's force enters; "" where that cannot be told."""
-        from symid.model.dimensions import unit_of
-        equation = self.components.get(next(iter(port.into), ""))
-        return unit_of(self, equation.expr, about=position) if isinstance(equation, Equation) else ""
 
     def __getattr__(self, name: str) -> Component | dict:
         try:
@@ -276,6 +221,18 @@ class Model:
             ends = sorted((c.value / FREE_FACTOR, c.value * FREE_FACTOR))
             parts[name] = Parameter(unit=c.unit, bounds=bounds.get(name, tuple(ends)), guess=c.value, meaning=c.meaning,
                                     role=c.role, at=c.at, latex=c.latex, name=name)
+        return self._with(parts)
+
+    def controlled(self, *names: str, **bounds: Bounds) -> Model:
+        """A new model in which these inputs are controls, to be chosen by an Optimization.
+
+        ``model.controlled(force=(-20, 20))`` [in its unit]; by name alone without bounds.
+        """
+        parts = {}
+        for name in (*names, *bounds):
+            u = self._part(name, Input)
+            parts[name] = Control(unit=u.unit, bounds=bounds.get(name, (-inf, inf)), hold="zero" if u.hold == "zero" else "linear",
+                                  meaning=u.meaning, role=u.role, at=u.at, latex=u.latex, name=name)
         return self._with(parts)
 
     def _part(self, name: str, kind) -> Component:

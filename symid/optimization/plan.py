@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from html import escape
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -74,6 +76,15 @@ class Plan:
     def __getitem__(self, name) -> np.ndarray:
         """(nodes,) the motion of one quantity, by name or part."""
         return self.trajectories[str(getattr(name, "symbol", name))].to_numpy()
+
+    def plot(self):
+        """Figure of the motion and its controls."""
+        # Drawing stands on the roof, and computing must not need it: fetched by name when asked for.
+        return import_module("symid.plots").plot_plan(self)
+
+    def _repr_html_(self) -> str:
+        first, *rest = repr(self).splitlines()
+        return f"<h4>{escape(first)}</h4>" + "".join(f"<p>{escape(line)}</p>" for line in rest)
 
     def __repr__(self) -> str:
         r = self.result

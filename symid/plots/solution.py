@@ -34,7 +34,7 @@ def plot_fit(solution: Solution, episode: int = 0, window: tuple[float, float] |
         above.plot(time, model, color=MODEL, lw=0.9, label="model")
         below.axhline(0, color=INK, lw=0.5)
         below.plot(time, recorded - model, color=WARN, lw=0.6)
-        rms = np.sqrt(np.mean((recorded - model) ** 2))
+        rms = np.sqrt(np.nanmean((recorded - model) ** 2))
         above.set_title(f"{output.channel.replace('_', ' ')}: RMS error {rms:.3g} {unit}", loc="left", fontsize=10)
         above.set_ylabel(unit)
         below.set_ylabel(f"residual\n{unit}", fontsize=8)

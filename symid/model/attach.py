@@ -1,0 +1,77 @@
+"""What happens to a part when it is attached to a model: types checked, name and defaults filled in."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import sympy as sm
+
+from symid.errors import ModelError
+from symid.model.conditions import Constraint, Objective
+from symid.model.declare import Component, Constant, Equation, Expression, Input, Output, Port
+
+if TYPE_CHECKING:
+    from symid.model.model import Model
+
+
+def hint(part) -> str:
+    """What a thing that is no part could become, for an error message."""
+    if isinstance(part, sm.core.relational.Relational):
+        return " (a comparison becomes a Constraint(...))"
+    return " (an expression becomes an Equation(...), which is zero, or an Expression(...))" if isinstance(part, sm.Expr) else ""
+
+
+def completed(model: Model, part: Component, name: str) -> Component:
+    """The part with its name, its expression as SymPy, and defaults taken from its state."""
+    changes: dict = {"name": name}
+    _refuse_wrong_types(model, part, name)
+    if isinstance(part, (Expression, Equation, Output)):
+        changes["expr"] = _expression(model, part.expr, name)
+    if isinstance(part, Output):
+        state = model.components.get(str(changes["expr"]))
+        changes["unit"] = part.unit or getattr(state, "unit", "")
+        changes["channel"] = part.channel or getattr(state, "name", name)
+    if isinstance(part, Input):
+        changes["channel"] = part.channel or name
+    if isinstance(part, Constraint):
+        part.row  # noqa: B018 - a condition that is none is refused where it is written
+    if isinstance(part, Objective):
+        changes |= {k: _expression(model, getattr(part, k), name) for k in ("running", "terminal")}
+    if isinstance(part, Port):
+        changes |= {"position": sm.sympify(part.position), "rate": sm.sympify(part.rate)}
+        changes["unit"] = part.unit or _unit_of_force(model, part, changes["position"])
+    return replace(part, **changes)
+
+
+def _refuse_wrong_types(model: Model, part: Component, name: str) -> None:
+    kind = type(part).__name__
+    unit = getattr(part, "unit", "1")
+    if not isinstance(unit, str):
+        raise ModelError(f"model '{model.name}': the {kind} '{name}' has no unit: write {kind}(..., unit=\"m\"), or "
+                         "unit=\"1\" for a number without one")
+    if isinstance(part, Constant) and not isinstance(part.value, (int, float)):
+        try:
+            float(part.value)
+        except (TypeError, ValueError):
+            raise ModelError(f"model '{model.name}': the value of the Constant '{name}' is {part.value!r}; give a "
+                             f"number [{part.unit}]") from None
+
+
+def _expression(model: Model, expr, name: str) -> sm.Expr:
+    """`expr` as SymPy; ModelError where it is none."""
+    try:
+        found = sm.sympify(expr, strict=not isinstance(expr, str))
+    except (sm.SympifyError, TypeError, AttributeError):
+        found = None
+    if isinstance(expr, str) or not isinstance(found, sm.Expr):
+        raise ModelError(f"model '{model.name}': '{name}' is made of {expr!r}, which is no expression: write it with the "
+                         "model's parts, for instance m.x.dot - m.v (a comparison belongs into a Constraint)")
+    return found
+
+
+def _unit_of_force(model: Model, port: Port, position: sm.Expr) -> str:
+    """Unit of the first equation that a port's force enters; "" where that cannot be told."""
+    from symid.model.dimensions import unit_of
+    equation = model.components.get(next(iter(port.into), ""))
+    return unit_of(model, equation.expr, about=position) if isinstance(equation, Equation) else ""

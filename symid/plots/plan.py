@@ -1,0 +1,33 @@
+"""Figure of a planned motion."""
+
+from __future__ import annotations
+
+from symid.optimization import Plan
+from symid.plots.style import MODEL, QUIET, Picture, opened
+from symid.units import shown_unit
+
+
+def plot_plan(plan: Plan) -> Picture:
+    """States, controls and algebraic variables over time, one axes for each, with the bounds that they touch."""
+    frame, model = plan.trajectories, plan.problem.transcription.model
+    rows = -(-len(frame.columns) // 2)
+    figure = Picture(figsize=(9, 1.5 * rows + 0.6), layout="constrained")
+    axes = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
+    time = frame.index.to_numpy()
+    for name, ax in zip(frame.columns, axes, strict=False):
+        unit, factor = shown_unit(model[name].unit)
+        values, held = frame[name].to_numpy() * factor, getattr(model[name], "hold", "") == "zero"
+        ax.plot(time, values, color=MODEL, lw=1.2, drawstyle="steps-post" if held else "default")
+        for bound in model[name].bounds:
+            if values.min() - 1e-6 <= bound * factor <= values.max() + 1e-6:
+                ax.axhline(bound * factor, color=QUIET, lw=1, zorder=0)
+        ax.set_title(name.replace("_", " "), loc="left", fontsize=10)
+        ax.set_ylabel(unit)
+        opened(ax)
+    for ax in axes[len(frame.columns):]:
+        ax.set_visible(False)
+    for ax in axes[max(0, len(frame.columns) - 2):len(frame.columns)]:
+        ax.set_xlabel("time [s]")
+        ax.tick_params(labelbottom=True)
+    axes[0].set_xlim(time[0], time[-1])
+    return figure
