@@ -34,7 +34,8 @@ def smooth_recording(model: si.Model) -> si.Recording:
 def test_derivatives_agree_with_central_differences(name, scheme, backend):
     model = MODELS[name]()
     noise = Episodes(2, amplitude=0.2) if model.noises else Episodes()
-    t = transcribe(model, [measure(model, smooth_recording(model), (0.3, 0.6))], scheme_by_name(scheme), noise, {}, (), backend)
+    t = transcribe(model, [measure(model, smooth_recording(model), (0.3, 0.6))], scheme_by_name(scheme), noise,
+                   np.ones((1, len(model.outputs))), (), backend)
     draw = np.random.default_rng(4)
     # Large weights of a network make kinks that no finite difference resolves.
     within = np.array([draw.uniform(*np.clip(p.bounds, *((-0.5, 0.5) if p.role == "weight" else (-300, 300))))

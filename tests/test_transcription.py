@@ -16,7 +16,8 @@ from symid.transcription.delays import SUPPORT, weights
 
 
 def transcribed(model, recording, scheme="midpoint", episodes=None, backend="numpy", window=None):
-    return transcribe(model, [measure(model, recording, window)], scheme_by_name(scheme), episodes or Episodes(), {}, (), backend)
+    return transcribe(model, [measure(model, recording, window)], scheme_by_name(scheme), episodes or Episodes(),
+                      np.ones((1, len(model.outputs))), (), backend)
 
 
 def follow(model, recording, scheme, values) -> np.ndarray:

@@ -10,7 +10,7 @@ from scipy.special import chdtrc
 
 from symid.errors import ModelError
 from symid.identification import Solution
-from symid.identification.solution import outputs_and_targets
+from symid.identification.sensitivity import outputs_and_targets
 
 
 def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] | None = None) -> pd.DataFrame:

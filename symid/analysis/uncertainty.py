@@ -10,6 +10,7 @@ import pandas as pd
 
 from symid.errors import ModelError
 from symid.identification import Identification, Solution
+from symid.identification.covariance import ParameterErrors
 from symid.model import nearest
 
 ALIKE = 0.95
@@ -27,15 +28,24 @@ class Uncertainty:
     combinations : directions in which the parameters may move together, the least known first:
         growth (variance relative to that of independent parameters) and members (name -> step in
         standard errors).
+    errors : the error model by which they were found, and the noise; see `Solution.errors`.
+    determined : combinations that are determined where single parameters are not -> (value, standard error).
     """
 
     parameters: pd.DataFrame
     combinations: tuple[tuple[float, dict[str, float]], ...]
+    errors: ParameterErrors
+    determined: dict[str, tuple[float, float]]
 
     @property
     def at_bound(self) -> list[str]:
         """Names of the parameters that sit at a bound: the data ask for more than was allowed."""
         return list(self.parameters.index[self.parameters["at_bound"]])
+
+    @property
+    def undetermined(self) -> list[str]:
+        """Names of the parameters of which the data say nothing, or only in a combination with others."""
+        return list(self.parameters.index[np.isinf(self.parameters["std_error"])])
 
     @property
     def confused(self) -> list[str]:
@@ -45,14 +55,19 @@ class Uncertainty:
     def __repr__(self) -> str:
         lines = [self.parameters.to_string(float_format="%.4g")]
         lines += [f"At a bound: {', '.join(self.at_bound)}."] if self.at_bound else []
+        if self.undetermined:
+            known = ", ".join(f"{text}: {value:.5g} +- {error:.2g}" for text, (value, error) in self.determined.items())
+            lines.append(f"Not determined: {', '.join(self.undetermined)}" + (f"; only {known}." if known else "."))
         for growth, members in self.combinations:
             together = ", ".join(f"{name} {step:+.2f}" for name, step in members.items())
             lines.append(f"Hardly told apart (variance x {growth:.0f}), in standard errors: {together}.")
-        return "\n".join(lines)
+        return "\n".join([*lines, f"Error model: {self.errors.model} noise, {self.errors.why}."])
 
 
-def uncertainty(solution: Solution) -> Uncertainty:
-    """Judge a solution's parameters by their covariance (see `Solution.covariance`).
+def uncertainty(solution: Solution, errors: str = "auto") -> Uncertainty:
+    """Judge a solution's parameters by their covariance.
+
+    errors : the error model, see `Solution.with_errors`.
 
     A combination is an eigenvector of the correlation matrix whose variance exceeds
     1 / (1 - ALIKE) times the least one's and that of independent parameters by half (Belsley,
@@ -65,19 +80,23 @@ def uncertainty(solution: Solution) -> Uncertainty:
     """
     if not solution.solved:
         raise ModelError(f"uncertainty: the problem was not solved: {solution.message}")
+    solution = solution if errors == solution.error_model else solution.with_errors(errors)
     table = solution.parameters[["value", "std_error", "at_bound"]].copy()
-    table["relative_error"] = table["std_error"] / table["value"].abs()
+    table["relative_error"] = table["std_error"] / table["value"].abs().where(table["value"] != 0)
     table["explained"] = np.nan
-    inner = list(table.index[~table["at_bound"]])
+    inner = list(table.index[np.isfinite(table["std_error"]) & (table["std_error"] > 0)])
     covariance = solution.covariance.loc[inner, inner].to_numpy()
     error = np.sqrt(np.diag(covariance))
     correlation = covariance / np.outer(error, error)
     table.loc[inner, "explained"] = 1 - 1 / np.diag(np.linalg.pinv(correlation, hermitian=True))
-    return Uncertainty(table[["value", "std_error", "relative_error", "explained", "at_bound"]],
-                       tuple(_combinations(inner, correlation)))
+    columns = ["value", "std_error", "relative_error", "explained", "at_bound"]
+    return Uncertainty(table[columns],
+                       tuple(_combinations(inner, correlation)), solution.errors, solution.determined)
 
 
 def _combinations(names: list[str], correlation: np.ndarray):
+    if not names:
+        return
     variances, directions = np.linalg.eigh(correlation)
     for variance, direction in zip(variances[::-1], directions.T[::-1], strict=True):
         if variance > 1.5 and variance > variances[0] / (1 - ALIKE):

@@ -53,7 +53,7 @@ def identification(task: Task, start: str) -> dict:
     built = processor_seconds()
     result = problem.solve_from(z)
     ended = processor_seconds()
-    from symid.identification.solution import outputs_and_targets
+    from symid.identification.sensitivity import outputs_and_targets
 
     pairs = outputs_and_targets(transcription, result.z)
     rms = (sum(((y - d) ** 2).mean() for y, d in pairs) / len(pairs)) ** 0.5

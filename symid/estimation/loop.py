@@ -9,6 +9,7 @@ from scipy.optimize import least_squares
 
 from symid.errors import SolveError
 from symid.estimation.bounds import parameter_bounds
+from symid.estimation.shooting import root_weights
 from symid.simulation import Trajectory, simulator
 from symid.transcription import Transcription
 
@@ -28,9 +29,9 @@ class Loop:
         tiny = 1e-9 * self.scale[:self.q]
         self.lower = np.concatenate([lower + tiny, -free]) / self.scale
         self.upper = np.concatenate([upper - tiny, free]) / self.scale
-        self.weights = np.sqrt(t.program.error_constants[-len(t.model.outputs):])
+        self.weights = root_weights(t)
         self.spread = [10 * np.std(m.targets[m.nodes], axis=0) for m in t.measured]
-        self.variance = np.mean([np.var(m.targets[m.nodes] * self.weights, axis=0) for m in t.measured])
+        self.variance = np.mean([np.var(m.targets[m.nodes] * w, axis=0) for m, w in zip(t.measured, self.weights, strict=True)])
         count = len(t.model.noises)
         self.noise = [dict(zip(t.model.noises, np.vstack([d.noise, np.zeros((1, count))]).T, strict=True))
                       for d in t.program.data]
@@ -65,7 +66,7 @@ class Loop:
 
     def held(self, error: np.ndarray, r: int) -> np.ndarray:
         """Weighted error of recording `r` (nodes, outputs), within ten deviations; NaN, where a run has ended, is ten."""
-        return np.nan_to_num(np.clip(error, -self.spread[r], self.spread[r]), nan=self.spread[r].max()) * self.weights
+        return np.nan_to_num(np.clip(error, -self.spread[r], self.spread[r]), nan=self.spread[r].max()) * self.weights[r]
 
     def distance(self, z: np.ndarray) -> float:
         """Mean square of the error without process noise."""
@@ -84,7 +85,8 @@ class Loop:
     def jacobian(self, z: np.ndarray) -> np.ndarray:
         blocks = []
         for e, d in enumerate(self.t.program.data):
-            slopes = np.nan_to_num(self.run(z, e, slopes=True).dy) * (np.sqrt(d.step) * self.weights)[:, None]
+            scale = np.sqrt(d.step) * self.weights[self.t.recording_of[e]]
+            slopes = np.nan_to_num(self.run(z, e, slopes=True).dy) * scale[:, None]
             block = np.zeros((slopes.shape[0] * slopes.shape[1], len(z)))
             block[:, self._own(e)] = slopes.reshape(len(block), -1) * self.scale[self._own(e)]
             blocks.append(block)

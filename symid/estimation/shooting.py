@@ -45,7 +45,7 @@ class _Shooting:
 
     def __init__(self, t: Transcription):
         self.t, self.simulator = t, simulator(t.model)
-        self.weights = np.sqrt(t.program.error_constants[-len(t.model.outputs):])
+        self.weights = root_weights(t) * np.sqrt([[m.step] for m in t.measured])
         self.scale = np.concatenate([t.layout.parameter_scale, np.tile(t.layout.state_scale, len(t.measured))])
         free = np.full(t.layout.n * len(t.measured), np.inf)
         self.lower, self.upper = (np.concatenate([b, side]) / self.scale
@@ -75,13 +75,13 @@ class _Shooting:
         return (m.time[before], m.states[before]) if self.t.model.delays and m.first else None
 
     def residual(self, z: np.ndarray) -> np.ndarray:
-        errors = [(self.run(z, r).y - m.targets[m.nodes]) * self.weights for r, m in enumerate(self.t.measured)]
+        errors = [(self.run(z, r).y - m.targets[m.nodes]) * self.weights[r] for r, m in enumerate(self.t.measured)]
         return np.nan_to_num(np.concatenate([e.ravel() for e in errors]), nan=1e3)
 
     def jacobian(self, z: np.ndarray) -> np.ndarray:
         blocks = []
         for r in range(len(self.t.measured)):
-            dy = self.run(z, r, slopes=True).dy * self.weights[:, None]
+            dy = self.run(z, r, slopes=True).dy * self.weights[r][:, None]
             block = np.zeros((dy.shape[0] * dy.shape[1], len(z)))
             columns = np.r_[:len(self.t.layout.parameter_names), self._initial(r)]
             block[:, columns] = np.nan_to_num(dy.reshape(len(block), -1)) * self.scale[columns]
@@ -90,12 +90,18 @@ class _Shooting:
 
     def follows(self, z: np.ndarray) -> bool:
         """Whether the simulation errs by less than the recorded outputs vary."""
-        spread = [np.var(m.targets[m.nodes] * self.weights, axis=0) for m in self.t.measured]
-        return bool(np.mean(self.residual(z) ** 2) < np.mean(spread))
+        spread = [np.var(m.targets[m.nodes] * w, axis=0) * (m.intervals + 1)
+                  for m, w in zip(self.t.measured, self.weights, strict=True)]
+        return bool(np.sum(self.residual(z) ** 2) < np.sum(spread))
 
     def fit(self, z: np.ndarray) -> OptimizeResult:
         return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
                              max_nfev=MAX_EVALUATIONS, ftol=1e-3)
+
+
+def root_weights(t: Transcription) -> np.ndarray:
+    """(recordings, m) factors of the output errors whose squares are integrated over time."""
+    return np.sqrt([t.program.weights[t.recording_of.index(r)] for r in range(len(t.measured))])
 
 
 def _noise(t: Transcription) -> list[dict[str, np.ndarray]]:

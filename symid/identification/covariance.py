@@ -1,47 +1,94 @@
-"""Covariance of the identified parameters, from the optimality system and the residual's own colour."""
+"""Covariance of the identified parameters: sensitivities at the solution, and a model of the errors."""
 
 from __future__ import annotations
 
-import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import splu
+from dataclasses import dataclass
 
+import numpy as np
+
+from symid.identification import error_models
+from symid.identification.combinations import Combination, combinations, involved
+from symid.identification.error_models import Errors
+from symid.identification.sensitivity import PROBES, Reduced, Sensitivity
 from symid.ipopt_solver import SolverResult
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
+UNSEEN = 1e-9
+"""Change of the outputs, as a share of what is recorded, by a parameter's whole scale, that counts as none."""
+ALIKE = 1e-7
+"""Relative singular value below which changes of the outputs by several parameters are the same: derivatives through
+a factorised system have some nine digits."""
 
-@one_blas_thread
-def parameter_covariance(t: Transcription, result: SolverResult, errors: list[np.ndarray],
-                         output_slopes: list[np.ndarray]) -> np.ndarray:
-    """(free parameters, free parameters) covariance in SI units; NaN for parameters at a bound.
 
-    A change of one recorded sample moves the optimum by the inverse of the optimality (KKT)
-    matrix times the mixed derivative of the objective. The covariance is that influence applied
-    to the residual's autocovariance, estimated from the residual itself: process noise colours
-    the output error, so that white noise would make the errors far too small (sandwich
-    estimator; Ljung 1999, section 9.4; Newey & West 1987 for the taper).
+@dataclass(frozen=True, eq=False)
+class ParameterErrors:
+    """What a solution's data say of its parameters [SI].
 
     Parameters
     ----------
-    errors : per recording (K + 1, m) output error, mean over episodes; NaN where none was recorded.
-    output_slopes : per episode (K + 1, m, n) derivative of the outputs to the scaled states.
+    covariance : (q, q) on what is determined; zero for parameters at a bound.
+    null : (q, k) directions in which the outputs do not change.
+    at_bound : (q,) whether a parameter sits at a bound.
+    model : name of the error model. why : a sentence about it.
+    noise : (recordings, m) standard deviation of the noise of each output.
     """
-    first, free = t.layout.offsets[-1], len(t.layout.parameter_names)
+
+    covariance: np.ndarray
+    null: np.ndarray
+    at_bound: np.ndarray
+    model: str
+    why: str
+    noise: np.ndarray
+
+    @property
+    def undetermined(self) -> np.ndarray:
+        """(q,) whether the data say nothing of a parameter alone."""
+        return involved(self.null)
+
+    @property
+    def std_errors(self) -> np.ndarray:
+        """(q,) NaN for a parameter at a bound, infinite for one that is not determined."""
+        errors = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
+        return np.where(self.at_bound, np.nan, np.where(self.undetermined, np.inf, errors))
+
+    def determined(self, names: list[str], values: np.ndarray) -> list[tuple[Combination, float]]:
+        """Combinations of undetermined parameters that are determined, with their standard errors."""
+        found = combinations(self.null, names, values)
+        return [(c, float(np.sqrt(max(c.gradient @ self.covariance @ c.gradient, 0.0)))) for c in found]
+
+
+@one_blas_thread
+def parameter_errors(t: Transcription, result: SolverResult, known: np.ndarray, choice: str = "auto",
+                     penalty: float = 0.0, loss: dict[str, float] | None = None) -> ParameterErrors:
+    """Standard errors by an error model of `error_models`.
+
+    A change of one recorded sample moves the optimum by the inverse of the optimality system times
+    the mixed derivative of the objective; noise of the model's covariance is sent through that
+    influence (sandwich; Ljung 1999, section 9.4). Whatever the weights of the objective are.
+
+    Parameters
+    ----------
+    known : (recordings, m) standard deviations of the noise [SI], NaN where unknown.
+    choice : "auto", "white", "coloured" or "clustered".
+    penalty : weight of squared scaled parameters in the objective. loss : output name -> width of a robust loss.
+    """
     at_bound = bound_active(t, result)
-    keep = np.flatnonzero(~at_bound[first:])
-    covariance = np.full((free, free), np.nan)
-    if not len(keep):
-        return covariance
-    response = _parameter_rows_of_inverse(t, result, at_bound)
-    total = np.zeros((len(keep), len(keep)))
-    for r, error in enumerate(errors):
-        influence = sum(_influence(t, e, response, output_slopes[e]) for e, of in enumerate(t.recording_of) if of == r)
-        there = np.isfinite(error)
-        total += _coloured(influence * there[:, :, None], np.where(there, error, 0.0)) / there.mean()
-    scale = t.layout.parameter_scale[keep]
-    covariance[np.ix_(keep, keep)] = total * np.outer(scale, scale)
-    return covariance
+    s = Sensitivity(t, result.z, result.multipliers, at_bound, penalty, loss or {})
+    white = s.gauss_newton
+    inverse, null, shared = _determined(white)
+    errors = _errors(white, shared, known)
+    model, why = error_models.choose(errors, choice, t.episodes.count)
+    reduced, inverse = (white, inverse) if model == "white" else _exact(s, white, inverse)
+    influences = [g @ inverse for g in s.by_recording(s.weights[:, None] * reduced.slopes, np.sum)]
+    total, noise = error_models.covariance(model, errors, influences)
+    scale, q = t.layout.parameter_scale, len(t.layout.parameter_names)
+    free = ~at_bound[t.layout.offsets[-1]:]
+    full = np.zeros((q, q))
+    full[np.ix_(free, free)] = total * np.outer(scale[free], scale[free])
+    directions = np.zeros((q, null.shape[1]))
+    directions[free] = null * scale[free, None]
+    return ParameterErrors(full, directions, ~free, model, why, noise)
 
 
 def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:
@@ -53,45 +100,54 @@ def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:
                ((upper - z < near) & (result.bound_multipliers_upper > 1e-8))
 
 
-def _parameter_rows_of_inverse(t: Transcription, result: SolverResult, at_bound: np.ndarray) -> np.ndarray:
-    """(n, free parameters not at a bound): columns of the inverse KKT matrix, states' part included."""
-    p, n = t.program, t.layout.size
-    values = p.hessian(result.z, result.multipliers, 1.0)
-    lower = sparse.coo_matrix((values, (p.hessian_rows, p.hessian_cols)), shape=(n, n))
-    hessian = (lower + lower.T - sparse.diags(lower.diagonal())).tocsr()
-    jacobian = sparse.coo_matrix((p.jacobian(result.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, n)).tocsc()
-    first, keep = t.layout.offsets[-1], np.flatnonzero(~at_bound)
-    states, parameters = keep[keep < first], keep[keep >= first]
-    inner = sparse.block_array([[hessian[states][:, states], jacobian[:, states].T], [jacobian[:, states], None]],
-                               format="csc")
-    border = sparse.vstack([hessian[states][:, parameters], jacobian[:, parameters]]).toarray()
-    # The parameters touch every interval. Without them what is left is a band along time, which
-    # factorises quickly; they come back through their Schur complement.
-    solved = splu(inner, permc_spec="COLAMD").solve(border)
-    own = np.linalg.inv(hessian[parameters][:, parameters].toarray() - border.T @ solved)
-    response = np.zeros((n, len(parameters)))
-    response[parameters] = own
-    response[states] = -(solved @ own)[:len(states)]
-    return response
+def _determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Inverse information (q, q) on the determined subspace, null space (q, k), orthonormal slopes (rows, q - k)."""
+    s = reduced.s
+    rooted = np.sqrt(s.curvatures)[:, None] * reduced.slopes
+    rooted = np.vstack([rooted, np.sqrt(s.penalty) * np.eye(rooted.shape[1])])
+    size = np.linalg.norm(rooted, axis=0)
+    recorded = np.concatenate([np.nan_to_num(s.t.measured[r].recorded).ravel() for r in s.t.recording_of])
+    seen = size > UNSEEN * np.sqrt(np.sum(s.weights * recorded**2))
+    scale = np.where(seen, size, 1.0)
+    u, values, v = np.linalg.svd(np.where(seen, rooted / scale, 0.0), full_matrices=False)
+    kept = values > ALIKE
+    root = v[kept].T / values[kept] / scale[:, None]
+    return root @ root.T, v[~kept].T / scale[:, None], reduced.slopes @ root
 
 
-def _influence(t: Transcription, episode: int, response: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-    """(K + 1, m, q) change of the scaled parameters per change of each recorded sample."""
-    layout, weights = t.layout, t.program.error_constants[-len(t.model.outputs):]
-    nodes = np.stack([layout.sample_view(np.ascontiguousarray(column), episode) for column in response.T], axis=-1)
-    return 2 * t.program.data[episode].step * np.einsum("j,kjs,ksq->kjq", weights, slopes, nodes)
+def _exact(s: Sensitivity, white: Reduced, inverse: np.ndarray) -> tuple[Reduced, np.ndarray]:
+    """With the curvature of model and outputs where that is a minimum, on the determined subspace; else without.
+
+    Errors that are not small beside the motion bend the objective, most of all those of the process
+    noise that an episode is given.
+    """
+    values, vectors = np.linalg.eigh(inverse)
+    root = vectors[:, values > 0] * np.sqrt(values[values > 0])
+    curvature = root.T @ s.exact.curvature @ root
+    if np.linalg.eigvalsh(curvature).min(initial=1.0) <= ALIKE:
+        return white, inverse
+    return s.exact, root @ np.linalg.inv(curvature) @ root.T
 
 
-def _coloured(influence: np.ndarray, error: np.ndarray) -> np.ndarray:
-    """(q, q) influence' R influence, with R the tapered autocovariance of `error` at all lags."""
-    from scipy.signal import fftconvolve  # here and not at the top: takes half the time that a worker needs to start
-    samples, channels = error.shape
-    lags = samples // 4
-    taper = 1 - np.arange(-lags, lags + 1) / (lags + 1) * np.sign(np.arange(-lags, lags + 1))
-    total = np.zeros((influence.shape[2],) * 2)
-    for i in range(channels):
-        for j in range(channels):
-            covariance = fftconvolve(error[:, i], error[::-1, j])[samples - 1 - lags:samples + lags] / samples * taper
-            spread = fftconvolve(influence[:, j], covariance[:, None], axes=0)[lags:lags + samples]
-            total += influence[:, i].T @ spread
-    return 0.5 * (total + total.T)
+def _errors(reduced: Reduced, shared: np.ndarray, known: np.ndarray) -> list[Errors]:
+    s, t = reduced.s, reduced.s.t
+    own = s.by_recording(reduced.initial_slopes(t.layout.n * t.episodes.count + PROBES))
+    found = []
+    for r, slopes in enumerate(s.by_recording(shared)):
+        episodes = [e for e, of in enumerate(t.recording_of) if of == r]
+        error = np.mean([s.pulls[e] for e in episodes], axis=0)
+        present = np.isfinite(t.measured[r].recorded)
+        step = t.program.data[episodes[0]].step
+        weights = step * t.program.weights[episodes[0]] * len(episodes)
+        slopes, own_slopes = slopes * present[:, :, None], own[r] * present[:, :, None]
+        found.append(Errors(error, slopes, _orthonormal(own_slopes, weights), weights, known[r], present))
+    return found
+
+
+def _orthonormal(slopes: np.ndarray, weights: np.ndarray) -> np.ndarray:
+    """(K, m, d) a basis of the slopes whose weighted squares sum to one."""
+    root = np.sqrt(weights)[:, None]
+    u, values, _ = np.linalg.svd((slopes * root).reshape(slopes.shape[0] * slopes.shape[1], slopes.shape[2]), full_matrices=False)
+    kept = values > ALIKE * values.max(initial=0.0)
+    seen = np.divide(1.0, root, out=np.zeros_like(root), where=root > 0)
+    return u[:, kept].reshape(*slopes.shape[:2], kept.sum()) * seen

@@ -59,6 +59,7 @@ def problem_identity(problem: Identification) -> dict[str, str]:
         "scheme": digest(problem.scheme),
         "episodes": digest(problem.episodes),
         "weights": digest(problem.weights if not problem.loss else (problem.weights, problem.loss)),
+        "noise": digest(problem.noise),
         "per_recording": digest(tuple(problem.per_recording)),
         "ridge": digest(problem.ridge if problem.ridge_about == "zero" else (problem.ridge, problem.ridge_about)),
         "backend": problem.backend,

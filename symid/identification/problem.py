@@ -20,6 +20,7 @@ from symid.identification.starts.default import default_start, given_start, rand
 from symid.identification.starts.search import can_search, relaxed_start, search_start
 from symid.identification.starts.stable import stable_start
 from symid.identification.study import Solve, Study, start_kinds
+from symid.identification.weighting import to_likelihood, weights_of
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model
 from symid.nlp import NonlinearProgram, with_ridge
@@ -35,7 +36,9 @@ class Identification:
     """Find the parameters with which a model follows one or more recordings best.
 
     The objective is the integral over the window of the squared output error (Wang & van den
-    Bogert 2020, eq. 7), summed over outputs with their `weights`, episodes and recordings.
+    Bogert 2020, eq. 7), summed over outputs with their `weights`, episodes and recordings. Where
+    it leaves a white residual, `solve` goes on to the maximum-likelihood estimate: every squared error
+    is weighted by the noise of its channel in its recording, known or estimated.
 
     Parameters
     ----------
@@ -44,7 +47,12 @@ class Identification:
     window : (t0, t1) [s] of every recording, or one pair per recording; None for all of it.
     scheme : collocation scheme.
     episodes : how many noisy repetitions of each recording; one without noise by default.
-    weights : output name -> weight of its squared error, 1 by default.
+    weights : output name -> weight of the integral of its squared error, 1 where not given, and no
+        likelihood. By default 1, or where outputs have several units, one over the mean variance of those
+        of the same unit.
+    noise : for each recording, output name -> standard deviation of its white noise [SI], from which the
+        likelihood's weights follow at once; what is not given is taken from `Recording.noise`. By default
+        `solve` estimates it (a Study does not), or takes what `Recording.noise` says if the residual agrees.
     loss : output name -> width [its unit] beyond which its error counts by its size instead of its square, against
         outliers (`codegen.interval.objective_program`).
     per_recording : names of parameters that differ between the recordings.
@@ -67,7 +75,8 @@ class Identification:
     window: tuple[float, float] | Sequence[tuple[float, float]] | None = None
     scheme: Scheme = field(default_factory=Midpoint)
     episodes: Episodes = field(default_factory=Episodes)
-    weights: dict[str, float] = field(default_factory=dict)
+    weights: dict[str, float] | None = None
+    noise: Sequence[dict[str, float]] | None = None
     loss: dict[str, float] = field(default_factory=dict)
     per_recording: Sequence[str] = ()
     backend: str = "auto"
@@ -100,7 +109,8 @@ class Identification:
             raise TranscriptionError(f"model '{self.model.name}' has no Output: declare what the recording shows")
         began = time.perf_counter()
         measured = [measure(self.model, r, w) for r, w in zip(self.recordings, self.windows, strict=True)]
-        made = transcribe(self.model, measured, self.scheme, self.episodes, self.weights, self.per_recording, self.backend,
+        weights = weights_of(self, measured)
+        made = transcribe(self.model, measured, self.scheme, self.episodes, weights, self.per_recording, self.backend,
                           int(self.refine), loss=self.loss)
         made.seconds["build"] = time.perf_counter() - began
         return made
@@ -203,6 +213,5 @@ class Identification:
         study = Study({f"start {k + 1}": Solve(self, kind, k, seed, solver)
                        for k, kind in enumerate(start_kinds(self, starts, start))}, store)
         on_finished = None if on_start is None else lambda finished: on_start(finished.row)
-        if executor is None:
-            return study.run_here(on_finished, on_iteration).best()
-        return study.run(executor, on_finished=on_finished).best()
+        ended = study.run_here(on_finished, on_iteration) if executor is None else study.run(executor, on_finished=on_finished)
+        return to_likelihood(ended.best(), on_iteration=on_iteration, **solver)

@@ -6,10 +6,15 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from symid.identification.fit import fit_text
+from symid.identification.weighting import by_noise
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
     from symid.identification.solution import Solution
+
+
+SHOWN = 3
+"""Recordings whose noise is written out."""
 
 
 def problem_facts(problem: Identification) -> dict[str, str]:
@@ -19,7 +24,9 @@ def problem_facts(problem: Identification) -> dict[str, str]:
     for recording, window in zip(problem.recordings, problem.windows, strict=True):
         start, end = window or recording.interval
         facts[f"recording {recording.name}"] = f"{start:g} s to {end:g} s"
-    facts["compared"] = ", ".join(f"{y.channel} (weight {problem.weights.get(name, 1.0):g})" for name, y in model.outputs.items())
+    given = "" if problem.weights is None else " (weight {:g})"
+    facts["compared"] = ", ".join(y.channel + given.format((problem.weights or {}).get(name, 1.0))
+                                  for name, y in model.outputs.items()) + (", weighted by their noise" if by_noise(problem) else "")
     facts["scheme"] = problem.scheme.name
     facts["episodes"] = str(e.count) if e.count == 1 else f"{e.count}, {e.distribution} noise, seed {e.seed}"
     return facts
@@ -53,11 +60,28 @@ def warnings(solution: Solution) -> list[str]:
             f"model.with_bounds({name}=(lower, upper))" for name, share in solution.cut_off.items()]
 
 
+def error_notes(solution: Solution) -> list[str]:
+    """A sentence on the error model, and one on what is determined where single parameters are not."""
+    e = solution.errors
+    if e is None:
+        return []
+    outputs = solution.model.outputs
+    noise = "; ".join(", ".join(f"{name} {x:.3g} {outputs[name].unit}" for name, x in zip(outputs, row, strict=True))
+                      for row in e.noise[:SHOWN])
+    more = f"; and {len(e.noise) - SHOWN} more recordings" if len(e.noise) > SHOWN else ""
+    notes = [f"Standard errors: {e.model} noise, {e.why}. Noise (standard deviation): {noise}{more}"]
+    lost = [name for name, u in zip(solution.values, e.undetermined, strict=True) if u]
+    if lost:
+        found = ", ".join(f"{text}: {value:.5g} +- {error:.2g}" for text, (value, error) in solution.determined.items())
+        notes.append(f"These data do not determine {', '.join(lost)}" + (f": only {found}" if found else " at all"))
+    return notes
+
+
 def text(solution: Solution) -> str:
     """Headline, what Ipopt said, and the parameters."""
     table = solution.parameters[["value", "std_error", "unit", "at_bound"]]
     starts = f"\nBest of {len(solution.starts)} starts." if len(solution.starts) > 1 else ""
-    cut = "".join(f"\n{warning}." for warning in warnings(solution))
+    cut = "".join(f"\n{warning}." for warning in (*warnings(solution), *error_notes(solution)))
     return f"{solution.model.name}\n{headline(solution)}\n{solution.message}{starts}{cut}\n{table.to_string(float_format='%.5g')}"
 
 
@@ -77,4 +101,5 @@ def html(solution: Solution) -> str:
     return (f"<h4>{escape(solution.model.name)}</h4><p>{escape(headline(solution))}</p>"
             f'<p style="color:{colour}">{escape(solution.message)}</p>'
             + "".join(f'<p style="color:#c0392b">{escape(warning)}.</p>' for warning in warnings(solution)) +
+            "".join(f"<p>{escape(note)}.</p>" for note in error_notes(solution)) +
             f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import platform
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from datetime import UTC, datetime
 from functools import cached_property
 from importlib import import_module
@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
-from symid.codegen import compile_program
-from symid.codegen.interval import output_program
 from symid.errors import SolveError
-from symid.identification.covariance import bound_active, parameter_covariance
+from symid.identification.covariance import ParameterErrors, bound_active, parameter_errors
 from symid.identification.fit import fit_measures
+from symid.identification.sensitivity import outputs_and_targets
+from symid.identification.weighting import noise_levels
 from symid.ipopt_solver import SolverResult
 from symid.model import Model
 from symid.transcription import Transcription
@@ -70,6 +70,7 @@ class Solution:
     result : what Ipopt returned for the best start.
     starts : one row for each start, in their order.
     best : which of them this is.
+    error_model : asked for: "auto", "white", "coloured" or "clustered"; see `with_errors`.
     """
 
     problem: Identification
@@ -78,6 +79,7 @@ class Solution:
     best: int
     fingerprint: str
     created: str
+    error_model: str = "auto"
 
     @property
     def transcription(self) -> Transcription:
@@ -105,17 +107,41 @@ class Solution:
         t = self.transcription
         return dict(zip(t.layout.parameter_names, map(float, t.layout.parameters(self.result.z)), strict=True))
 
+    def with_errors(self, model: str) -> Solution:
+        """The same solution with standard errors by another error model.
+
+        model : "white" (noise without memory), "coloured" (stationary noise with a memory), "clustered"
+            (any noise that is independent from recording to recording), or "auto": white where the
+            residual's autocorrelation does not refute it, else coloured.
+        """
+        return replace(self, error_model=model)
+
+    @cached_property
+    def errors(self) -> ParameterErrors | None:
+        """What the data say of the parameters, and by which error model; None where not solved."""
+        if not self.solved:
+            return None
+        known = noise_levels(replace(self.problem, noise=None))
+        return parameter_errors(self.transcription, self.result, known, self.error_model,
+                                self.problem.ridge * self.problem.episodes.count * len(self.problem.recordings),
+                                self.problem.loss)
+
     @cached_property
     def covariance(self) -> pd.DataFrame:
-        """Covariance of the free parameters [SI], see `identification.covariance`."""
-        t, names = self.transcription, list(self.values)
-        if not self.solved:
-            return pd.DataFrame(np.nan, index=names, columns=names)
-        pairs = outputs_and_targets(t, self.result.z)
-        errors = [np.mean([y - d for (y, d), of in zip(pairs, t.recording_of, strict=True) if of == r], axis=0)
-                  for r in range(len(t.measured))]
-        matrix = parameter_covariance(t, self.result, errors, output_slopes(t, self.result.z))
+        """Covariance of the free parameters [SI]: NaN for those at a bound, infinite variance where undetermined."""
+        names = list(self.values)
+        matrix = np.full((len(names),) * 2, np.nan)
+        if self.errors is not None:
+            known = np.isfinite(self.errors.std_errors)
+            matrix[np.ix_(known, known)] = self.errors.covariance[np.ix_(known, known)]
+            np.fill_diagonal(matrix, self.errors.std_errors ** 2)
         return pd.DataFrame(matrix, index=names, columns=names)
+
+    @cached_property
+    def determined(self) -> dict[str, tuple[float, float]]:
+        """Combinations of parameters that are determined where these alone are not -> (value, standard error) [SI]."""
+        found = [] if self.errors is None else self.errors.determined(list(self.values), np.array(list(self.values.values())))
+        return {c.text: (c.value, error) for c, error in found}
 
     @cached_property
     def parameters(self) -> pd.DataFrame:
@@ -177,8 +203,9 @@ class Solution:
         known = {name: value for name, value in self.values.items() if "[" not in name}
         if len(known) < len(self.values):
             raise SolveError("fit_on: parameters differ between recordings; fix those you mean with model.fixed()")
-        other = Identification(self.model.fixed(**known), recording or self.problem.recordings[0], window,
-                               scheme=self.problem.scheme, weights=self.problem.weights, backend=self.problem.backend)
+        p = self.problem
+        other = Identification(self.model.fixed(**known), recording or p.recordings[0], window, scheme=p.scheme,
+                               weights=p.weights, noise=p.noise and p.noise[:1], backend=p.backend)
         solution = other.solve()
         if not solution.solved:
             raise SolveError(f"fit_on: the free run over {window[0]:g} to {window[1]:g} s was not found: {solution.message}")
@@ -197,7 +224,7 @@ class Solution:
                             "nodes": m.intervals * p.refine + 1, "history": list(r.history)}
                            for m, r in zip(t.measured, p.recordings, strict=True)],
             "scheme": p.scheme.name, "episodes": asdict(p.episodes) | {"by_word": dict(p.episodes.by_word)},
-            "weights": dict(p.weights),
+            "weights": p.weights, "noise": p.noise,
         }
 
     def to_dict(self) -> dict:
@@ -207,6 +234,7 @@ class Solution:
             "format": "symid solution 1",
             "parameters": {name: {k: row[k] for k in ("value", "std_error", "unit", "at_bound")}
                            | {"bounds": [row["lower"], row["upper"]]} for name, row in rows.items()},
+            "errors": self._errors_said(),
             "fit": self.fit,
             "solver": {"status": self.result.status_name, "solved": self.solved, "sentence": self.message,
                        "iterations": self.result.iterations, "seconds": self.seconds,
@@ -214,6 +242,13 @@ class Solution:
             "starts": [asdict(row) for row in self.starts],
             "provenance": self.provenance,
         }
+
+    def _errors_said(self) -> dict | None:
+        e = self.errors
+        return None if e is None else {
+            "model": e.model, "why": e.why, "noise": [dict(zip(self.model.outputs, map(float, row), strict=True)) for row in e.noise],
+            "undetermined": [n for n, u in zip(self.values, e.undetermined, strict=True) if u],
+            "determined": {text: {"value": value, "std_error": error} for text, (value, error) in self.determined.items()}}
 
     @property
     def seconds(self) -> dict[str, float]:
@@ -240,28 +275,3 @@ class Solution:
 def build_solution(problem: Identification, result: SolverResult, starts: tuple[StartRow, ...], best: int) -> Solution:
     return Solution(problem, result, starts, best, problem.model.fingerprint,
                     datetime.now(UTC).isoformat(timespec="seconds"))
-
-
-def _output_arguments(t: Transcription, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
-    layout, outputs = t.layout, len(t.model.outputs)
-    node = t.program.data[e].node
-    return (np.ascontiguousarray(layout.sample_view(z, e)), z[layout.parameter_columns(e)],
-            np.ascontiguousarray(node[:, :node.shape[1] - outputs]), t.program.error_constants[:-outputs])
-
-
-def outputs_and_targets(t: Transcription, z: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Per episode the model's outputs and the recorded ones, (nodes, m) each, SI; NaN where none was recorded."""
-    kernel = compile_program(output_program(t.model), backend="numpy")
-    return [(kernel.residual(*_output_arguments(t, z, e)), t.measured[r].recorded) for e, r in enumerate(t.recording_of)]
-
-
-def output_slopes(t: Transcription, z: np.ndarray) -> list[np.ndarray]:
-    """Per episode (nodes, m, n) derivatives of the outputs to what the nodes hold, scaled."""
-    kernel, slopes = compile_program(output_program(t.model), backend="numpy"), []
-    local = kernel.jacobian_cols < kernel.n_local
-    for e, d in enumerate(t.program.data):
-        dense = np.zeros((len(d.node), kernel.m, t.layout.width))
-        dense[:, kernel.jacobian_rows[local], kernel.jacobian_cols[local]] = \
-            kernel.jacobian(*_output_arguments(t, z, e))[:, local]
-        slopes.append(dense)
-    return slopes

@@ -74,7 +74,7 @@ class Optimization:
         past = np.array([before.get(s, 0.0) for s in model.states])
         grid = Measured(model.name, axis, {}, None, np.tile(past, (count, 1)), 0, count - 1,
                         {u: np.full(count, before.get(u, 0.0)) for u in model.controls})
-        made = transcribe(model, [grid], self.scheme, Episodes(), {}, (), self.backend, duration=name)
+        made = transcribe(model, [grid], self.scheme, Episodes(), np.ones((1, len(model.outputs))), (), self.backend, duration=name)
         made.seconds["build"] = time.perf_counter() - began
         return made
 

@@ -10,7 +10,7 @@ import numpy as np
 from symid.files import write_atomically
 from symid.identification import Solution
 from symid.identification.fit import common_unit, rms_text
-from symid.identification.show import headline, problem_facts, warnings
+from symid.identification.show import error_notes, headline, problem_facts, warnings
 from symid.model.show import latex_lines
 from symid.plots import plot_fit, plot_inputs, plot_parameters, plot_residual_spectra, plot_starts, typical_stretch
 from symid.report.page import equations, facts, figure, folded, heading, number, page, paragraph, table
@@ -103,8 +103,8 @@ def _parameters(solution: Solution, truth: dict[str, float] | None) -> str:
 def _errors_note(solution: Solution) -> str:
     if not solution.solved:
         return paragraph("Not solved, so there are no standard errors, and the values are where the solver stopped.", "bad")
-    return paragraph("Standard errors allow for residuals that are correlated in time and between channels; "
-                     "a parameter at a bound has none.", "note")
+    return paragraph(" ".join(f"{note}." for note in (*error_notes(solution), "A parameter at a bound has no standard error")),
+                     "note")
 
 
 def _fit(solution: Solution, held_out: Solution | None) -> str:
@@ -152,7 +152,8 @@ def _provenance(solution: Solution) -> str:
     constants = p.pop("constants")
     plain = {k.replace("_", " "): " ".join(map(str, v)) if isinstance(v, list) else v for k, v in p.items()}
     plain["episodes"] = problem_facts(solution.problem)["episodes"]
-    plain["weights"] = ", ".join(f"{k} {v:g}" for k, v in p["weights"].items()) or "1 for every output"
+    plain["weights"] = ", ".join(f"{k} {v:g}" for k, v in (p["weights"] or {}).items()) or "by the noise, or 1 for every output"
+    plain["noise"] = "; ".join(", ".join(f"{k} {v:.3g}" for k, v in table.items()) for table in p["noise"] or []) or "not estimated"
     plain["terms"] = plain["terms"] or "none added"
     for r in recordings:
         plain[f"recording {r['name']}"] = (f"{r['window_s'][0]:g} to {r['window_s'][1]:g} s, {r['nodes']} nodes; "

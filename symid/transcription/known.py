@@ -9,8 +9,7 @@ import numpy as np
 from symid.codegen import Kernel
 from symid.codegen.interval import equations_over
 from symid.codegen.symbols import own_points, used_data
-from symid.errors import TranscriptionError
-from symid.model import Model, nearest
+from symid.model import Model
 from symid.transcription.data import Measured
 from symid.transcription.layout import Layout
 from symid.transcription.program import EpisodeData
@@ -100,10 +99,6 @@ def row_names(model: Model, scheme: Scheme) -> tuple[str, ...]:
     return (*(f"equation {names[i]}" for i in equation if i >= 0), *(f"collocation defect of state {s}" for s in states))
 
 
-def error_constants(model: Model, layout: Layout, weights: dict[str, float]) -> np.ndarray:
-    for name, weight in weights.items():
-        if name not in model.outputs:
-            raise TranscriptionError(f"weights: model '{model.name}' has no output '{name}'; {nearest(name, model.outputs)}")
-        if not (np.isfinite(weight) and weight >= 0):
-            raise TranscriptionError(f"weights: the weight {weight:g} of '{name}' must be a finite number of at least 0")
-    return np.concatenate([values_of(model), scales(layout), [weights.get(y, 1.0) for y in model.outputs]])
+def error_constants(model: Model, layout: Layout) -> np.ndarray:
+    """What `objective_program` and `output_program` know beside the weights of the outputs."""
+    return np.concatenate([values_of(model), scales(layout)])

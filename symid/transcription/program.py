@@ -39,16 +39,17 @@ class CollocationProgram:
     Rows: all intervals of episode 0, of episode 1 ..., then late signals, then ties (unknowns that are
     equal: the initial states of linked episodes, the last two values of a held control), then the
     `demanded` blocks of constraints. Objective: the integral over time of the weighted squared output
-    error, summed over episodes, where there are recorded outputs, and the `wanted` blocks.
+    error, with `weights` (episodes, m), summed over episodes, where there are recorded outputs, and the `wanted` blocks.
     """
 
     def __init__(self, *, layout: Layout, interval: Kernel, error: Kernel | None, data: tuple[EpisodeData, ...],
-                 constants: tuple[np.ndarray, ...], error_constants: np.ndarray, late: tuple[LateSignal, ...],
-                 ties: np.ndarray, tie_names: tuple[str, ...], bounds: tuple[np.ndarray, np.ndarray],
+                 constants: tuple[np.ndarray, ...], error_constants: np.ndarray, weights: np.ndarray,
+                 late: tuple[LateSignal, ...], ties: np.ndarray, tie_names: tuple[str, ...], bounds: tuple[np.ndarray, np.ndarray],
                  row_names: tuple[str, ...], times: tuple[np.ndarray, ...], demanded: tuple[Block, ...] = (),
                  wanted: tuple[Block, ...] = ()):
         self.layout, self.interval, self.error, self.data = layout, interval, error, data
         self.constants, self.error_constants, self.late, self.times = constants, error_constants, late, times
+        self.weights = weights
         self.ties, self.tie_names, self.row_names = ties.reshape(-1, 2), tie_names, row_names
         self.lower, self.upper = bounds
         self.intervals = tuple(self._interval_block(e) for e in range(len(data)))
@@ -73,7 +74,8 @@ class CollocationProgram:
         node = self.data[e].node
         data = np.ascontiguousarray(np.hstack([node, self.data[e].loss]))
         return Block(self.error, lambda z: self.layout.sample_view(z, e), self.layout.parameter_columns(e), data,
-                     self.error_constants, self.layout.size, weights=np.full((len(node), 1), self.data[e].step))
+                     np.concatenate([self.error_constants, self.weights[e]]), self.layout.size,
+                     weights=np.full((len(node), 1), self.data[e].step))
 
     def _constraint_bounds(self) -> tuple[np.ndarray, np.ndarray]:
         pairs = [b.bounds() for b in self.demanded]

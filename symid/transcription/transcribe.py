@@ -65,10 +65,11 @@ class Transcription:
 
 
 def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episodes: Episodes,
-               weights: dict[str, float], per_recording: Sequence[str], backend: str, refine: int = 1,
+               weights: np.ndarray, per_recording: Sequence[str], backend: str, refine: int = 1,
                duration: str | None = None, loss: dict[str, float] | None = None) -> Transcription:
     """Compile the kernels, lay out the free vector, and gather the data of every episode.
 
+    weights : (recordings, m) of the time integrals of the squared output errors.
     duration : name of the parameter that is the motion's duration [s], where this is unknown; the time of
         `measured` is then a share of it.
     loss : output name -> width [its unit] beyond which its error counts by its size instead of its square.
@@ -91,7 +92,7 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
         layout=layout, interval=interval, error=error, data=tuple(data),
         constants=interval_constants(model, scheme, interval, layout, measured, data, recording_of, _typical(model, layout),
                                      graded),
-        error_constants=error_constants(model, layout, weights),
+        error_constants=error_constants(model, layout), weights=np.asarray(weights)[list(recording_of)],
         late=tuple(gather_late(model, scheme, layout, measured, recording_of, interval.m * sum(layout.intervals))),
         ties=tied, tie_names=tie_names, bounds=bounds(model, layout), row_names=row_names(model, scheme),
         times=tuple(measured[r].mesh(refine) for r in recording_of), demanded=demands.demanded(), wanted=demands.wanted())

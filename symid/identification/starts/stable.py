@@ -167,7 +167,7 @@ class DisplacedRuns(Loop):
             m = self.t.measured[r]
             error, run = self._displaced_run(z, r, x, slopes=True)
             free = np.abs(run.y - m.targets[m.nodes]) < self.spread[r]  # False where the run has ended, too
-            slopes = np.where(free[..., None], run.dy, 0.0) * (self.price * np.sqrt(m.step) * self.weights)[:, None]
+            slopes = np.where(free[..., None], run.dy, 0.0) * (self.price * np.sqrt(m.step) * self.weights[r])[:, None]
             block = np.zeros((error.size, len(z)))
             block[:, :self.q] = slopes.reshape(error.size, -1) * self.scale[:self.q]
             blocks.append(block)

@@ -1,0 +1,163 @@
+"""How outputs and estimates depend on parameters, initial states and samples at a solution, to first order."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from scipy import sparse
+from scipy.sparse.linalg import splu
+
+from symid.codegen import compile_program
+from symid.codegen.interval import output_program
+from symid.transcription import Transcription
+
+DAMPING = 1e-11
+"""Curvature, relative to the largest, that is added to every state: an unobserved one would make the system singular."""
+PROBES = 2
+"""Random right-hand sides beyond the expected rank with which a range is found (Halko, Martinsson & Tropp 2011)."""
+
+
+def output_arguments(t: Transcription, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
+    layout, node = t.layout, t.program.data[e].node
+    return (np.ascontiguousarray(layout.sample_view(z, e)), z[layout.parameter_columns(e)],
+            np.ascontiguousarray(node[:, :node.shape[1] - len(t.model.outputs)]), t.program.error_constants)
+
+
+def outputs_and_targets(t: Transcription, z: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Per episode the model's outputs and the recorded ones, (samples, m) each, SI; NaN where none was recorded."""
+    kernel = compile_program(output_program(t.model), backend="numpy")
+    return [(kernel.residual(*output_arguments(t, z, e)), t.measured[r].recorded) for e, r in enumerate(t.recording_of)]
+
+
+def sample_counts(t: Transcription) -> list[int]:
+    """Samples of each episode."""
+    return [t.measured[r].intervals + 1 for r in t.recording_of]
+
+
+def output_jacobian(t: Transcription, z: np.ndarray) -> sparse.csr_matrix:
+    """Derivatives of all outputs to the free vector: rows by episode, sample and output."""
+    kernel, layout = compile_program(output_program(t.model), backend="numpy"), t.layout
+    rows, columns, values, first = [], [], [], 0
+    for e, samples in enumerate(sample_counts(t)):
+        places = np.hstack([layout.sample_view(np.arange(layout.size), e),
+                            np.broadcast_to(layout.parameter_columns(e), (samples, kernel.n_shared))])
+        rows.append((first + kernel.m * np.arange(samples)[:, None] + kernel.jacobian_rows).ravel())
+        columns.append(places[:, kernel.jacobian_cols].ravel())
+        values.append(kernel.jacobian(*output_arguments(t, z, e)).ravel())
+        first += kernel.m * samples
+    values, rows, columns = map(np.concatenate, (values, rows, columns))
+    return sparse.coo_matrix((values, (rows, columns)), shape=(first, layout.size)).tocsr()
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivity:
+    """A solution, linearised: the program's constraints hold, unknowns at a bound stay there.
+
+    Parameters
+    ----------
+    z, multipliers : the solution. fixed : (n,) whether an unknown stays where it is.
+    penalty : curvature that a ridge adds to the objective for each scaled parameter, halved.
+    loss : output name -> width of a robust loss [SI].
+    """
+
+    t: Transcription
+    z: np.ndarray
+    multipliers: np.ndarray
+    fixed: np.ndarray
+    penalty: float = 0.0
+    loss: dict[str, float] = field(default_factory=dict)
+
+    @cached_property
+    def columns(self) -> tuple[np.ndarray, np.ndarray]:
+        """Places in z of the free states (and other unknowns over time), and of the free parameters."""
+        keep, first = np.flatnonzero(~self.fixed), self.t.layout.offsets[-1]
+        return keep[keep < first], keep[keep >= first]
+
+    @cached_property
+    def outputs(self) -> sparse.csr_matrix:
+        return output_jacobian(self.t, self.z)
+
+    @cached_property
+    def errors(self) -> list[np.ndarray]:
+        """Per episode (samples, m) output minus recorded output, zero where none was recorded."""
+        return [np.nan_to_num(y - d) for y, d in outputs_and_targets(self.t, self.z)]
+
+    @cached_property
+    def widths(self) -> np.ndarray:
+        """(m,) errors from which a robust loss bends, infinite for squares."""
+        return np.array([self.loss.get(name, np.inf) for name in self.t.model.outputs])
+
+    @cached_property
+    def weights(self) -> np.ndarray:
+        """(rows,) of the objective, a sum of weighted squares, in the order of `outputs`; zero where none was recorded."""
+        p, t = self.t.program, self.t
+        return np.concatenate([(np.isfinite(t.measured[r].recorded) * (d.step * w)).ravel()
+                               for d, w, r in zip(p.data, p.weights, t.recording_of, strict=True)])
+
+    @cached_property
+    def curvatures(self) -> np.ndarray:
+        """(rows,) weights times half the second derivative of the loss, which is one for squares."""
+        return self.weights * np.concatenate([(1 + (e / self.widths) ** 2) ** -1.5 for e in self.errors]).ravel()
+
+    @cached_property
+    def pulls(self) -> list[np.ndarray]:
+        """Per episode (samples, m) half the first derivative of the loss: the error itself for squares."""
+        return [e / np.sqrt(1 + (e / self.widths) ** 2) for e in self.errors]
+
+    @cached_property
+    def constraints(self) -> sparse.csc_matrix:
+        p = self.t.program
+        return sparse.coo_matrix((p.jacobian(self.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, len(self.z))).tocsc()
+
+    @cached_property
+    def gauss_newton(self) -> Reduced:
+        """Without the curvature of outputs and constraints: the expected information."""
+        rooted = self.outputs.multiply(np.sqrt(self.curvatures)[:, None]).tocsr()
+        return Reduced(self, (rooted.T @ rooted).tocsr())
+
+    @cached_property
+    def exact(self) -> Reduced:
+        """With the curvature of outputs and constraints."""
+        p, n = self.t.program, len(self.z)
+        values = 0.5 * p.hessian(self.z, self.multipliers, 1.0)
+        lower = sparse.coo_matrix((values, (p.hessian_rows, p.hessian_cols)), shape=(n, n))
+        return Reduced(self, (lower + lower.T - sparse.diags(lower.diagonal())).tocsr())
+
+    def by_recording(self, rows: np.ndarray, over=np.mean) -> list[np.ndarray]:
+        """(rows, q) in the order of `outputs` -> per recording (K + 1, m, q), the mean (or sum) over its episodes."""
+        m, counts = len(self.t.model.outputs), sample_counts(self.t)
+        blocks = [b.reshape(k, m, rows.shape[1])
+                  for b, k in zip(np.split(rows, np.cumsum([m * k for k in counts])[:-1]), counts, strict=True)]
+        return [over([b for b, of in zip(blocks, self.t.recording_of, strict=True) if of == r], axis=0)
+                for r in range(len(self.t.measured))]
+
+
+class Reduced:
+    """The quadratic model of the objective, reduced to the parameters: all else follows them.
+
+    The parameters touch every interval. Without them what is left is a band along time, which
+    factorises quickly; they come back through their Schur complement.
+    """
+
+    def __init__(self, s: Sensitivity, hessian: sparse.csr_matrix):
+        self.s = s
+        self.states, self.parameters = s.columns
+        inner = hessian[self.states][:, self.states]
+        inner = inner + DAMPING * (abs(inner.diagonal()).max(initial=0.0) or 1.0) * sparse.identity(len(self.states))
+        a = s.constraints[:, self.states]
+        nothing = -1e-14 * sparse.identity(a.shape[0])    # where a bound cuts the motion off there are more rows than states
+        self.factor = splu(sparse.block_array([[inner, a.T], [a, nothing]], format="csc"), permc_spec="COLAMD")
+        border = sparse.vstack([hessian[self.states][:, self.parameters], s.constraints[:, self.parameters]]).toarray()
+        solved = self.factor.solve(border)
+        self.slopes = s.outputs[:, self.parameters].toarray() - s.outputs[:, self.states] @ solved[:len(self.states)]
+        self.curvature = hessian[self.parameters][:, self.parameters].toarray() - border.T @ solved
+        self.curvature = 0.5 * (self.curvature + self.curvature.T) + s.penalty * np.eye(len(self.parameters))
+
+    def initial_slopes(self, count: int) -> np.ndarray:
+        """(rows, count) outputs that the motion can add for itself, with the parameters kept: a random basis of them."""
+        probes = np.random.default_rng(0).standard_normal((self.s.outputs.shape[0], count))
+        pull = self.s.outputs[:, self.states].T @ (self.s.curvatures[:, None] * probes)
+        solved = self.factor.solve(np.vstack([pull, np.zeros((self.s.constraints.shape[0], count))]))
+        return self.s.outputs[:, self.states] @ solved[:len(self.states)]
