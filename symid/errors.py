@@ -33,6 +33,10 @@ class SolveError(SymidError):
     """The nonlinear program could not be solved, or an evaluation gave NaN or infinity."""
 
 
+class MachineError(SolveError):
+    """A solve failed for reasons of the machine (memory, libraries), not of the problem: it is worth trying again."""
+
+
 class DiagnosisError(SymidError):
     """A diagnosis was asked of something that cannot be diagnosed."""
 

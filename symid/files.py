@@ -20,8 +20,10 @@ def write_atomically(path: str | Path, content: str | bytes) -> Path:
             file.write(content.encode() if isinstance(content, str) else content)
         os.chmod(part, 0o666 & ~_umask())
         os.replace(part, path)
-    except BaseException:
+    except BaseException as problem:
         Path(part).unlink(missing_ok=True)
+        if isinstance(problem, OSError) and problem.filename is None:  # a full disk does not say which file
+            problem.filename = str(path)
         raise
     return path
 

@@ -148,3 +148,24 @@ def test_as_a_program_a_warning_is_one_line_and_the_exit_code_reaches_the_shell(
     assert warning.startswith("symid: warning: ")
     done = subprocess.run([*command[:-2], "9", "99"], capture_output=True, text=True)
     assert done.returncode == BAD_INPUT and "Traceback" not in done.stderr
+
+
+def test_a_reader_that_has_enough_is_no_error_and_the_files_are_written(tmp_path):
+    out = tmp_path / "a.json"
+    command = [sys.executable, "-m", "symid.cli", *IDENTIFY, "--window", "0", "4", "--json", str(out)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        process.stdout.close()
+        err = process.stderr.read()
+    assert process.returncode == SOLVED and json.loads(out.read_text())["solver"]["solved"]
+    assert "Broken" not in err and "Traceback" not in err
+
+
+def test_a_full_disk_names_the_file(tmp_path, monkeypatch, capsys):
+    from symid import files
+
+    def full(*_):
+        raise OSError(28, "No space left on device")
+    monkeypatch.setattr(files.os, "replace", full)
+    code = main([*IDENTIFY, "--window", "0", "4", "--json", str(tmp_path / "a.json")])
+    assert code == BAD_INPUT and list(tmp_path.iterdir()) == []
+    assert capsys.readouterr().err.endswith(f"symid: error: No space left on device: {tmp_path / 'a.json'}\n")

@@ -1,18 +1,21 @@
 """Ipopt finds known answers, explains each failure, and loses neither errors nor Ctrl-C."""
 
+import builtins
 import dataclasses
 import os
 import signal
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
 from nlp_problems import HS071_OBJECTIVE, HS071_SOLUTION, hs071, one_variable, tracking
 
+from symid.deadline import TimeUp, deadline, remaining
+from symid.errors import MachineError, SolveError
+from symid.ipopt_solver import bounded, solve_nlp
 from symid.ipopt_solver import solve as ipopt_solver
-from symid.errors import SolveError
-from symid.ipopt_solver import solve_nlp
 from symid.ipopt_solver.status import STATUS, explain
 from symid.nlp import check_optimality
 
@@ -224,6 +227,61 @@ def test_ctrl_c_stops_the_solve_and_the_handler_is_given_back(either_way):
     with pytest.raises(KeyboardInterrupt):
         solve_nlp(tracking(), on_iteration=lambda it: os.kill(os.getpid(), signal.SIGINT))
     assert signal.getsignal(signal.SIGINT) is before
+
+
+@pytest.fixture
+def stuck(monkeypatch):
+    """Ipopt in the middle of a factorisation that takes long; set to let it end."""
+    goes_on = threading.Event()
+
+    def factorise(nlp, evaluation, options, scales, point):
+        point["z"][:] = 7.0    # Ipopt may still write to its arrays
+        goes_on.wait(30)
+        return 0
+    monkeypatch.setattr(ipopt_solver, "_runner", lambda: factorise)
+    yield goes_on
+    goes_on.set()
+    for thread in bounded._left:
+        thread.join()
+    assert not bounded.busy()
+
+
+def test_the_time_limit_holds_while_a_factorisation_goes_on(stuck):
+    nlp = tracking()
+    result = solve_nlp(nlp, time_limit_s=0.3, linear_solver="mumps")
+    assert result.status_name == "Maximum_WallTime_Exceeded" and not result.solved and bounded.busy()
+    np.testing.assert_array_equal(result.z, nlp.start)
+    assert result.seconds["total"] < 3.0    # far below the 30 s that the factorisation takes
+
+
+def test_ctrl_c_is_heard_while_a_factorisation_goes_on(stuck):
+    threading.Timer(0.2, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        solve_nlp(tracking(), linear_solver="mumps")
+    assert not stuck.is_set()
+
+
+def test_the_deadline_of_a_block_holds_for_its_solves():
+    with deadline(1e-6), pytest.raises(TimeUp, match="allow more of it"):
+        solve_nlp(tracking())
+    with deadline(60), deadline(600):
+        assert remaining() <= 60 and solve_nlp(tracking()).solved
+
+
+@pytest.mark.parametrize("error, kind, words", [
+    (ModuleNotFoundError("No module named 'cyipopt'"), SolveError, "not installed"),
+    (ImportError("libmumps.so: failed to map segment"), MachineError, "cannot be loaded .*failed to map segment.*memory enough"),
+])
+def test_why_cyipopt_is_not_there_is_told(monkeypatch, error, kind, words):
+    def refuse(name, *_):
+        if name == "cyipopt":
+            raise error
+        return real(name, *_)
+    real = builtins.__import__
+    ipopt_solver._runner.cache_clear()
+    monkeypatch.setattr(builtins, "__import__", refuse)
+    with pytest.raises(kind, match=words):
+        solve_nlp(hs071())
 
 
 @pytest.mark.parametrize("options", [{"tole": 1e-3}, {"tol": "small"}, {"max_iter": 3.0}])

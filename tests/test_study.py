@@ -17,7 +17,7 @@ import pytest
 from conftest import pendulum, pendulum_recording
 from study_problems import STARTS, kept, numbers, poisoned, problem, study
 
-from symid.errors import SolveError, TranscriptionError
+from symid.errors import MachineError, SolveError, TranscriptionError
 from symid.identification import Identification, LocalPool, Solve, Study, dispatch
 from symid.identification.store import StudyDirectory
 from symid.transcription import Episodes
@@ -442,6 +442,29 @@ def test_a_directory_keeps_outcomes_without_result(tmp_path):
     outcome = StudyDirectory(tmp_path, {"a": solve.identity})[solve.key]
     assert outcome.result is None and outcome.row.message == first.rows["a"].message
     assert np.isnan(outcome.row.objective) and outcome.finished
+
+
+@pytest.mark.parametrize("error", [MachineError("cyipopt cannot be loaded (no memory)."), MemoryError("1 GiB"),
+                                   ImportError("libmumps.so: failed to map segment")])
+def test_what_the_machine_is_to_blame_for_is_done_again(tmp_path, monkeypatch, error):
+    def short_of_memory(*_, **__):
+        raise error
+    solves = {"a": Solve(problem())}
+    with monkeypatch.context() as patch:
+        patch.setattr(Identification, "solve_from", short_of_memory)
+        failed = Study(solves, tmp_path).run_here(on_finished=None)
+    assert failed.rows["a"].status == "lost" and str(error) in failed.rows["a"].message and not failed.complete
+    again = Study(solves, tmp_path).run_here(on_finished=None)
+    assert again.rows["a"].solved and again.complete
+
+
+def test_a_solve_that_ran_out_of_time_is_done_again_with_more_of_it(tmp_path, solved):
+    def limited(limit):
+        return Study({"a": Solve(problem(), options={"time_limit_s": limit})}, tmp_path).run_here(on_finished=None).rows["a"]
+    for limit in (1e-6, 1e-6, 60.0, 60.0):
+        row = limited(limit)
+    assert row.solved and len(solved) == 2
+    assert limited(1e-6).solved
 
 
 # ---- reporting -------------------------------------------------------------------------

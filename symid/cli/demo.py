@@ -38,12 +38,13 @@ def run(arguments: argparse.Namespace) -> int:
     if not solution.solved:
         print(solution)
         return 1
+    held_out = solution.free_run(HELD_OUT)
+    report = write_report(solution, arguments.report, held_out, truth)
     print(headline(solution), solution.message, sep="\n", end="\n\n")
     print(_beside_truth(solution, truth), end="\n\n")
-    held_out = solution.free_run(HELD_OUT)
     units = {name: y.unit for name, y in solution.model.outputs.items()}
     print(f"Held-out {HELD_OUT[0]:g} to {HELD_OUT[1]:g} s, free run: RMS error: {fit_text(held_out.fit['rms'], units)}")
-    print(f"Report with figures: {write_report(solution, arguments.report, held_out, truth)}")
+    print(f"Report with figures: {report}")
     return 0
 
 

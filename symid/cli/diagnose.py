@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 import warnings
 from pathlib import Path
+
+from symid.progress import say
 
 SUMMARY = "find the physics that a model leaves out: where, what, how much, and the proof"
 CONTROLLERS = ("pd", "fpd")
@@ -53,7 +54,6 @@ def run(arguments: argparse.Namespace) -> int:
         # A suspect that diverges overflows on its way out; it is dropped, and nobody need hear of it.
         warnings.simplefilter("ignore", RuntimeWarning)
         finding = reader(source, arguments)
-    print(finding)
     if arguments.json:
         finding.to_json(arguments.json)
     if arguments.held_out_csv:
@@ -61,6 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.report:
         from symid.report import write_diagnosis_report
         write_diagnosis_report(finding, arguments.report, f"Diagnosis of {source.name}", _provenance(source, finding))
+    print(finding)    # after the files: a reader that has enough closes the pipe
     return 0
 
 
@@ -155,4 +156,4 @@ def _refuse_missing_folders(arguments: argparse.Namespace) -> None:
 
 
 def _tell(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
+    say(text)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from symid.cli.options import (
     add_episode_arguments, add_executor_arguments, add_model_arguments, build_model, chosen_executor,
     show_iteration,
 )
+from symid.deadline import START_LIMIT_S
+from symid.progress import say
 
 SUMMARY = "identify the parameters of a model from a recording"
 EXAMPLES = (
@@ -30,6 +31,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="midpoint, backward_euler, trapezoid or hermite_simpson (default: midpoint)")
     add_executor_arguments(parser)
     parser.add_argument("--max-iterations", type=int, default=3000, metavar="N", help="of each solve (default: 3000)")
+    parser.add_argument("--time-limit", type=float, default=START_LIMIT_S, metavar="S",
+                        help=f"of each start, s (default: {START_LIMIT_S:g})")
     parser.add_argument("--json", metavar="OUT.json", help="write everything as JSON")
     parser.add_argument("--report", metavar="OUT.html", help="write a report with figures")
 
@@ -54,19 +57,19 @@ def run(arguments: argparse.Namespace) -> int:
         solution = problem.solve(arguments.starts, seed=arguments.seed, executor=executor, store=arguments.store,
                                  on_iteration=show_iteration if arguments.starts == 1 else None,
                                  on_start=_tell_start(model) if arguments.starts > 1 else None,
-                                 max_iterations=arguments.max_iterations)
-    document, held_out = solution.to_dict(), None
-    print(solution)
+                                 max_iterations=arguments.max_iterations, time_limit_s=arguments.time_limit)
+    document, held_out, lines = solution.to_dict(), None, [str(solution)]
     if arguments.held_out and solution.solved:
         held_out = solution.free_run(tuple(arguments.held_out))
         document["fit"]["held_out"] = held_out.fit
-        print(f"Held-out {arguments.held_out[0]:g} to {arguments.held_out[1]:g} s, free run: RMS error: "
-              + fit_text(document["fit"]["held_out"]["rms"], {name: y.unit for name, y in model.outputs.items()}))
+        lines.append(f"Held-out {arguments.held_out[0]:g} to {arguments.held_out[1]:g} s, free run: RMS error: "
+                     + fit_text(document["fit"]["held_out"]["rms"], {name: y.unit for name, y in model.outputs.items()}))
     if arguments.json:
         write_json(arguments.json, document)
     if arguments.report:
         from symid.report import write_report
         write_report(solution, arguments.report, held_out)
+    print("\n".join(lines))    # after the files: a reader that has enough closes the pipe
     return 0 if solution.solved else 1
 
 
@@ -76,6 +79,6 @@ def _tell_start(model):
     unit = common_unit(y.unit for y in model.outputs.values())
 
     def tell(row) -> None:
-        print(f"start {row.number + 1:3d}  {row.status}  RMS {rms_text(row.rms, unit)}  {row.iterations} iterations  "
-              f"{row.seconds:.1f} s", file=sys.stderr, flush=True)
+        say(f"start {row.number + 1:3d}  {row.status}  RMS {rms_text(row.rms, unit)}  {row.iterations} iterations  "
+            f"{row.seconds:.1f} s")
     return tell

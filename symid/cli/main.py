@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import sys
 import warnings
 from collections.abc import Sequence
@@ -12,6 +13,7 @@ from pkgutil import iter_modules
 
 import symid.cli as cli
 from symid.errors import SymidError
+from symid.progress import alive
 
 # Every module of this package but these is a command: SUMMARY, EXAMPLES, add_arguments(parser), run(arguments) -> exit code.
 NOT_COMMANDS = ("__main__", "main", "options")
@@ -23,12 +25,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parsed = build_parser().parse_args(arguments)
     warnings.showwarning = _show_warning
     try:
-        return parsed.run(parsed)
+        with alive(lambda: f"symid {parsed.command} is at work"):
+            code = parsed.run(parsed)
+        sys.stdout.flush()
+        return code
     except SymidError as error:
         print(f"symid: error: {error}", file=sys.stderr)
         return BAD_INPUT
+    except BrokenPipeError:  # `| head` has read enough; the files are written
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return SOLVED
     except OSError as error:
-        print(f"symid: error: {error.strerror}: {error.filename}", file=sys.stderr)
+        place = "" if error.filename is None else f": {error.filename}"
+        print(f"symid: error: {error.strerror or error}{place}", file=sys.stderr)
         return BAD_INPUT
     except KeyboardInterrupt:
         print("symid: interrupted", file=sys.stderr)
@@ -52,7 +61,7 @@ def build_parser() -> argparse.ArgumentParser:
         command = commands.add_parser(name, help=module.SUMMARY, description=module.SUMMARY, epilog=examples,
                                       formatter_class=argparse.RawDescriptionHelpFormatter)
         module.add_arguments(command)
-        command.set_defaults(run=module.run)
+        command.set_defaults(run=module.run, command=name)
     return parser
 
 

@@ -8,6 +8,7 @@ from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
 
 from symid.errors import ModelError, SolveError
+from symid.progress import said
 
 CONTROLLERS = ("pd", "fpd", "fpd-delay", "nn")
 
@@ -67,3 +68,4 @@ def show_iteration(iteration) -> None:
     if end or iteration.number % 10 == 0:
         print(f"iteration {iteration.number:4d}  objective {iteration.objective:.6g}  infeasibility "
               f"{iteration.infeasibility:.1e} ", end=end or "\n", file=sys.stderr, flush=True)
+        said()

@@ -48,18 +48,18 @@ def run(arguments: argparse.Namespace) -> int:
         found = reproduce(cases, body, recording, starts=1 if arguments.quick else arguments.starts, seeds=arguments.seeds,
                           distribution=arguments.distribution, executor=executor, jobs=arguments.jobs,
                           store=arguments.store, on_finished=tell)
-    print(text(found))
+    lines = [text(found)]
     files = {"comparison.csv": comparison(found).to_csv(index=False)}
     if found.findings:
         files["figure_2.png"] = plot_stable_share(found.findings).png()
         files["starts.png"] = plot_starts_spread(found.findings).png()
     if CASES["FPD-1"] in cases:
         late = late_feedback(body, recording)
-        print(f"\n{late_feedback_text(late)}")
+        lines.append(late_feedback_text(late))
         files["late_feedback.csv"] = late.to_csv(index=False)
     for name, content in files.items():
         write_atomically(Path(arguments.output) / name, content)
-    print(f"\nWritten: {', '.join(files)} in {arguments.output}")
+    print("\n\n".join([*lines, f"Written: {', '.join(files)} in {arguments.output}"]))
     return 1 if found.failed or not all(f.best.solved for f in found.findings) else 0
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Executor, Future, wait
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -11,6 +11,8 @@ from symid.errors import SymidError
 from symid.identification.pool import WorkerDied
 from symid.identification.solution import StartRow
 from symid.identification.worker import Outcome, pack, solve_here, solve_packed
+from symid.ipopt_solver import Iteration
+from symid.progress import alive
 
 if TYPE_CHECKING:
     from symid.identification.study import Solve
@@ -28,7 +30,23 @@ def in_turn(todo: Mapping[str, Solve], on_iteration) -> Iterator[tuple[str, Outc
     for key, solve in todo.items():
         if several and solve.problem is not problem:
             problem, copy = solve.problem, replace(solve.problem)
-        yield key, solve_here(replace(solve, problem=copy) if several else solve, on_iteration)
+        yield key, _aloud(replace(solve, problem=copy) if several else solve, on_iteration)
+
+
+def _aloud(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | None) -> Outcome:
+    """`solve_here`, with a line on stderr whenever nothing was said for some seconds."""
+    seen: list[Iteration] = []
+
+    def note(iteration: Iteration) -> bool | None:
+        seen[:] = [iteration]
+        return None if on_iteration is None else on_iteration(iteration)
+
+    def words() -> str:
+        return "; ".join(["solving" if seen else "making a start",
+                          *(f"iteration {i.number}, objective {i.objective:.6g}, infeasibility {i.infeasibility:.1e}" for i in seen)])
+
+    with alive(words):
+        return solve_here(solve, note)
 
 
 def on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple[str, Outcome]]:
@@ -53,7 +71,8 @@ def on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple
                     send(key)
                 except BrokenExecutor as broken:
                     yield key, _lost(todo[key], broken)
-            ended, _ = wait(running, return_when=FIRST_COMPLETED)
+            with alive(lambda: f"{len(running)} solves are at work or wait for their turn"):
+                ended, _ = wait(running, return_when=FIRST_COMPLETED)
             for future in ended:
                 key, error = running.pop(future), _error(future)
                 if error is None:

@@ -13,6 +13,7 @@ from multiprocessing import connection, current_process, get_context, parent_pro
 from symid.codegen.build import warn_without_compiler
 from symid.codegen.cache import CodegenWarning
 from symid.errors import SolveError
+from symid.ipopt_solver.bounded import busy
 from symid.threads import ONE_THREAD
 
 _NAME = "symid worker"
@@ -68,10 +69,10 @@ class LocalPool(Executor):
             worker.process.kill()
         try:
             return worker.call(function, arguments)
-        except WorkerDied:
-            self._workers.discard(worker)
-            self._own.worker = None
-            raise
+        finally:
+            if worker.gone:
+                self._workers.discard(worker)
+                self._own.worker = None
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """As for every executor; `cancel_futures` also ends the calls that are running."""
@@ -93,6 +94,7 @@ class _Worker:
     """One process that answers calls over a pipe."""
 
     def __init__(self):
+        self.gone = False
         self.pipe, theirs = _SPAWN.Pipe()
         self.process = _SPAWN.Process(target=_serve, args=(theirs,), daemon=True, name=_NAME)
         with _ENVIRONMENT:  # the libraries read it while the child loads them
@@ -115,10 +117,13 @@ class _Worker:
     def call(self, function, arguments):
         try:
             self.pipe.send((function, arguments))
-            answer, error = self.pipe.recv()
+            answer, error, self.gone = self.pipe.recv()
         except (EOFError, ConnectionError):
+            self.gone = True
             self.process.join()
             raise WorkerDied(self._end()) from None
+        if self.gone:
+            self.end()
         if error is not None:
             raise error
         return answer
@@ -144,13 +149,16 @@ def _serve(pipe) -> None:
         except EOFError:
             return
         try:
-            reply = function(*arguments), None
-        except Exception as error:
-            reply = None, error
+            reply, error = function(*arguments), None
+        except Exception as raised:
+            reply, error = None, raised
+        leaving = busy()  # with a factorisation that went on beyond its time
         try:
-            pipe.send(reply)
+            pipe.send((reply, error, leaving))
         except (TypeError, AttributeError, ValueError) as error:  # what pickle raises
-            pipe.send((None, SolveError(f"a result cannot be sent between processes: {error}")))
+            pipe.send((None, SolveError(f"a result cannot be sent between processes: {error}"), leaving))
+        if leaving:
+            os._exit(0)
 
 
 def _end_with_parent() -> None:

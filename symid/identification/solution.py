@@ -31,7 +31,8 @@ if TYPE_CHECKING:
 class StartRow:
     """One start and how it ended: RMS over all outputs in their SI unit (rad for angles).
 
-    `status` is Ipopt's, or "failed" (symid refused, `message` says why), or "lost" (its worker died).
+    `status` is Ipopt's, or "failed" (symid refused, `message` says why), or "lost" (its worker died, or the machine
+    failed otherwise).
     """
 
     number: int
@@ -44,6 +45,11 @@ class StartRow:
     seconds: float
     parameters: dict[str, float]
     message: str = ""
+
+    @property
+    def final(self) -> bool:
+        """Whether doing it again would give the same: not where the machine is to blame."""
+        return self.status not in ("lost", "Insufficient_Memory")
 
     @classmethod
     def of(cls, t: Transcription, result: SolverResult, kind, number: int, at_start: float) -> StartRow:

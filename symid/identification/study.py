@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
@@ -14,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pandas as pd
 
+from symid.deadline import START_LIMIT_S
 from symid.errors import SolveError
 from symid.identification.dispatch import in_turn, on_executor
 from symid.identification.identity import digest
@@ -23,6 +23,7 @@ from symid.identification.starts.search import can_search
 from symid.identification.store import StudyDirectory
 from symid.identification.worker import Outcome
 from symid.ipopt_solver import Iteration
+from symid.progress import say
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
@@ -57,12 +58,18 @@ class Solve:
         """Part -> fingerprint; "key" is that of all of them, and the name of the solve's files."""
         parts = self.problem.identity | {
             "start": digest(self.start), "number of the start": str(self.number), "seed": str(self.seed),
-            "solver options": digest(self.options)}
+            "solver options": digest({k: v for k, v in self.options.items() if k != "time_limit_s"})}
         return {"key": digest(parts)} | parts
 
     @property
     def key(self) -> str:
         return self.identity["key"]
+
+    @property
+    def time_limit_s(self) -> float:
+        """Of this start, making it included [s]; no part of the identity: a solve that ran out of less is done again."""
+        given = self.options.get("time_limit_s")
+        return START_LIMIT_S if given is None else given
 
 
 @dataclass(frozen=True)
@@ -78,10 +85,10 @@ class Finished:
 def tell(finished: Finished) -> None:
     """Print one line of progress on stderr."""
     row, width = finished.row, len(str(finished.total))
-    how = row.message if row.status in ("failed", "lost") else (
+    how = row.message if np.isnan(row.objective) else (
         f"objective {row.objective:.6g}  {row.iterations} iterations  {row.seconds:.1f} s")
     count = f"{finished.done:{width}d}/{finished.total}"
-    print(f"{count}  {finished.name}  {row.status}  {how}", file=sys.stderr, flush=True)
+    say(f"{count}  {finished.name}  {row.status}  {how}")
 
 
 class Study:
@@ -168,7 +175,7 @@ class Study:
         todo = {}
         for key, same in names.items():
             earlier = self._store.get(key)
-            if earlier is not None and earlier.finished:
+            if earlier is not None and earlier.settles(self.solves[same[0]].time_limit_s):
                 yield from ((name, earlier.row) for name in same)
             else:
                 todo[key] = self.solves[same[0]]
@@ -225,7 +232,7 @@ class StudyResult:
     @property
     def complete(self) -> bool:
         """Whether every solve ran to an end; if not, running the study again repeats the lost ones."""
-        return all(row.status != "lost" for row in self.rows.values())
+        return all(row.final for row in self.rows.values())
 
     def best(self, accept: Callable[[StartRow], bool] = lambda row: True, **labels) -> Solution:
         """The best solution of the one problem that these labels leave: solved, accepted, with the least objective.

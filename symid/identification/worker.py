@@ -10,15 +10,19 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-from symid.errors import SymidError
+from symid.deadline import TimeUp, deadline
+from symid.errors import MachineError, SymidError
 from symid.identification.solution import StartRow
 from symid.ipopt_solver import Iteration, SolverResult
+from symid.ipopt_solver.bounded import LEAVE
+from symid.ipopt_solver.status import STATUS, WALL_TIME
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
     from symid.identification.study import Solve
 
 _BUILDING = threading.Lock()
+OUT_OF_TIME = STATUS[WALL_TIME][0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,21 +34,43 @@ class Outcome:
 
     @property
     def finished(self) -> bool:
-        """Whether doing it again would give the same; a lost solve may end otherwise next time."""
-        return self.row.status != "lost"
+        """Whether doing it again would give the same, but for its time."""
+        return self.row.final
+
+    def settles(self, limit_s: float) -> bool:
+        """Whether doing it again, with this limit of time [s], would give the same."""
+        out_of_time = self.row.status == OUT_OF_TIME and limit_s > LEAVE * self.row.seconds
+        return self.finished and not out_of_time
 
 
 def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | None = None) -> Outcome:
-    """Solve in this process. A start or problem that symid refuses is an outcome, with its sentence."""
+    """Solve in this process. A start or problem that symid refuses is an outcome, with its sentence.
+
+    What the machine is to blame for is "lost", so that it is done again: memory, libraries, files.
+    """
+    limit = solve.time_limit_s
     try:
         transcription = solve.problem.transcription
         began = time.perf_counter()
-        z = solve.problem.start(solve.start, solve.seed, solve.number)
-        at_start = time.perf_counter() - began
-        result = solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options)
+        with deadline(limit):
+            z = solve.problem.start(solve.start, solve.seed, solve.number)
+            at_start = time.perf_counter() - began
+            result = solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options)
+    except TimeUp as late:
+        made = _without_result(OUT_OF_TIME, solve, f"no start was found within {limit:g} s: {late}")
+        return replace(made, row=replace(made.row, seconds=limit))
+    except MachineError as failure:
+        return _without_result("lost", solve, f"{failure} Run the study again to repeat it.")
     except SymidError as refused:
-        return Outcome(StartRow.without_result("failed", solve.start, solve.number, str(refused)))
+        return _without_result("failed", solve, str(refused))
+    except (MemoryError, ImportError) as failure:
+        return _without_result("lost", solve, f"{type(failure).__name__}: {failure}. Does the machine have memory enough? "
+                                              "Run the study again to repeat it.")
     return Outcome(StartRow.of(transcription, result, solve.start, solve.number, at_start), result)
+
+
+def _without_result(status: str, solve: Solve, message: str) -> Outcome:
+    return Outcome(StartRow.without_result(status, solve.start, solve.number, message))
 
 
 def pack(problem: Identification) -> bytes:

@@ -5,11 +5,8 @@ Ipopt is told to stop, and the solver raises it afterwards.
 """
 
 import math
-import signal
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,6 +43,10 @@ class Evaluation:
         Where NaN or infinity was met last, in words.
     iterations : int
         The last iteration's number.
+    out_of_time : bool
+        Set from outside: stop at the next iteration.
+    point : array, shape (n,), or None
+        The last iterate.
     """
 
     def __init__(self, nlp: NonlinearProgram, on_iteration: Callable[[Iteration], bool | None] | None):
@@ -54,8 +55,9 @@ class Evaluation:
         self.seconds = dict.fromkeys(("objective", "gradient", "constraints", "jacobian", "hessian"), 0.0)
         self.failure: BaseException | None = None
         self.not_a_number: str | None = None
-        self.interrupted = False
+        self.out_of_time = False
         self.iterations = 0
+        self.point: np.ndarray | None = None
 
     def objective(self, z: np.ndarray) -> float:
         value = float(self._timed("objective", z))
@@ -64,6 +66,7 @@ class Evaluation:
         return value
 
     def gradient(self, z: np.ndarray) -> np.ndarray:
+        self.point = z    # at trial points Ipopt asks for no gradient
         values = self._timed("gradient", z)
         self._insist(values, lambda k: f"The gradient for {self.nlp.describe_variable(k)}")
         return values
@@ -88,29 +91,11 @@ class Evaluation:
     def iteration(self, number: int, objective: float, primal: float, dual: float, barrier: float) -> bool:
         """Note an iteration and tell whether to go on."""
         self.iterations = number
-        if self.interrupted or self.failure is not None:
+        if self.out_of_time or self.failure is not None:
             return False
         if self.on_iteration is None:
             return True
         return self.on_iteration(Iteration(number, objective, primal, dual, barrier)) is not False
-
-    @contextmanager
-    def ctrl_c_stops(self) -> Iterator[None]:
-        """Turn Ctrl-C into a stop at the next iteration, then raise KeyboardInterrupt."""
-        if threading.current_thread() is not threading.main_thread():
-            yield  # only the main thread receives signals
-            return
-
-        def note(*_: object) -> None:
-            self.interrupted = True
-
-        previous = signal.signal(signal.SIGINT, note)
-        try:
-            yield
-        finally:
-            signal.signal(signal.SIGINT, previous)
-        if self.interrupted:
-            raise KeyboardInterrupt("the solve was interrupted")
 
     def _timed(self, name: str, *arguments):
         start = time.perf_counter()

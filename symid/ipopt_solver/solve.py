@@ -3,18 +3,19 @@
 import ctypes
 import functools
 import sys
-import threading
 import time
 from collections.abc import Callable
 
 import numpy as np
 
 from symid.ipopt_solver import library as ipopt_library
-from symid.errors import SolveError
+from symid.deadline import check, remaining
+from symid.errors import MachineError, SolveError
+from symid.ipopt_solver.bounded import run_bounded
 from symid.ipopt_solver.evaluation import Evaluation, Iteration, RejectedPoint
-from symid.ipopt_solver.linear import run_with
+from symid.ipopt_solver.linear import LinearSolver, run_with
 from symid.ipopt_solver.result import SolverResult, WorstConstraint, make_result
-from symid.ipopt_solver.status import SOLVED, STOPPED_BY_LIMIT, explain
+from symid.ipopt_solver.status import SOLVED, STOPPED, STOPPED_BY_LIMIT, WALL_TIME, explain
 from symid.nlp import NonlinearProgram
 
 __all__ = ["Iteration", "SolverResult", "WorstConstraint", "solve_nlp"]
@@ -38,9 +39,6 @@ WARM_START: dict[str, str | float] = {
     "mu_strategy": "monotone",
     "mu_init": 1e-6,
 }
-
-# Ipopt lets other threads run, but MUMPS keeps state of its own between calls.
-_ONE_AT_A_TIME = threading.Lock()
 
 
 def solve_nlp(
@@ -69,7 +67,7 @@ def solve_nlp(
         Called with an Iteration; returning False stops the solve.
     max_iterations : int
     time_limit_s : float, optional
-        Wall time [s].
+        Wall time [s]. Where a factorisation goes on beyond it, the result is the last iterate.
     hessian : {"exact", "limited-memory"}
         Which second derivatives Ipopt uses.
     linear_solver : {"auto", "chain", "mumps"} or Ipopt's name of another
@@ -87,8 +85,9 @@ def solve_nlp(
         cyipopt is absent; the start is out of bounds or of the wrong size; an option is refused;
         a function gave NaN or infinity that no shorter step avoids.
     KeyboardInterrupt
-        Ctrl-C, at the end of the current iteration.
+        Ctrl-C, at once; what cannot be stopped ends on its own.
     """
+    time_limit_s = _tightest(time_limit_s)
     point = _starting_point(nlp, start, warm_start)
     chosen = _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian)
     run = _runner()
@@ -102,12 +101,32 @@ def solve_nlp(
             point[name][...] = value
         return run(nlp, evaluation, linear | chosen, _scales(nlp), point)
 
-    with _ONE_AT_A_TIME, evaluation.ctrl_c_stops():
-        began = time.perf_counter()
-        status, linear = run_with(wanted, run_from_start)
-        total = time.perf_counter() - began
-    _raise_failure(evaluation, status)
-    return make_result(nlp, evaluation, status, point, total, linear)
+    ended: dict = {"status": WALL_TIME, "linear": LinearSolver(wanted, "left in the middle of a factorisation")}
+
+    def work() -> None:
+        ended["status"], ended["linear"] = run_with(wanted, run_from_start)
+
+    began = time.perf_counter()
+    if run_bounded(work, evaluation, time_limit_s):
+        if evaluation.out_of_time and ended["status"] == STOPPED:
+            ended["status"] = WALL_TIME
+        _raise_failure(evaluation, ended["status"])
+    else:
+        point = _last_point(nlp, evaluation, begin)
+    return make_result(nlp, evaluation, ended["status"], point, time.perf_counter() - began, ended["linear"])
+
+
+def _tightest(time_limit_s: float | None) -> float | None:
+    """The earlier of the limit that was given and that of the block around (`symid.deadline`)."""
+    check()
+    limits = [limit for limit in (time_limit_s, remaining()) if limit is not None]
+    return min(limits, default=None)
+
+
+def _last_point(nlp: NonlinearProgram, evaluation: Evaluation, begin: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The last iterate of a solve that was left, in arrays of its own: Ipopt may still write to its."""
+    z = begin["z"] if evaluation.point is None else evaluation.point.copy()
+    return begin | {"z": z, "constraints": np.array(nlp.constraints(z)), "objective": np.array([nlp.objective(z)])}
 
 
 def _starting_point(nlp, start, warm_start) -> dict[str, np.ndarray]:
@@ -174,11 +193,16 @@ def _runner() -> Callable[..., int]:
     """Choose the way to Ipopt: its C interface through cyipopt's library, else cyipopt itself."""
     try:
         import cyipopt
-    except ImportError as absent:
+    except ModuleNotFoundError as absent:
         raise SolveError(
-            f"cyipopt cannot be imported ({absent}). Run `python -m symid.setup_ipopt` once, or "
+            f"cyipopt is not installed ({absent}). Run `python -m symid.setup_ipopt` once, or "
             "`conda install -c conda-forge cyipopt`."
         ) from absent
+    except (ImportError, OSError, MemoryError) as problem:
+        raise MachineError(
+            f"cyipopt is installed but cannot be loaded ({problem}). Does the machine, or its limit for a process, have "
+            "memory enough? If it never loads, build it anew with `python -m symid.setup_ipopt`."
+        ) from problem
     library = ipopt_library.open_library(sys.modules[cyipopt.Problem.__module__].__file__)
     return _run_cyipopt if library is None else functools.partial(ipopt_library.solve, library)
 

@@ -1,7 +1,8 @@
 """Every status of Ipopt as a name and a sentence with a next step (IpReturnCodes_inc.h)."""
 
 SOLVED = (0, 1)
-STOPPED_BY_LIMIT = (-1, -4, -5, 5)
+STOPPED, WALL_TIME = 5, -5
+STOPPED_BY_LIMIT = (-1, -4, WALL_TIME, STOPPED)
 
 STATUS: dict[int, tuple[str, str]] = {
     0: ("Solve_Succeeded", "A locally optimal point was found. Try other starts if a better one may exist."),
@@ -17,19 +18,20 @@ STATUS: dict[int, tuple[str, str]] = {
     4: ("Diverging_Iterates",
         "The variables run off to infinity: the objective seems to have no minimum. Give finite bounds "
         "to the parameters."),
-    5: ("User_Requested_Stop", "The solve was stopped from outside. Go on from here with warm_start."),
+    5: ("User_Requested_Stop", "The solve was stopped from outside. In Python, warm_start goes on from here."),
     6: ("Feasible_Point_Found",
         "A point that satisfies the square system of equations was found; there was nothing to minimise."),
     -1: ("Maximum_Iterations_Exceeded",
-         "The iterations ran out. Go on from here with warm_start, or start nearer to the solution."),
+         "The iterations ran out. Allow more of them, or start nearer to the solution; in Python, "
+         "warm_start goes on from here."),
     -2: ("Restoration_Failed",
          "No feasible point could be reached from here. Look at the worst constraint below; start "
          "elsewhere or check its bounds."),
     -3: ("Error_In_Step_Computation",
          "The linear system could not be solved even when regularised. Look for parameters that "
          "nothing depends on, dependent equations and far-off scales."),
-    -4: ("Maximum_CpuTime_Exceeded", "The time ran out. Go on from here with warm_start or allow more time."),
-    -5: ("Maximum_WallTime_Exceeded", "The time ran out. Go on from here with warm_start or allow more time."),
+    -4: ("Maximum_CpuTime_Exceeded", "The time ran out. Allow more of it, or try another start."),
+    -5: ("Maximum_WallTime_Exceeded", "The time ran out. Allow more of it, or try another start."),
     -10: ("Not_Enough_Degrees_Of_Freedom",
           "There are more equations than free variables. Free some variables or drop equations."),
     -11: ("Invalid_Problem_Definition",

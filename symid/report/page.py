@@ -12,7 +12,8 @@ from markupsafe import Markup, escape
 if TYPE_CHECKING:
     from symid.plots import Picture
 
-_TEMPLATES = Environment(loader=PackageLoader("symid.report"), autoescape=True, trim_blocks=True)
+_TEMPLATES = Environment(loader=PackageLoader("symid.report"), autoescape=True, trim_blocks=True,
+                         keep_trailing_newline=True)
 _PARTS = _TEMPLATES.get_template("parts.html").module
 NARROW = 4.3
 """Width [inch] at which figures are drawn for a screen of a hand's width: their letters keep their size."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from symid.codegen.build import or_numpy
 from symid.codegen.ode import OdeSource, ode_source
+from symid.deadline import check
 from symid.errors import SymidError
 from symid.model import Model, nearest
 from symid.simulation.compiled import CompiledLoop
@@ -106,8 +107,9 @@ class Simulator:
 
         Raises
         ------
-        SymidError : a value, input or name is missing, of the wrong length or not finite.
+        SymidError : a value, input or name is missing, of the wrong length or not finite; or a `deadline` has passed.
         """
+        check()
         time = _array(time)
         n, q = len(time), len(sensitivity) + len(initial_sensitivity)
         if n < 2 or not np.all(np.diff(time) > 0):
