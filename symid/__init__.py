@@ -9,8 +9,9 @@ from importlib import import_module
 _WHERE = {
     "symid.errors": ("CodegenError", "DiagnosisError", "ModelError", "RecordingError", "SolveError", "SymidError",
                      "TranscriptionError"),
-    "symid.model": ("Algebraic", "Boundary", "Constant", "Constraint", "Control", "Equation", "Expression", "Input", "Law", "LawParameter", "Model", "Noise", "Objective", "Output",
-                    "Parameter", "Port", "State", "Term"),
+    "symid.model": ("Algebraic", "Boundary", "Constant", "Constraint", "Control", "Equation", "Expression", "Input", "Law", "LawParameter", "LogNormal", "Model", "Noise", "Normal",
+                    "Objective", "Output",
+                    "Parameter", "Port", "Process", "State", "Term"),
     "symid.recording": ("Recording", "read_recording"),
     "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
     "symid.analysis": ("Stability", "Uncertainty", "compare", "stability", "stability_of", "uncertainty"),

@@ -15,7 +15,7 @@ from symid.codegen.symbols import (
     FIRST, LAST, STEP, algebraics_at_nodes, at, constant_symbols, data_at, duration_of, node_symbols, parameter_symbols,
     refuse_late, scale_symbol, scaled_parameters, scales, used_data,
 )
-from symid.model import TIME, Constraint, Model, Row, initial, terminal
+from symid.model import TIME, Constraint, Model, Process, Row, initial, terminal
 
 
 def of_parameters_alone(model: Model, constraint: Constraint) -> bool:
@@ -71,7 +71,8 @@ def running_rows(model: Model) -> list[sm.Expr]:
 
 
 def running_program(model: Model, stencil: Stencil, duration: str | None = None, graded: bool = False) -> Program:
-    """The integral over one interval of `running_rows` and of the squared rates of smooth controls, one row.
+    """Two rows: the integral over one interval of `running_rows` and of the squared rates of smooth controls; that of
+    `process_rows`.
 
     local = as in `interval_program`; data = used inputs (and time) by station: first node, points, last node;
     then the step, where intervals differ in length (`graded`).
@@ -92,8 +93,14 @@ def running_program(model: Model, stencil: Stencil, duration: str | None = None,
     smooth = [u.smooth * (scale_symbol(u.name) * (at(u.name, last) - at(u.name, 0))) ** 2 / step
               for u in model.controls.values() if u.smooth]
     stations = (FIRST, *range(stencil.points), LAST)
-    return _program(model, "running", [step * value + sm.Add(*smooth)], local_symbols(model, stencil),
+    process = sm.Add(*process_rows(model)).xreplace(table_at_start(model))
+    return _program(model, "running", [step * value + sm.Add(*smooth), step * process], local_symbols(model, stencil),
                     [*(at(u, s) for s in stations for u in data), *([STEP] if graded else [])], graded)
+
+
+def table_at_start(model: Model) -> dict[sm.Symbol, sm.Expr]:
+    """What a node holds, at the first node of an interval."""
+    return {s: scale_symbol(s) * at(s, 0) for s in node_symbols(model)}
 
 
 def running_data(model: Model) -> tuple[sm.Symbol, ...]:
@@ -119,10 +126,26 @@ def ends_program(model: Model, rows: list[sm.Expr], name: str, duration: str | N
                     [at(TIME, LAST), *(at(u, place) for place in (FIRST, LAST) for u in inputs)])
 
 
-def parameter_program(model: Model) -> Program:
-    """The rows of `parameter_rows`; no local symbols and no data."""
+def parameter_program(model: Model, rows: list[sm.Expr], name: str) -> Program:
+    """Rows of parameters alone; no local symbols and no data."""
     table = scaled_parameters(model)
-    return _program(model, "parameters", [r.expr.xreplace(table) for _, r in parameter_rows(model)], [], [])
+    return _program(model, name, [r.xreplace(table) for r in rows], [], [])
+
+
+def end_penalties(model: Model) -> sm.Expr:
+    """-2 log of the prior density of values at the ends."""
+    along = {*node_symbols(model), *(u.symbol for u in model.inputs.values())}
+    return sm.Add(*(model.inline(e) for b in model.boundaries.values() for e in b.penalties(along)))
+
+
+def parameter_penalties(model: Model) -> dict[str, sm.Expr]:
+    """-2 log of the prior density of each parameter that has one."""
+    return {name: p.prior.penalty(p.symbol) for name, p in model.parameters.items() if p.prior is not None}
+
+
+def process_rows(model: Model) -> list[sm.Expr]:
+    """What the likelihood of estimated process noise integrates: (noise / size)^2."""
+    return [(c.symbol / sm.Float(c.size)) ** 2 for c in model.controls.values() if isinstance(c, Process)]
 
 
 def terminal_objective(model: Model) -> sm.Expr:
@@ -130,7 +153,7 @@ def terminal_objective(model: Model) -> sm.Expr:
 
 
 def has_running(model: Model) -> bool:
-    return bool(running_rows(model)) or any(u.smooth for u in model.controls.values())
+    return bool(running_rows(model) or process_rows(model)) or any(u.smooth for u in model.controls.values())
 
 
 def _inlined(model: Model, row: Row) -> Row:

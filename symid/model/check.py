@@ -10,10 +10,11 @@ import sympy as sm
 from symid.errors import ModelError, SymidError
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
-    HOLDS, Algebraic, Constant, Control, Equation, Expression, Input, Output, Parameter, Port, State,
+    HOLDS, Algebraic, Constant, Control, Equation, Expression, Input, Output, Parameter, Port, Process, State,
 )
 from symid.model.dimensions import Mismatch, dimension_of, dimensions_of_symbols
 from symid.model.model import TIME, Model, nearest
+from symid.model.prior import Prior
 from symid.model.quantity import initial, symbol, terminal
 from symid.units import dimension, known_unit
 
@@ -36,8 +37,12 @@ def violations(model: Model, units: bool = True) -> Iterator[str]:
 
 def _values(model: Model) -> Iterator[str]:
     for c in model.components.values():
-        if isinstance(c, Input) and c.hold not in HOLDS:
-            yield f"the input '{c.name}' has hold={c.hold!r}; known: {', '.join(map(repr, HOLDS))}"
+        if isinstance(c, (Input, Control)) and c.hold not in (HOLDS if isinstance(c, Input) else HOLDS[1:]):
+            yield f"the {type(c).__name__.lower()} '{c.name}' has hold={c.hold!r}; known: {', '.join(map(repr, HOLDS))}"
+        if isinstance(c, Process) and not (isfinite(c.size) and c.size > 0):
+            yield f"the process noise '{c.name}' has size={c.size}; give a positive number [{c.unit}*sqrt(s)]"
+        if isinstance(c, Parameter) and c.prior is not None and not isinstance(c.prior, Prior):
+            yield f"the prior {c.prior!r} of '{c.name}' is none: give Normal(mean, deviation) or LogNormal(median, factor)"
         if isinstance(c, Constant) and not isfinite(c.value):
             yield f"constant '{c.name}' is {c.value}; give it a finite value [{c.unit}]"
         if isinstance(c, (State, Algebraic, Control, Parameter)):
@@ -74,7 +79,8 @@ def _expressions(model: Model, c) -> list[sm.Expr]:
         return [c.row.expr]
     if isinstance(c, Objective):
         return [c.running, c.terminal]
-    return [r.expr for r in c.rows(along_time(model))] if isinstance(c, Boundary) else []
+    along = along_time(model)
+    return [*(r.expr for r in c.rows(along)), *c.penalties(along)] if isinstance(c, Boundary) else []
 
 
 def _unknown_symbols(model: Model) -> Iterator[str]:

@@ -15,6 +15,7 @@ from sympy.core.relational import Relational
 
 from symid.errors import ModelError
 from symid.model.declare import Component
+from symid.model.prior import Prior
 from symid.model.quantity import initial, terminal
 
 
@@ -85,7 +86,7 @@ class Boundary(Component):
     ----------
     *conditions : comparisons or expressions (that are zero) of ``.initial`` and ``.terminal`` values.
     initial, terminal : quantity or expression -> its value there, a number, an expression (of parameters, or
-        of an Input, which is taken at the same end), or a pair (lower, upper).
+        of an Input, which is taken at the same end), a pair (lower, upper), or a prior: `Normal`, `LogNormal`.
     periodic : quantities that end as they began; or quantity -> expression whose initial value
         it has at the end.
     """
@@ -111,10 +112,19 @@ class Boundary(Component):
         found = [row_of(c) for c in self.conditions]
         for ends, table in ((self.initial, first), (self.terminal, last)):
             for quantity, value in ends.items():
+                if isinstance(value, Prior):
+                    continue
                 expr, (low, high) = sm.sympify(quantity).xreplace(table), _interval(value)
                 found.append(Row(expr, low, high) if low is not None else Row(expr - high.xreplace(table), 0.0, 0.0))
         return found + [Row(sm.sympify(x).xreplace(last) - sm.sympify(y).xreplace(first), 0.0, 0.0)
                         for x, y in self.periodic.items()]
+
+
+    def penalties(self, along: set[sm.Symbol]) -> list[sm.Expr]:
+        """-2 log of the density of each value that has a prior."""
+        return [value.penalty(sm.sympify(quantity).xreplace({s: f(s) for s in along}))
+                for ends, f in ((self.initial, initial), (self.terminal, terminal))
+                for quantity, value in ends.items() if isinstance(value, Prior)]
 
 
 @dataclass(frozen=True, kw_only=True)

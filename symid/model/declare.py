@@ -15,6 +15,7 @@ from types import MappingProxyType
 import sympy as sm
 
 from symid.errors import ModelError
+from symid.model.prior import Prior
 from symid.model.quantity import AlongTime, Quantity, symbol
 
 Bounds = tuple[float, float]
@@ -111,6 +112,23 @@ class Control(AlongTime, Component):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Process(Control):
+    """Process noise that is estimated along with the motion: white, of a known size, constant from node to node.
+
+    >>> m.gust = Process(unit="N", size=0.3)
+
+    Parameters
+    ----------
+    size : square root of the noise's spectral density [unit * sqrt(s)]: its mean over a time T has the
+        standard deviation size / sqrt(T). The objective gets the integral of (noise / size)^2, that is -2 log of
+        its likelihood (Jazwinski 1970, section 5.3).
+    """
+
+    hold: str = "zero"
+    size: float = 1.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class Input(AlongTime, Component):
     """A signal known from a recording.
 
@@ -130,11 +148,19 @@ class Input(AlongTime, Component):
 
 @dataclass(frozen=True, kw_only=True)
 class Parameter(Quantity, Component):
-    """A constant of the system that is to be identified. `guess` is used as a start if given."""
+    """A constant of the system that is to be identified.
+
+    Parameters
+    ----------
+    bounds : in its unit; the larger one scales it.
+    guess : used as a start if given.
+    prior : what is known before the data: `Normal` or `LogNormal`.
+    """
 
     unit: str = None
     bounds: Bounds = (-inf, inf)
     guess: float | None = None
+    prior: Prior | None = None
 
 
 @dataclass(frozen=True)

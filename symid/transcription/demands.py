@@ -8,8 +8,8 @@ import numpy as np
 
 from symid.codegen import Kernel, Program, compile_program
 from symid.codegen.conditions import (
-    end_rows, ends_program, has_running, is_bound, node_program, parameter_program, parameter_rows, path_data, path_rows,
-    running_data, running_program, terminal_objective,
+    end_penalties, end_rows, ends_program, has_running, is_bound, node_program, parameter_penalties, parameter_program,
+    parameter_rows, path_data, path_rows, running_data, running_program, terminal_objective,
 )
 from symid.codegen.symbols import node_symbols
 from symid.errors import TranscriptionError
@@ -28,21 +28,24 @@ class Demands:
     ----------
     duration : name of the parameter that is the motion's duration, or None.
     graded : whether intervals differ in length.
+    information : the objective of a squared error of one standard deviation.
     seconds : what compiling took is added to it.
     """
 
     def __init__(self, model: Model, scheme: Scheme, layout: Layout, measured: tuple[Measured, ...], recording_of: tuple[int, ...],
-                 duration: str | None, graded: bool, backend: str, seconds: dict[str, float]):
+                 duration: str | None, graded: bool, information: float, backend: str, seconds: dict[str, float]):
         self.model, self.scheme, self.layout, self.duration, self.graded = model, scheme, layout, duration, graded
         self.measured, self.recording_of, self.backend, self.seconds = measured, recording_of, backend, seconds
+        self.information = information
 
     def demanded(self) -> tuple[Block, ...]:
         """Constraints at nodes, at the ends, and of parameters."""
         return (*self._path(), *self._ends(end_rows(self.model), "boundary"), *self._parameters())
 
     def wanted(self) -> tuple[Block, ...]:
-        """Running and terminal objectives."""
-        return (*self._running(), *self._terminal())
+        """Running and terminal objectives, then priors; these and the likelihood of process noise times `information`."""
+        return (*self._running(), *self._terminal(terminal_objective(self.model), "terminal", 1.0),
+                *self._terminal(end_penalties(self.model), "prior of ends", self.information), *self._priors())
 
     def _compiled(self, program: Program, backend: str | None = None) -> Kernel:
         kernel = compile_program(program, backend=backend or self.backend)
@@ -77,12 +80,26 @@ class Demands:
     def _parameters(self) -> Iterator[Block]:
         rows = parameter_rows(self.model)
         if rows:
-            kernel = self._compiled(parameter_program(self.model), "numpy")
+            kernel = self._compiled(parameter_program(self.model, [r.expr for _, r in rows], "parameters"), "numpy")
             used = np.unique(kernel.jacobian_cols)
             seen = {tuple(self.layout.parameter_columns(e)[used]): e for e in reversed(range(len(self.recording_of)))}
             for e in sorted(seen.values()):
-                yield Block(kernel, lambda z: np.zeros((1, 0), z.dtype), self.layout.parameter_columns(e), np.zeros((1, 0)),
-                            self._constants(e), self.layout.size, **_bounds_and_names(rows))
+                yield Block(kernel, _nothing, self.layout.parameter_columns(e), np.zeros((1, 0)), self._constants(e),
+                            self.layout.size, **_bounds_and_names(rows))
+
+    def _priors(self) -> Iterator[Block]:
+        """Each free parameter once, however many episodes share it."""
+        penalties = parameter_penalties(self.model)
+        if penalties:
+            kernel = self._compiled(parameter_program(self.model, list(penalties.values()), "priors"), "numpy")
+            place, seen = [list(self.model.parameters).index(name) for name in penalties], set()
+            for e in range(len(self.recording_of)):
+                columns = self.layout.parameter_columns(e)[place]
+                weights = self.information * np.array([[float(c not in seen) for c in columns]])
+                seen |= set(columns)
+                if weights.any():
+                    yield Block(kernel, _nothing, self.layout.parameter_columns(e), np.zeros((1, 0)), self._constants(e),
+                                self.layout.size, weights=weights)
 
     def _running(self) -> Iterator[Block]:
         if not has_running(self.model):
@@ -95,15 +112,14 @@ class Demands:
             data += interval_steps(self.measured[r], layout.refine, self.graded)
             yield Block(kernel, lambda z, e=e: layout.local_view(z, e), layout.parameter_columns(e),
                         _columns(data, layout.intervals[e]), self._constants(e, self.graded), layout.size,
-                        weights=np.ones((layout.intervals[e], 1)))
+                        weights=np.tile([1.0, self.information], (layout.intervals[e], 1)))
 
-    def _terminal(self) -> Iterator[Block]:
-        total = terminal_objective(self.model)
+    def _terminal(self, total, name: str, weight: float) -> Iterator[Block]:
         if total != 0:
-            kernel = self._compiled(ends_program(self.model, [total], "terminal", self.duration), "numpy")
+            kernel = self._compiled(ends_program(self.model, [total], name, self.duration), "numpy")
             for e in range(len(self.recording_of)):
                 yield Block(kernel, self._both_ends(e), self.layout.parameter_columns(e), self._end_data(e), self._constants(e),
-                            self.layout.size, weights=np.ones((1, 1)))
+                            self.layout.size, weights=np.full((1, 1), weight))
 
     def _both_ends(self, e: int):
         columns = self.layout.node_view(np.arange(self.layout.size), e)[[0, -1]].reshape(1, -1)
@@ -112,6 +128,11 @@ class Demands:
     def _end_data(self, e: int) -> np.ndarray:
         m = self.measured[self.recording_of[e]]
         return np.array([[m.time[m.last], *(m.inputs[u][node] for node in (m.first, m.last) for u in self.model.inputs)]], dtype=float)
+
+
+def _nothing(z: np.ndarray) -> np.ndarray:
+    """The local symbols of a kernel that sees parameters alone."""
+    return np.zeros((1, 0), z.dtype)
 
 
 def _columns(data: list[np.ndarray], points: int) -> np.ndarray:

@@ -66,12 +66,14 @@ class Transcription:
 
 def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episodes: Episodes,
                weights: np.ndarray, per_recording: Sequence[str], backend: str, refine: int = 1,
-               duration: str | None = None, loss: dict[str, float] | None = None) -> Transcription:
+               duration: str | None = None, loss: dict[str, float] | None = None,
+               information: float = 1.0) -> Transcription:
     """Compile the kernels, lay out the free vector, and gather the data of every episode.
 
     weights : (recordings, m) of the time integrals of the squared output errors.
     duration : name of the parameter that is the motion's duration [s], where this is unknown; the time of
         `measured` is then a share of it.
+    information : what the objective is for an error of one standard deviation: priors are weighted by it.
     loss : output name -> width [its unit] beyond which its error counts by its size instead of its square.
     """
     model.check(units=False)
@@ -86,7 +88,7 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
     data = [episode_data(model, scheme, measured[r], noise, refine, graded, gaps, loss)
             for r in range(len(measured)) for noise in episodes.draw(model, measured[r].intervals)]
     seconds = {k: sum(kernel.seconds.get(k, 0.0) for kernel in (interval, error) if kernel) for k in interval.seconds}
-    demands = Demands(model, scheme, layout, tuple(measured), recording_of, duration, graded, backend, seconds)
+    demands = Demands(model, scheme, layout, tuple(measured), recording_of, duration, graded, information, backend, seconds)
     tied, tie_names = ties(model, layout, _linked_episodes(episodes, recording_of))
     program = CollocationProgram(
         layout=layout, interval=interval, error=error, data=tuple(data),
