@@ -82,6 +82,7 @@ def parameter_errors(t: Transcription, result: SolverResult, known: np.ndarray, 
     reduced, inverse = (white, inverse) if model == "white" else _exact(s, white, inverse)
     influences = [g @ inverse for g in s.by_recording(s.weights[:, None] * reduced.slopes, np.sum)]
     total, noise = error_models.covariance(model, errors, influences)
+    total = total + t.information * inverse @ reduced.prior @ inverse
     scale, q = t.layout.parameter_scale, len(t.layout.parameter_names)
     free = ~at_bound[t.layout.offsets[-1]:]
     full = np.zeros((q, q))
@@ -104,7 +105,8 @@ def _determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Inverse information (q, q) on the determined subspace, null space (q, k), orthonormal slopes (rows, q - k)."""
     s = reduced.s
     rooted = np.sqrt(s.curvatures)[:, None] * reduced.slopes
-    rooted = np.vstack([rooted, np.sqrt(s.penalty) * np.eye(rooted.shape[1])])
+    values, vectors = np.linalg.eigh(reduced.beside)
+    rooted = np.vstack([rooted, np.sqrt(s.penalty) * np.eye(rooted.shape[1]), (vectors * np.sqrt(np.maximum(values, 0.0))).T])
     size = np.linalg.norm(rooted, axis=0)
     recorded = np.concatenate([np.nan_to_num(s.t.measured[r].recorded).ravel() for r in s.t.recording_of])
     seen = size > UNSEEN * np.sqrt(np.sum(s.weights * recorded**2))

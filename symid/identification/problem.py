@@ -20,7 +20,7 @@ from symid.identification.starts.default import default_start, given_start, rand
 from symid.identification.starts.search import can_search, relaxed_start, search_start
 from symid.identification.starts.stable import stable_start
 from symid.identification.study import Solve, Study, start_kinds
-from symid.identification.weighting import to_likelihood, weights_of
+from symid.identification.weighting import information_of, to_likelihood, weights_of
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model
 from symid.nlp import NonlinearProgram, with_ridge
@@ -111,7 +111,7 @@ class Identification:
         measured = [measure(self.model, r, w) for r, w in zip(self.recordings, self.windows, strict=True)]
         weights = weights_of(self, measured)
         made = transcribe(self.model, measured, self.scheme, self.episodes, weights, self.per_recording, self.backend,
-                          int(self.refine), loss=self.loss)
+                          int(self.refine), loss=self.loss, information=information_of(self, measured, weights))
         made.seconds["build"] = time.perf_counter() - began
         return made
 

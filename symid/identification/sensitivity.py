@@ -15,6 +15,8 @@ from symid.transcription import Transcription
 
 DAMPING = 1e-11
 """Curvature, relative to the largest, that is added to every state: an unobserved one would make the system singular."""
+ACTIVE = 1e-8
+"""Multiplier of an inequality from which on it counts as one that holds, as for bounds."""
 PROBES = 2
 """Random right-hand sides beyond the expected rank with which a range is found (Halko, Martinsson & Tropp 2011)."""
 
@@ -108,22 +110,38 @@ class Sensitivity:
 
     @cached_property
     def constraints(self) -> sparse.csc_matrix:
+        """Derivatives of the rows that hold: equations, and inequalities that push."""
         p = self.t.program
-        return sparse.coo_matrix((p.jacobian(self.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, len(self.z))).tocsc()
+        rows = (p.constraint_lower == p.constraint_upper) | (np.abs(self.multipliers) > ACTIVE)
+        jacobian = sparse.coo_matrix((p.jacobian(self.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, len(self.z)))
+        return jacobian.tocsr()[rows].tocsc()
+
+    def symmetric(self, values: np.ndarray) -> sparse.csr_matrix:
+        """(n, n) the matrix of half these values of the program's lower triangle."""
+        p, n = self.t.program, len(self.z)
+        lower = sparse.coo_matrix((0.5 * values, (p.hessian_rows, p.hessian_cols)), shape=(n, n))
+        return (lower + lower.T - sparse.diags(lower.diagonal())).tocsr()
+
+    @cached_property
+    def beside(self) -> sparse.csr_matrix:
+        """Half the curvature of what the objective holds beside output errors: priors, process noise, costs."""
+        return self.symmetric(self.t.program.curvature_beside_errors(self.z))
+
+    @cached_property
+    def prior(self) -> sparse.csr_matrix:
+        """The part of `beside` that is a likelihood: it counts as data, of which a sample is worth `information`."""
+        return self.symmetric(self.t.program.curvature_beside_errors(self.z, likelihood_only=True))
 
     @cached_property
     def gauss_newton(self) -> Reduced:
         """Without the curvature of outputs and constraints: the expected information."""
         rooted = self.outputs.multiply(np.sqrt(self.curvatures)[:, None]).tocsr()
-        return Reduced(self, (rooted.T @ rooted).tocsr())
+        return Reduced(self, (rooted.T @ rooted + self.beside).tocsr())
 
     @cached_property
     def exact(self) -> Reduced:
         """With the curvature of outputs and constraints."""
-        p, n = self.t.program, len(self.z)
-        values = 0.5 * p.hessian(self.z, self.multipliers, 1.0)
-        lower = sparse.coo_matrix((values, (p.hessian_rows, p.hessian_cols)), shape=(n, n))
-        return Reduced(self, (lower + lower.T - sparse.diags(lower.diagonal())).tocsr())
+        return Reduced(self, self.symmetric(self.t.program.hessian(self.z, self.multipliers, 1.0)))
 
     def by_recording(self, rows: np.ndarray, over=np.mean) -> list[np.ndarray]:
         """(rows, q) in the order of `outputs` -> per recording (K + 1, m, q), the mean (or sum) over its episodes."""
@@ -151,9 +169,19 @@ class Reduced:
         self.factor = splu(sparse.block_array([[inner, a.T], [a, nothing]], format="csc"), permc_spec="COLAMD")
         border = sparse.vstack([hessian[self.states][:, self.parameters], s.constraints[:, self.parameters]]).toarray()
         solved = self.factor.solve(border)
+        follow = -solved[:len(self.states)]
+        self.beside, self.prior = (self._reduced(m, follow) for m in (s.beside, s.prior))
         self.slopes = s.outputs[:, self.parameters].toarray() - s.outputs[:, self.states] @ solved[:len(self.states)]
         self.curvature = hessian[self.parameters][:, self.parameters].toarray() - border.T @ solved
         self.curvature = 0.5 * (self.curvature + self.curvature.T) + s.penalty * np.eye(len(self.parameters))
+
+    def _reduced(self, matrix: sparse.csr_matrix, follow: np.ndarray) -> np.ndarray:
+        """(q, q) a quadratic form of all unknowns, where the states follow the parameters."""
+        if not matrix.nnz:
+            return np.zeros((len(self.parameters),) * 2)
+        step = np.zeros((matrix.shape[0], len(self.parameters)))
+        step[self.states], step[self.parameters] = follow, np.eye(len(self.parameters))
+        return step.T @ (matrix @ step)
 
     def initial_slopes(self, count: int) -> np.ndarray:
         """(rows, count) outputs that the motion can add for itself, with the parameters kept: a random basis of them."""

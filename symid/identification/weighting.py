@@ -30,6 +30,8 @@ RESOLUTION = 1e-6
 SETTLED = 1e-4
 """Relative change of the estimated noise at which the turns end: of no weight beside a standard error."""
 TURNS = 20
+UNKNOWN = 0.01
+"""Noise of an ordinary sensor as a share of the motion, from which the turns start."""
 LEAST = 1e-150
 """A number whose square is not zero, for a residual that is."""
 
@@ -76,6 +78,20 @@ def weights_of(problem: Identification, measured: Sequence[Measured]) -> np.ndar
     return np.array([[1 / own[unit] for unit in units]] * len(measured))
 
 
+def information_of(problem: Identification, measured: Sequence[Measured], weights: np.ndarray) -> float:
+    """What the objective is for an error of one standard deviation of the noise, by which priors are weighted.
+
+    One where the weights are given by hand. Where the noise is not known yet it is taken as a share of
+    the motion, until the turns of `to_likelihood` know it.
+    """
+    if problem.weights is not None:
+        return 1.0
+    sigma = noise_levels(problem)
+    spread = np.array([_spread(m.recorded) for m in measured]).reshape(sigma.shape)
+    sigma = np.where(np.isnan(sigma), UNKNOWN * spread, np.maximum(sigma, RESOLUTION * spread))
+    return float(np.mean(weights * np.array([[m.step] for m in measured]) * sigma**2))
+
+
 def _likelihood(problem: Identification, measured: Sequence[Measured], spread: np.ndarray) -> np.ndarray:
     sigma = noise_levels(problem)
     for r, j in np.argwhere(np.isnan(sigma)):
@@ -110,7 +126,7 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
     """
     p = solution.problem
     if p.weights is not None or p.noise is not None or p.episodes.count > 1 or p.ridge or p.loss or not solution.solved \
-            or len(p.recordings) * len(p.model.outputs) == 1 or solution.errors.model != "white":
+            or (len(p.recordings) * len(p.model.outputs) == 1 and not p.model.informed) or solution.errors.model != "white":
         return solution
     old = np.nan
     for _ in range(TURNS):

@@ -10,6 +10,7 @@ import sympy as sm
 from symid.errors import ModelError
 from symid.model.conditions import Constraint, Objective
 from symid.model.declare import Component, Constant, Equation, Expression, Input, Output, Port
+from symid.model.quantity import AlongTime
 
 if TYPE_CHECKING:
     from symid.model.model import Model
@@ -29,9 +30,9 @@ def completed(model: Model, part: Component, name: str) -> Component:
     if isinstance(part, (Expression, Equation, Output)):
         changes["expr"] = _expression(model, part.expr, name)
     if isinstance(part, Output):
-        state = model.components.get(str(changes["expr"]))
-        changes["unit"] = part.unit or getattr(state, "unit", "")
-        changes["channel"] = part.channel or getattr(state, "name", name)
+        shown = model.components.get(str(changes["expr"]))
+        changes["unit"] = part.unit or getattr(shown, "unit", "")
+        changes["channel"] = part.channel or (shown.name if isinstance(shown, AlongTime) else name)
     if isinstance(part, Input):
         changes["channel"] = part.channel or name
     if isinstance(part, Constraint):

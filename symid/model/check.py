@@ -14,7 +14,7 @@ from symid.model.declare import (
 )
 from symid.model.dimensions import Mismatch, dimension_of, dimensions_of_symbols
 from symid.model.model import TIME, Model, nearest
-from symid.model.prior import Prior
+from symid.model.prior import LogNormal, Prior
 from symid.model.quantity import initial, symbol, terminal
 from symid.units import dimension, known_unit
 
@@ -43,6 +43,8 @@ def _values(model: Model) -> Iterator[str]:
             yield f"the process noise '{c.name}' has size={c.size}; give a positive number [{c.unit}*sqrt(s)]"
         if isinstance(c, Parameter) and c.prior is not None and not isinstance(c.prior, Prior):
             yield f"the prior {c.prior!r} of '{c.name}' is none: give Normal(mean, deviation) or LogNormal(median, factor)"
+        if isinstance(c, Parameter) and isinstance(c.prior, LogNormal) and not _ends(c.bounds)[0] > 0:
+            yield f"'{c.name}' has a log-normal prior, whose logarithm needs a lower bound above 0; its bounds are {c.bounds}"
         if isinstance(c, Constant) and not isfinite(c.value):
             yield f"constant '{c.name}' is {c.value}; give it a finite value [{c.unit}]"
         if isinstance(c, (State, Algebraic, Control, Parameter)):

@@ -15,7 +15,7 @@ from symid.model.attach import completed, hint
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
     Algebraic, Bounds, Component, Constant, Control, Delay, Equation, Expression, Input, Noise, Output,
-    Parameter, Port, State,
+    Parameter, Port, Process, State,
 )
 from symid.model.quantity import symbol
 
@@ -109,6 +109,12 @@ class Model:
     constraints: dict[str, Constraint] = _kind(Constraint)
     boundaries: dict[str, Boundary] = _kind(Boundary)
     objectives: dict[str, Objective] = _kind(Objective)
+
+    @property
+    def informed(self) -> bool:
+        """Whether something is known beside the data: a prior, or the size of process noise."""
+        return (any(p.prior is not None for p in self.parameters.values()) or bool(self._of(Process))
+                or any(b.penalties(set()) for b in self.boundaries.values()))
 
     @property
     def time(self) -> sm.Symbol:

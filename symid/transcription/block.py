@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -23,6 +23,7 @@ class Block:
     constants : (n_constants,).
     size : length of z.
     weights : (N, m) of the rows in the objective; None for constraints.
+    likelihood : (m,) which rows are -2 log of a density: priors and process noise.
     lower, upper : (m,) bounds of the rows of constraints, zero where they are left out.
     names : (m,) what each row says; times : (N,) s, where; empty for what holds once.
     """
@@ -34,6 +35,7 @@ class Block:
     constants: np.ndarray
     size: int
     weights: np.ndarray | None = None
+    likelihood: np.ndarray = field(default_factory=lambda: np.zeros(1, bool))
     lower: np.ndarray | None = None
     upper: np.ndarray | None = None
     names: tuple[str, ...] = ()

@@ -45,7 +45,7 @@ class Demands:
     def wanted(self) -> tuple[Block, ...]:
         """Running and terminal objectives, then priors; these and the likelihood of process noise times `information`."""
         return (*self._running(), *self._terminal(terminal_objective(self.model), "terminal", 1.0),
-                *self._terminal(end_penalties(self.model), "prior of ends", self.information), *self._priors())
+                *self._terminal(end_penalties(self.model), "prior of ends", self.information, likelihood=True), *self._priors())
 
     def _compiled(self, program: Program, backend: str | None = None) -> Kernel:
         kernel = compile_program(program, backend=backend or self.backend)
@@ -99,7 +99,7 @@ class Demands:
                 seen |= set(columns)
                 if weights.any():
                     yield Block(kernel, _nothing, self.layout.parameter_columns(e), np.zeros((1, 0)), self._constants(e),
-                                self.layout.size, weights=weights)
+                                self.layout.size, weights=weights, likelihood=np.ones(len(place), bool))
 
     def _running(self) -> Iterator[Block]:
         if not has_running(self.model):
@@ -112,14 +112,14 @@ class Demands:
             data += interval_steps(self.measured[r], layout.refine, self.graded)
             yield Block(kernel, lambda z, e=e: layout.local_view(z, e), layout.parameter_columns(e),
                         _columns(data, layout.intervals[e]), self._constants(e, self.graded), layout.size,
-                        weights=np.tile([1.0, self.information], (layout.intervals[e], 1)))
+                        weights=np.tile([1.0, self.information], (layout.intervals[e], 1)), likelihood=np.array([False, True]))
 
-    def _terminal(self, total, name: str, weight: float) -> Iterator[Block]:
+    def _terminal(self, total, name: str, weight: float, likelihood: bool = False) -> Iterator[Block]:
         if total != 0:
             kernel = self._compiled(ends_program(self.model, [total], name, self.duration), "numpy")
             for e in range(len(self.recording_of)):
                 yield Block(kernel, self._both_ends(e), self.layout.parameter_columns(e), self._end_data(e), self._constants(e),
-                            self.layout.size, weights=np.full((1, 1), weight))
+                            self.layout.size, weights=np.full((1, 1), weight), likelihood=np.array([likelihood]))
 
     def _both_ends(self, e: int):
         columns = self.layout.node_view(np.arange(self.layout.size), e)[[0, -1]].reshape(1, -1)

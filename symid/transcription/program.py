@@ -157,6 +157,18 @@ class CollocationProgram:
             out += np.bincount(index, signal.hessian(z, multipliers), minlength=len(out))
         return out
 
+    def curvature_beside_errors(self, z: np.ndarray, likelihood_only: bool = False) -> np.ndarray:
+        """(nnz,) second derivatives of the objective without the output errors, in the order of `hessian_rows`/`cols`.
+
+        likelihood_only : of priors and process noise alone.
+        """
+        out = np.zeros(len(self.hessian_rows))
+        first = len(self.intervals) + len(self.errors)
+        for block, index in zip(self.wanted[len(self.errors):], self._scatter[first:], strict=False):
+            if not likelihood_only or block.likelihood.any():
+                block.add_hessian(out, index, z, block.weights * (block.likelihood if likelihood_only else 1.0))
+        return out
+
     def settle_late(self, z: np.ndarray) -> None:
         """Give the late unknowns of a start the values that their constraints ask for, in place."""
         for signal in self.late:

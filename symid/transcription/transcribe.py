@@ -35,6 +35,7 @@ class Transcription:
     layout : the order of the free vector.
     program : values and derivatives of the nonlinear program.
     fingerprint : of the model at this moment; results of another one are refused.
+    information : the objective of an error of one standard deviation, by which priors are weighted.
     """
 
     model: Model
@@ -46,6 +47,7 @@ class Transcription:
     program: CollocationProgram
     fingerprint: str
     seconds: dict[str, float]
+    information: float = 1.0
 
     def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
         """The program from this start (a free vector)."""
@@ -98,7 +100,8 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
         late=tuple(gather_late(model, scheme, layout, measured, recording_of, interval.m * sum(layout.intervals))),
         ties=tied, tie_names=tie_names, bounds=bounds(model, layout), row_names=row_names(model, scheme),
         times=tuple(measured[r].mesh(refine) for r in recording_of), demanded=demands.demanded(), wanted=demands.wanted())
-    return Transcription(model, scheme, episodes, tuple(measured), recording_of, layout, program, model.fingerprint, seconds)
+    return Transcription(model, scheme, episodes, tuple(measured), recording_of, layout, program, model.fingerprint, seconds,
+                         information)
 
 
 def _checked_loss(model: Model, loss: dict[str, float]) -> dict[str, float]:
