@@ -13,7 +13,7 @@ FLOOR = {
     "units": 0, "files": 0, "generated": 0, "threads": 0, "progress": 0, "deadline": 0,
     "recording": 1, "model": 1, "nlp": 1,
     "mechanics": 2, "codegen": 2,
-    "transcription": 3, "simulation": 3, "kkt": 3,
+    "transcription": 3, "simulation": 3, "plausibility": 3, "kkt": 3,
     "estimation": 4, "ipopt_solver": 4,
     "identification": 5, "optimization": 5,
     "analysis": 6,

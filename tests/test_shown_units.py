@@ -14,11 +14,21 @@ from symid.mechanics.terms import LIBRARY
 from symid.units import quantity, shown_unit, unit_symbol, with_error
 
 
-@pytest.mark.parametrize(("value", "error", "text"), [
-    (626.6, 100.0, "630 ± 100"), (626.6, 99.6, "630 ± 100"), (0.052, 0.004, "0.0520 ± 0.0040"),
-    (1.23e-9, 4e-11, "(1.230 ± 0.040)·10⁻⁹"), (0.0, 1e-3, "0.0000 ± 0.0010"), (-12.34, 0.56, "-12.34 ± 0.56"),
-    (3.3, 500.0, "3.3 (hardly determined)"), (12.345, float("nan"), "12.3"), (float("nan"), 1.0, "not known"),
-    (5e8, 2e7, "(5.00 ± 0.20)·10⁸")])
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (626.6, 100.0, "630 ± 100"),
+        (626.6, 99.6, "630 ± 100"),
+        (0.052, 0.004, "0.0520 ± 0.0040"),
+        (1.23e-9, 4e-11, "(1.230 ± 0.040)·10⁻⁹"),
+        (0.0, 1e-3, "0.0000 ± 0.0010"),
+        (-12.34, 0.56, "-12.34 ± 0.56"),
+        (3.3, 500.0, "3.3 (hardly determined)"),
+        (12.345, float("nan"), "12.3"),
+        (float("nan"), 1.0, "not known"),
+        (5e8, 2e7, "(5.00 ± 0.20)·10⁸"),
+    ],
+)
 def test_digits_follow_the_error(value, error, text):
     assert with_error(value, error) == text
 
@@ -34,10 +44,18 @@ def test_a_printed_value_is_right_to_the_second_digit_of_its_error(value, error)
     assert len(re.sub(r"[.\-]", "", text.split(" ± ")[1]).strip("0")) <= 2
 
 
-@pytest.mark.parametrize(("value", "error", "unit", "text"), [
-    (0.084, 0.003, "s", "84.0 ± 3.0 ms"), (0.0052, 0.0011, "N*m", "5.2 ± 1.1 mN m"), (0.05, 0.01, "rad", "2.86 ± 0.57 deg"),
-    (0.0046, 1e-4, "m", "4.60 ± 0.10 mm"), (0.2, 0.01, "kg*m^2", "0.200 ± 0.010 kg m²"), (843.0, float("nan"), "m", "843 m"),
-    (12.3, 0.4, "N*s/m", "12.30 ± 0.40 N s/m")])
+@pytest.mark.parametrize(
+    ("value", "error", "unit", "text"),
+    [
+        (0.084, 0.003, "s", "84.0 ± 3.0 ms"),
+        (0.0052, 0.0011, "N*m", "5.2 ± 1.1 mN m"),
+        (0.05, 0.01, "rad", "2.86 ± 0.57 deg"),
+        (0.0046, 1e-4, "m", "4.60 ± 0.10 mm"),
+        (0.2, 0.01, "kg*m^2", "0.200 ± 0.010 kg m²"),
+        (843.0, float("nan"), "m", "843 m"),
+        (12.3, 0.4, "N*s/m", "12.30 ± 0.40 N s/m"),
+    ],
+)
 def test_a_quantity_takes_the_unit_that_suits_it(value, error, unit, text):
     assert quantity(value, error, unit) == text
 
@@ -50,7 +68,10 @@ def test_units_as_they_are_printed():
 
 
 def test_one_number_over_outputs_of_different_units_is_not_given_a_unit():
-    assert fit_text({"cart": 0.0012, "pole": 0.0174533, "all": 0.0123}, {"cart": "m", "pole": "rad"}) == "cart 1.200 mm, pole 1.000 deg"
+    assert (
+        fit_text({"cart": 0.0012, "pole": 0.0174533, "all": 0.0123}, {"cart": "m", "pole": "rad"})
+        == "cart 1.200 mm, pole 1.000 deg"
+    )
     assert fit_text({"a": 0.0174533, "b": 0.0349066, "all": 0.0276}, {"a": "rad", "b": "rad"}).endswith("all 1.581 deg")
     assert rms_text(0.01, common_unit(["m", "rad"])) == "0.01 (different units together)"
     assert rms_text(0.01, common_unit(["m", "m"])) == "10.00 mm"
@@ -74,8 +95,15 @@ def test_a_port_and_the_laws_at_it_take_the_units_of_the_model(divided, force, f
     assert model.track.unit == force
     lossy = model.with_term(LIBRARY["viscous_friction"].at("track"))
     assert [p.unit for p in lossy.parameters.values()] == ["1/s^2", friction]
-    for name in ("viscous_friction", "coulomb_friction", "cubic_stiffness", "stribeck_friction", "joint_drag", "rotor_inertia"):
-        model.with_term(LIBRARY[name].at("track")).check()    # dimensions of every equation, too
+    for name in (
+        "viscous_friction",
+        "coulomb_friction",
+        "cubic_stiffness",
+        "stribeck_friction",
+        "joint_drag",
+        "rotor_inertia",
+    ):
+        model.with_term(LIBRARY[name].at("track")).check()  # dimensions of every equation, too
 
 
 def test_a_port_whose_unit_is_wrong_or_cannot_be_told_is_refused():

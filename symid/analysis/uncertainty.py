@@ -149,7 +149,7 @@ def _objective_with(problem: Identification, solution: Solution, parameter: str,
     other = Identification(problem.model.fixed(**{parameter: value}), problem.recordings, problem.window, scheme=problem.scheme,
                            episodes=problem.episodes, weights=problem.weights, per_recording=problem.per_recording,
                            backend=problem.backend)
-    found = other.solve(start=solution)
+    found = other.solve(start=solution, check=False)
     if not found.solved:
         raise ModelError(f"profile: with {parameter}={value:g} no solution was found: {found.message}")
     return found.result.objective

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+import warnings
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, fields
@@ -11,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from symid.errors import TranscriptionError
+from symid.errors import RecordingWarning, TranscriptionError
 from symid.identification.arguments import as_recordings, refuse_wrong_types
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
@@ -116,6 +117,13 @@ class Identification:
         return made
 
     @cached_property
+    def remarks(self) -> tuple[str, ...]:
+        """What is implausible about the recordings, the body and the two together, see `symid.plausibility`; one sentence each."""
+        from symid.plausibility import remarks
+        found = [text for r, w in zip(self.recordings, self.windows, strict=True) for text in remarks(self.model, r, w)]
+        return tuple(dict.fromkeys(found))
+
+    @cached_property
     def identity(self) -> dict[str, str]:
         """Fingerprints of what determines the numbers, see `identification.identity`."""
         return problem_identity(self)
@@ -183,7 +191,7 @@ class Identification:
     def solve(self, starts: int = 1, *, start: str | dict[str, float] | Solution = "default", seed: int = 0,
               executor: Executor | None = None, store: str | Path | None = None,
               on_iteration: Callable[[Iteration], bool | None] | None = None,
-              on_start: Callable[[StartRow], None] | None = None, **solver) -> Solution:
+              on_start: Callable[[StartRow], None] | None = None, check: bool = True, **solver) -> Solution:
         """Solve from one start or from many, and return the best solution found.
 
         Parameters
@@ -197,6 +205,7 @@ class Identification:
         store : directory that keeps every finished start; solving again resumes.
         on_iteration : called after every iteration of a start in this process.
         on_start : called after every finished start.
+        check : whether to look for mistakes of units and signs first, and to warn of them (`remarks`).
         solver : options for `symid.ipopt_solver.solve_nlp`, for instance ``max_iterations``.
 
         Returns
@@ -210,6 +219,8 @@ class Identification:
             If no start gave a result, or `store` belongs to another study or cannot be written.
         """
         self.transcription  # noqa: B018 - a problem that cannot be transcribed is refused before any start
+        for remark in self.remarks if check else ():
+            warnings.warn(remark, RecordingWarning, stacklevel=2)
         study = Study({f"start {k + 1}": Solve(self, kind, k, seed, solver)
                        for k, kind in enumerate(start_kinds(self, starts, start))}, store)
         on_finished = None if on_start is None else lambda finished: on_start(finished.row)

@@ -53,9 +53,9 @@ def headline(solution: Solution) -> str:
 
 
 def warnings(solution: Solution) -> list[str]:
-    """A sentence for each state that its bounds cut off."""
+    """A sentence for each mistake of units or signs that shows, and for each state that its bounds cut off."""
     states = solution.model.states
-    return [f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} {states[name].unit}) at "
+    return [*solution.problem.remarks] + [f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} {states[name].unit}) at "
             f"{100 * share:.2g} % of the nodes: they cut the motion off, which biases the parameters; widen them with "
             f"model.with_bounds({name}=(lower, upper))" for name, share in solution.cut_off.items()]
 
@@ -81,7 +81,7 @@ def text(solution: Solution) -> str:
     """Headline, what Ipopt said, and the parameters."""
     table = solution.parameters[["value", "std_error", "unit", "at_bound"]]
     starts = f"\nBest of {len(solution.starts)} starts." if len(solution.starts) > 1 else ""
-    cut = "".join(f"\n{warning}." for warning in (*warnings(solution), *error_notes(solution)))
+    cut = "".join(f"\n{warning}." for warning in (*solution.warnings, *error_notes(solution)))
     return f"{solution.model.name}\n{headline(solution)}\n{solution.message}{starts}{cut}\n{table.to_string(float_format='%.5g')}"
 
 
@@ -100,6 +100,6 @@ def html(solution: Solution) -> str:
     colour = "#666" if solution.solved else "#c0392b"
     return (f"<h4>{escape(solution.model.name)}</h4><p>{escape(headline(solution))}</p>"
             f'<p style="color:{colour}">{escape(solution.message)}</p>'
-            + "".join(f'<p style="color:#c0392b">{escape(warning)}.</p>' for warning in warnings(solution)) +
+            + "".join(f'<p style="color:#c0392b">{escape(warning)}.</p>' for warning in solution.warnings) +
             "".join(f"<p>{escape(note)}.</p>" for note in error_notes(solution)) +
             f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>")

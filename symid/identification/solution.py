@@ -170,6 +170,13 @@ class Solution:
         return {name: float(s) for name, s in zip(t.model.states, share, strict=True) if s > 0}
 
     @cached_property
+    def warnings(self) -> tuple[str, ...]:
+        """What should be looked at before the numbers are trusted, one sentence each: mistakes of units and signs that show
+        in the recording, the body or the motion (`symid.plausibility`), and states that their bounds cut off."""
+        from symid.identification.show import warnings
+        return tuple(warnings(self))
+
+    @cached_property
     def trajectories(self) -> tuple[pd.DataFrame, ...]:
         """One table per episode: states, outputs and "<output> recorded" over time_s, SI."""
         t, frames = self.transcription, []
@@ -212,7 +219,7 @@ class Solution:
         p = self.problem
         other = Identification(self.model.fixed(**known), recording or p.recordings[0], window, scheme=p.scheme,
                                weights=p.weights, noise=p.noise and p.noise[:1], backend=p.backend)
-        solution = other.solve()
+        solution = other.solve(check=False)
         if not solution.solved:
             raise SolveError(f"fit_on: the free run over {window[0]:g} to {window[1]:g} s was not found: {solution.message}")
         return solution
@@ -245,6 +252,7 @@ class Solution:
             "solver": {"status": self.result.status_name, "solved": self.solved, "sentence": self.message,
                        "iterations": self.result.iterations, "seconds": self.seconds,
                        "linear_solver": asdict(self.result.linear_solver)},
+            "warnings": list(self.warnings),
             "starts": [asdict(row) for row in self.starts],
             "provenance": self.provenance,
         }

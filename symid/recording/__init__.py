@@ -11,7 +11,7 @@ from symid.recording.prepare import (
 )
 from symid.recording.read import read_recording
 from symid.recording.recording import Recording
-from symid.recording.smooth import smooth_states
+from symid.recording.smooth import smooth_states, spline_of
 from symid.recording.spikes import find_spikes
 
 __all__ = [
@@ -26,4 +26,5 @@ __all__ = [
     "read_recording",
     "resample",
     "smooth_states",
+    "spline_of",
 ]

@@ -20,9 +20,9 @@ from symid.units import FloatArray
 
 _FULL_TURN = 2 * np.pi
 _CURES = {
-    "gap": "fill it: read with allow_gaps=True, then fill_gaps() (or mark the parts in a "
-    "'segment' column)",
-    "uneven": "read with allow_gaps=True, then resample()",
+    "gap": "read with allow_gaps=True (--allow-gaps), which gives what is missing no weight (or mark the parts in "
+    "a 'segment' column)",
+    "uneven": "read with allow_gaps=True (--allow-gaps)",
     "repeated": "remove the row, or mark separate runs in a 'segment' column",
     "backwards": "sort the rows, or mark separate runs in a 'segment' column",
     "single": "record more, or remove the row",
@@ -40,8 +40,8 @@ def read_recording(path: str | os.PathLike, *, allow_gaps: bool = False) -> Reco
     Parameters
     ----------
     path : the file
-    allow_gaps : accept blank cells, missing rows and uneven time, to be mended by `fill_gaps` or
-        `resample` before use; refused otherwise
+    allow_gaps : accept blank cells, missing rows and uneven time. An identification gives what is missing no
+        weight; `fill_gaps` and `resample` mend it. Refused otherwise, as are rows that are too short or too long
 
     Raises
     ------
@@ -68,6 +68,8 @@ def _read_table(path: Path, columns: list[Column], allow_gaps: bool) -> dict[str
     import pandas as pd  # here and not at the top: 0.4 s that a mere `import symid` should not pay
 
     _check_first_row(path, columns)
+    if allow_gaps:
+        _check_lengths(path, columns)
     kinds = {c.name: str if c.name == "split" else np.float64 for c in columns}
     try:
         with warnings.catch_warnings():
@@ -100,6 +102,21 @@ def _check_first_row(path: Path, columns: list[Column]):
             )
 
 
+def _check_lengths(path: Path, columns: list[Column]):
+    """Refuse a row with a cell too few or too many: pandas would fill it up at its end, and so shift its values."""
+    for row, (line, cells) in enumerate(file_rows(path)):
+        cells = cells[:-1] if len(cells) == len(columns) + 1 and not cells[-1].strip() else cells    # a comma at its end
+        if row and len(cells) != len(columns):
+            raise _wrong_length(path, row, line, len(cells), len(columns))
+
+
+def _wrong_length(path: Path, row: int, line: int, found: int, expected: int) -> RecordingError:
+    return RecordingError(
+        f"{path}: row {row} (line {line}) has {found} cells, the header has {expected}; leave the cell of a missing value "
+        f"empty, but keep its comma"
+    )
+
+
 def _every_digit(pandas_version: str) -> dict[str, str]:
     """Option that makes read_csv exact to the last digit; needless and deprecated from 3.1 on."""
     release = tuple(int(part) for part in pandas_version.split(".")[:2])
@@ -128,9 +145,7 @@ def _explained(path: Path, columns: list[Column], allow_gaps: bool, last_resort:
     for row, (line, cells) in enumerate(rows, 1):
         place = f"row {row} (line {line})"
         if len(cells) != len(columns):
-            return RecordingError(
-                f"{path}: {place} has {len(cells)} cells, the header has {len(columns)}"
-            )
+            return _wrong_length(path, row, line, len(cells), len(columns))
         for column, cell in zip(columns, cells, strict=True):
             fault = _cell_fault(column, cell.strip(), allow_gaps)
             if fault:
@@ -143,7 +158,7 @@ def _cell_fault(column: Column, cell: str, allow_gaps: bool) -> str | None:
         if allow_gaps and column.unit and column.name != "time":
             return None
         found = f"'{cell}'" if cell else "nothing"
-        cure = "; read with allow_gaps=True, then fill_gaps()" if column.unit else ""
+        cure = "; read with allow_gaps=True (--allow-gaps), which gives it no weight" if column.unit else ""
         return f"a value is missing (found {found}){cure if column.name != 'time' else ''}"
     if column.name == "split":
         return None

@@ -123,6 +123,11 @@ class Recording:
         """First and last time [s]."""
         return float(self.time.min()), float(self.time.max())
 
+    @cached_property
+    def valid(self) -> Mapping[str, np.ndarray]:
+        """Channel -> shape(N,), whether each sample was measured; a missing one is NaN in the channel."""
+        return MappingProxyType({name: np.isfinite(values) for name, values in self.channels.items()})
+
     @property
     def complete(self) -> bool:
         """Whether the samples are evenly spaced and none is missing (NaN)."""

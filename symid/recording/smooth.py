@@ -56,8 +56,7 @@ def _smoothed(recording: Recording, channel: str, noise: float | None) -> Record
             f"{recording.name}: '{channel}' cannot be smoothed: "
             + ("values are missing" if shortest >= 5 else f"a segment has {shortest} samples")
         )
-    weight = _smoothing_weight([values[run] for run in recording.runs], noise)
-    curves = np.hstack([_spline(values[run], weight, step) for run in recording.runs])
+    curves = np.hstack(spline_of([values[run] for run in recording.runs], step, noise))
     how = "by cross-validation" if noise is None else f"for noise of {noise:.3g} rms"
     residual = float(np.sqrt(np.mean((curves[0] - values) ** 2)))
     unit = recording.units[channel]
@@ -71,6 +70,12 @@ def _smoothed(recording: Recording, channel: str, noise: float | None) -> Record
         f"it differs from the samples by {residual:.3g} {unit} rms"
     )
     return replace(new, history=(*recording.history, note))
+
+
+def spline_of(pieces: list[FloatArray], step: float, noise: float | None = None) -> list[FloatArray]:
+    """Value, rate and its rate, shape(3, N), of each piece of one channel, all smoothed alike; see `smooth_states`."""
+    weight = _smoothing_weight(pieces, noise)
+    return [_spline(piece, weight, step) for piece in pieces]
 
 
 def _smoothing_weight(pieces: list[FloatArray], noise: float | None) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 from symid.files import write_atomically
 from symid.identification import Solution
 from symid.identification.fit import common_unit, rms_text
-from symid.identification.show import error_notes, headline, problem_facts, warnings
+from symid.identification.show import error_notes, headline, problem_facts
 from symid.model.show import latex_lines
 from symid.plots import plot_fit, plot_inputs, plot_parameters, plot_residual_spectra, plot_starts, typical_stretch
 from symid.report.page import equations, facts, figure, folded, heading, number, page, paragraph, table
@@ -42,7 +42,7 @@ def write_report(solution: Solution, path: str | Path, held_out: Solution | None
 def report_html(solution: Solution, held_out: Solution | None = None, truth: dict[str, float] | None = None) -> str:
     """The same as text."""
     parts = [paragraph(headline(solution), "lead"), paragraph(solution.message, "note" if solution.solved else "bad")]
-    parts += [paragraph(warning + ".", "bad") for warning in warnings(solution)]
+    parts += [paragraph(warning + ".", "bad") for warning in solution.warnings]
     parts += [heading("Parameters"), _parameters(solution, truth), _errors_note(solution), *_together(solution),
               figure(plot_parameters(solution, truth), "Parameters with 95 % intervals, by unit.")]
     parts += [heading("Fit"), _fit(solution, held_out), *_fit_figures(solution), *_held_out_figures(held_out)]

@@ -20,11 +20,36 @@ u     known input                              p     parameter
 from symid.units.columns import column_name, known_suffixes, split_column_name
 from symid.units.show import quantity, shown_unit, unit_symbol, with_error
 from symid.units.si import (
-    STANDARD_GRAVITY, FloatArray, IntArray, KnownUnit, base_unit, dimension, known_unit, nearest, reduced, same_dimension, si_factor,
+    STANDARD_GRAVITY,
+    FloatArray,
+    IntArray,
+    KnownUnit,
+    base_unit,
+    dimension,
+    known_unit,
+    nearest,
+    reduced,
+    same_dimension,
+    si_factor,
 )
 
 __all__ = [
-    "STANDARD_GRAVITY", "FloatArray", "IntArray", "KnownUnit", "base_unit", "column_name", "dimension", "known_suffixes", "known_unit",
-    "nearest", "quantity", "reduced", "same_dimension", "shown_unit", "si_factor", "split_column_name", "unit_symbol",
+    "STANDARD_GRAVITY",
+    "FloatArray",
+    "IntArray",
+    "KnownUnit",
+    "base_unit",
+    "column_name",
+    "dimension",
+    "known_suffixes",
+    "known_unit",
+    "nearest",
+    "quantity",
+    "reduced",
+    "same_dimension",
+    "shown_unit",
+    "si_factor",
+    "split_column_name",
+    "unit_symbol",
     "with_error",
 ]

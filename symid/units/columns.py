@@ -49,8 +49,7 @@ def column_name(name: str, unit: str) -> str:
         suffix = next((s for s, known in SUFFIXES.items() if parsed(known.text) == unit_found), None)
     if suffix is None:
         raise RecordingError(
-            f"'{name}' has the unit {unit}, which no column name can carry; "
-            f"known endings: {', '.join(SUFFIXES)}"
+            f"'{name}' has the unit {unit}, which no column name can carry; known endings: {', '.join(SUFFIXES)}"
         )
     return f"{name}_{suffix}"
 

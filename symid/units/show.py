@@ -16,7 +16,7 @@ PLAIN = 1e-4, 1e7
 
 
 def unit_symbol(unit: str) -> str:
-    """A unit text as it is printed: ``"N*m*s/rad"`` as ``"N m s/rad"``, ``"kg*m^2"`` as ``"kg m²"``, ``"1"`` as ``""``."""
+    """A unit text as it is printed: ``"N*m*s/rad"`` as ``"N m s/rad"``, ``"kg*m^2"`` as ``"kg m²"``."""
     text = "" if unit in ("", "1") else unit.replace("**", "^").replace("*", " ")
     base, *powers = text.split("^")
     for power in powers:
@@ -46,7 +46,7 @@ def with_error(value: float, error: float, digits: int = 3) -> str:
     if error > UNSURE * abs(value) > 0:
         return f"{_plain(value, 2)} (hardly determined)"
     place = floor(log10(error)) - 1
-    place += round(error / 10.0**place) >= 100    # 0.0996 is rounded to 0.10
+    place += round(error / 10.0**place) >= 100  # 0.0996 is rounded to 0.10
     size = max(abs(value), error)
     if not PLAIN[0] <= size < PLAIN[1]:
         power = floor(log10(size))

@@ -162,8 +162,15 @@ def reduced(text: str) -> str:
     return normal(f"{parsed(normal(text)):~C}")
 
 
-_BASE = {"[mass]": "kg", "[length]": "m", "[time]": "s", "[current]": "A", "[temperature]": "K", "[substance]": "mol",
-         "[luminosity]": "cd"}
+_BASE = {
+    "[mass]": "kg",
+    "[length]": "m",
+    "[time]": "s",
+    "[current]": "A",
+    "[temperature]": "K",
+    "[substance]": "mol",
+    "[luminosity]": "cd",
+}
 
 
 def base_unit(found) -> str:

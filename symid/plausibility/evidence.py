@@ -1,0 +1,174 @@
+"""How much of the recorded accelerations a model's equations leave unexplained, as recorded or with something changed.
+
+The recorded motion is put into the equations 0 = f(x', x, u, p). With p fitted to them by bounded least squares, the
+share of the variance of the accelerations that is left says how well they go together. It is comparable between
+changes of units and signs, since it has no unit, and it needs no simulation, which such mistakes would make diverge.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.optimize import lsq_linear
+
+from symid.codegen import compile_program
+from symid.codegen.balance import balance_program
+from symid.codegen.rates import late_of
+from symid.model import Model
+from symid.plausibility.motion import Motion, shown_states
+from symid.units import FloatArray
+
+EDGE = 5
+"""Samples at each end of a piece that are left out, where a filter has not settled."""
+STEPS = 4
+"""Gauss-Newton steps for parameters that enter the equations nonlinearly; gains need one."""
+LAGS = 5
+"""Values within its bounds that are tried of a lag."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """What is done to a recording or to a body before it is put into the equations.
+
+    Parameters
+    ----------
+    said : the mistake that this would undo, as a clause.
+    factors : channel or constant -> factor. time : factor of the times. swapped : two channels, exchanged.
+    """
+
+    said: str = ""
+    factors: Mapping[str, float] = field(default_factory=dict)
+    time: float = 1.0
+    swapped: tuple[str, str] | None = None
+
+    @property
+    def is_of_sign(self) -> bool:
+        """Whether numbers keep their sizes: a sign, or two columns."""
+        return self.swapped is not None or (self.time == 1.0 and all(f == -1.0 for f in self.factors.values()))
+
+
+class Witness:
+    """The equations of one model, asked about one motion."""
+
+    def __init__(self, model: Model, motion: Motion):
+        from scipy.signal import butter
+
+        self.model, self.motion = model, motion
+        self.kernel = compile_program(balance_program(model), backend="numpy")
+        self.filter = butter(2, motion.band, fs=1 / motion.step, output="sos")
+        parameters = model.parameters.values()
+        self.lower, self.upper = (np.array([p.bounds[i] for p in parameters], dtype=float) for i in (0, 1))
+        self.shown, self.rates = shown_states(model), model.rates()
+        self.order = [int(self.rates.get(s) in self.shown) for s in model.states]  # 1: the rate of a recorded state
+        self.explained = [
+            i for i, s in enumerate(model.states) if s not in self.rates.values()
+        ]  # the others are kinematic
+
+    def unexplained(self, change: Change = Change()) -> float:
+        """Share of the variance of the accelerations that no parameters within bounds explain; least over lags."""
+        with np.errstate(all="ignore"):
+            shares = [self._fitted(change, p) for p in self._first()]
+        return float(np.nanmin(shares)) if np.isfinite(shares).any() else np.inf
+
+    def _first(self) -> list[FloatArray]:
+        """First values: guesses or zero, lags at several values within their bounds."""
+        given = [p.guess if p.guess is not None else 0.0 for p in self.model.parameters.values()]
+        first = np.clip(np.array(given, dtype=float), self.lower, self.upper)
+        lags = [
+            i
+            for i, name in enumerate(self.model.parameters)
+            if any(name in map(str, d.lag.free_symbols) for d in self.model.delays.values())
+        ]
+        if not lags:
+            return [first]
+        grid = np.linspace(self.lower[lags], np.minimum(self.upper[lags], self.lower[lags] + 1.0), LAGS)
+        return [np.array([*(x if i not in lags else row[lags.index(i)] for i, x in enumerate(first))]) for row in grid]
+
+    def _fitted(self, change: Change, p: FloatArray) -> float:
+        local, data, constants = self._arguments(change, p)
+        columns = self.explained
+        rates = local[:, : len(self.order)]
+        size = np.std(self._filtered(rates[:, columns]), axis=0)
+        if not (size > 0).all():
+            return np.inf
+        mass = self._slopes(local, p, data, constants, slice(0, len(self.order)))
+        inverse = np.linalg.inv(mass)[:, columns, :] / size[:, None]
+
+        def error(p):
+            return self._filtered(
+                (inverse @ self.kernel.residual(local, p, data, constants)[:, :, None])[:, :, 0]
+            ).ravel()
+
+        left = error(p)
+        for _ in range(STEPS if p.size else 0):
+            shared = slice(self.kernel.n_local, None)
+            slopes = self._filtered(inverse @ self._slopes(local, p, data, constants, shared)).reshape(left.size, -1)
+            new = np.clip(p + _step(slopes, left, self.lower - p, self.upper - p), self.lower, self.upper)
+            later, linear = error(new), left + slopes @ (new - p)
+            if not np.sum(later**2) < (1 - 1e-3) * np.sum(left**2):
+                break
+            p, left = new, later
+            if np.sum((later - linear) ** 2) < 1e-6 * np.sum(later**2):
+                break  # gains enter linearly: the first step was the last
+        return float(np.mean(left**2))
+
+    def _arguments(self, change: Change, p: FloatArray):
+        """Local values, data and constants of the kernel, with the change made."""
+        motion, names, curves = self.motion, list(self.model.states), dict(self.motion.curves)
+        if change.swapped:
+            a, b = change.swapped
+            curves[a], curves[b] = curves[b], curves[a]
+        states, slopes = np.empty((motion.time.size, len(names))), np.empty((motion.time.size, len(names)))
+        for i, name in enumerate(names):
+            order = self.order[i]
+            channel = self.shown[self.rates[name]] if order else self.shown[name]
+            factor = change.factors.get(channel, 1.0) / change.time**order
+            states[:, i], slopes[:, i] = (
+                curves[channel][order] * factor,
+                curves[channel][order + 1] * factor / change.time,
+            )
+        inputs = {
+            u.name: motion.inputs[u.channel] * change.factors.get(u.channel, 1.0) for u in self.model.inputs.values()
+        }
+        time = motion.time * change.time
+        data = np.zeros((time.size, len(inputs) + len(self.model.noises) + 1))
+        data[:, : len(inputs)], data[:, -1] = np.column_stack([*inputs.values()]) if inputs else 0.0, time
+        values = dict(zip(self.model.parameters, p, strict=True))
+        signals = dict(zip(names, states.T, strict=True)) | inputs
+        late = [np.interp(time - lag, time, signals[of]) for of, lag in late_of(self.model, values)]
+        local = np.column_stack([slopes, states, *late])
+        constants = np.array(
+            [c.value * change.factors.get(c.name, 1.0) for c in self.model.constants.values()], dtype=float
+        )
+        return np.ascontiguousarray(local), data, constants
+
+    def _slopes(self, local, p, data, constants, which: slice) -> FloatArray:
+        """(N, equations, columns) derivatives of the residuals by some of the columns."""
+        kernel = self.kernel
+        dense = np.zeros((len(local), kernel.m, kernel.n_local + kernel.n_shared))
+        dense[:, kernel.jacobian_rows, kernel.jacobian_cols] = kernel.jacobian(local, p, data, constants)
+        return dense[:, :, which]
+
+    def _filtered(self, x: FloatArray) -> FloatArray:
+        from scipy.signal import sosfiltfilt
+
+        return np.concatenate([sosfiltfilt(self.filter, x[p], axis=0)[EDGE:-EDGE] for p in self.motion.pieces])
+
+
+def _step(slopes: FloatArray, left: FloatArray, lower: FloatArray, upper: FloatArray) -> FloatArray:
+    """Bounded least-squares step of the parameters, from the normal equations in scaled columns."""
+    scale = np.linalg.norm(slopes, axis=0)
+    scale = np.where(scale > 0, scale, 1.0)
+    slopes = slopes / scale
+    power, directions = np.linalg.eigh(slopes.T @ slopes)
+    root = np.sqrt(np.maximum(power, 1e-12 * power[-1] + 1e-300))
+    matrix, right = root[:, None] * directions.T, -(directions.T @ (slopes.T @ left)) / root
+    room = np.maximum(1e-9, 1e-12 * scale)
+    return lsq_linear(matrix, right, (lower * scale - room, upper * scale + room), method="bvls").x / scale
+
+
+def unexplained(model: Model, motion: Motion, change: Change = Change()) -> float:
+    """`Witness.unexplained` of one change; see the head of this file."""
+    return Witness(model, motion).unexplained(change)

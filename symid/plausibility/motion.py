@@ -1,0 +1,179 @@
+"""The recorded motion as states with their rates, smooth enough to be put into a model's equations."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from symid.model import Model
+from symid.recording import Recording, spline_of
+from symid.units import FloatArray
+
+MOST = 4000
+"""Samples that are looked at: more tell nothing new about a factor or a sign."""
+FEWEST = 64
+"""Samples of the shortest piece."""
+POWER = 0.95
+"""The band of the motion holds this share of the power of its rates; twice that band is looked at."""
+PER_BAND = 10.0
+"""Samples kept for each period of the highest frequency of the band."""
+MEMORY, TAPS = 3.0, 40
+"""Seconds, and number, of past inputs by which motion is foretold."""
+FEWEST_LAGS = 4
+TOLD = 0.15
+"""Share of the power of the rates that the inputs must foretell for that part of the motion to be looked at alone."""
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Consecutive, evenly spaced samples: `step` [s], and channel -> (N,)."""
+
+    step: float
+    time: FloatArray
+    channels: Mapping[str, FloatArray]
+
+    def __getitem__(self, name: str) -> FloatArray:
+        return self.channels[name]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """What a model's equations are asked to explain, pieces one after the other.
+
+    Attributes
+    ----------
+    step : s. lengths : samples of each piece. time : (N,) s.
+    curves : channel that a state is recorded in -> (3, N) value, rate, second rate.
+    inputs : channel -> (N,). band : frequency up to which the motion is looked at [Hz].
+    """
+
+    step: float
+    lengths: tuple[int, ...]
+    time: FloatArray
+    curves: Mapping[str, FloatArray]
+    inputs: Mapping[str, FloatArray]
+    band: float
+
+    @property
+    def pieces(self) -> list[slice]:
+        ends = np.cumsum(self.lengths)
+        return [slice(int(end - n), int(end)) for n, end in zip(self.lengths, ends, strict=True)]
+
+
+def even_pieces(recording: Recording, names: tuple[str, ...], window: tuple[float, float] | None = None) -> list[Piece]:
+    """Stretches in which all of `names` were measured, at most `MOST` samples together."""
+    start, end = window or recording.interval
+    good = (recording.time >= start - 1e-9) & (recording.time <= end + 1e-9)
+    for name in names:
+        good &= recording.valid[name]
+    pieces, left = [], MOST
+    for run in recording.runs:
+        time, inside = recording.time[run], good[run]
+        step = float(np.median(np.diff(time))) if time.size > 1 else 0.0
+        broken = np.flatnonzero(~inside[1:] | ~inside[:-1] | (np.abs(np.diff(time) - step) > 0.1 * step)) + 1
+        edges = [0, *broken.tolist(), time.size]
+        for a, b in zip(edges[:-1], edges[1:], strict=True):
+            if b - a >= FEWEST and inside[a] and left >= FEWEST:
+                rows = slice(run.start + a, run.start + min(b, a + left))
+                left -= rows.stop - rows.start
+                pieces.append(Piece(step, recording.time[rows], {name: recording[name][rows] for name in names}))
+    return [p for p in pieces if abs(p.step / pieces[0].step - 1) < 0.01]
+
+
+def shown_states(model: Model) -> dict[str, str]:
+    """State -> channel, for each state that a sensor shows as it is."""
+    return {str(y.expr): y.channel for y in model.outputs.values() if str(y.expr) in model.states}
+
+
+def motion_of(model: Model, recording: Recording, window: tuple[float, float] | None = None) -> Motion | None:
+    """The recorded motion of all states; None where a state is neither recorded nor the rate of one that is."""
+    shown, rates = shown_states(model), model.rates()
+    channels = tuple(dict.fromkeys([*shown.values(), *(u.channel for u in model.inputs.values())]))
+    if (
+        not shown
+        or any(s not in shown and rates.get(s) not in shown for s in model.states)
+        or any(c not in recording.channels for c in channels)
+    ):
+        return None
+    pieces = even_pieces(recording, channels, window)
+    if not pieces:
+        return None
+    step = pieces[0].step
+    curves = {c: np.hstack(spline_of([p[c] for p in pieces], step)) for c in dict.fromkeys(shown.values())}
+    inputs = {u.channel: np.concatenate([p[u.channel] for p in pieces]) for u in model.inputs.values()}
+    motion = Motion(
+        step, tuple(len(p.time) for p in pieces), np.concatenate([p.time for p in pieces]), curves, inputs, 0.0
+    )
+    return _thinned(replace(motion, band=_band(motion)))
+
+
+def _thinned(motion: Motion) -> Motion:
+    """Every so-many-th sample where the smoothed motion needs no more: `PER_BAND` a period of its highest frequency."""
+    every = int(1 / (PER_BAND * motion.band * motion.step))
+    if every < 2 or min(motion.lengths) < FEWEST * every:
+        return motion
+    take = np.concatenate([np.arange(p.start, p.stop, every) for p in motion.pieces])
+    return replace(
+        motion,
+        step=motion.step * every,
+        lengths=tuple(-(-n // every) for n in motion.lengths),
+        time=motion.time[take],
+        curves={c: x[:, take] for c, x in motion.curves.items()},
+        inputs={c: u[take] for c, u in motion.inputs.items()},
+    )
+
+
+def _band(motion: Motion) -> float:
+    """Twice the frequency below which `POWER` of the power of the fastest rate lies [Hz]."""
+    longest = max(motion.pieces, key=lambda p: p.stop - p.start)
+    frequency = np.fft.rfftfreq(longest.stop - longest.start, motion.step)
+    highest = 0.0
+    for _, rate, _ in motion.curves.values():
+        power = np.cumsum(np.abs(np.fft.rfft(rate[longest] - rate[longest].mean())) ** 2)
+        highest = max(highest, float(frequency[np.searchsorted(power, POWER * power[-1])]))
+    return float(np.clip(2 * highest, 4 * frequency[1], 0.4 / motion.step))
+
+
+def foretold(motion: Motion) -> Motion | None:
+    """The part of the motion that past inputs foretell, least squares on `TAPS` lags; None where that is too little.
+
+    Process noise and sensor noise have no part in it: the sign and size of an input show where noise hides them.
+    """
+    if not motion.inputs:
+        return None
+    every = max(1, round(MEMORY / TAPS / motion.step))
+    lags = np.arange(0, round(MEMORY / motion.step), every)
+    long = [p for p in motion.pieces if p.stop - p.start > 4 * lags[-1]] if lags.size > FEWEST_LAGS else []
+    if not long:
+        return None  # too short, or sampled too seldom
+    rows, blocks = [], []
+    for p in long:
+        u = np.column_stack([_lowpass(x[p], 0.4 / (every * motion.step), motion.step) for x in motion.inputs.values()])
+        at = np.arange(lags[-1], len(u))
+        blocks.append(np.hstack([np.ones((at.size, 1)), *(u[at - lag] for lag in lags)]))
+        rows.append(at + p.start)
+    if sum(map(len, rows)) < 4 * blocks[0].shape[1]:
+        return None
+    past, take = np.vstack(blocks), np.concatenate(rows)
+    power, directions = np.linalg.eigh(past.T @ past)
+    basis = past @ (directions / np.sqrt(np.maximum(power, 1e-10 * power[-1])))
+    curves = {c: (x[:, take] @ basis) @ basis.T for c, x in motion.curves.items()}
+    told = min(float(np.var(curves[c][1]) / max(np.var(x[1, take]), 1e-300)) for c, x in motion.curves.items())
+    if told < TOLD:
+        return None
+    return Motion(
+        motion.step,
+        tuple(map(len, rows)),
+        motion.time[take],
+        curves,
+        {c: u[take] for c, u in motion.inputs.items()},
+        min(motion.band, 0.3 / (every * motion.step)),
+    )
+
+
+def _lowpass(x: FloatArray, cutoff: float, step: float) -> FloatArray:
+    from scipy.signal import butter, sosfiltfilt
+
+    return x if cutoff >= 0.45 / step else sosfiltfilt(butter(2, cutoff, fs=1 / step, output="sos"), x, axis=0)

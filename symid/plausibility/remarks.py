@@ -1,0 +1,61 @@
+"""All that is implausible about a model and its recording, in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from symid.model import Model
+from symid.plausibility.body import PERSON, body_remarks
+from symid.plausibility.channels import channel_remarks
+from symid.plausibility.mistakes import model_remarks
+from symid.plausibility.motion import shown_states
+from symid.recording import Recording
+from symid.threads import one_blas_thread
+
+OUTSIDE = 0.01
+"""Share of the samples that may lie outside the bounds of a state."""
+STILL = {True: 0.004, False: 0.02}
+"""Range [rad] below which an angle hardly moves, of a standing person (who sways by half a degree or more; Winter,
+Patla, Prince, Ishac & Gielo-Perczak 1998) and of a rig that somebody lets swing. Radians labelled as degrees
+are less."""
+
+
+@one_blas_thread
+def remarks(model: Model, recording: Recording, window: tuple[float, float] | None = None) -> list[str]:
+    """What cannot be, or is unlikely, about this recording of this model: one sentence each, the likely cause named.
+
+    Parameters
+    ----------
+    window : (start, end) [s] of what is looked at; all of it where left out.
+
+    Returns
+    -------
+    Sentences without a full stop: on the body, the channels by themselves, and the channels in the equations.
+    """
+    found = [*body_remarks(model), *channel_remarks(recording), *_ranges(model, recording)]
+    return found + model_remarks(model, recording, window)
+
+
+def _ranges(model: Model, recording: Recording) -> Iterator[str]:
+    """Recorded states that leave the bounds of their states, or that hardly move."""
+    person = all(name in model.constants for name in PERSON)
+    for state, channel in shown_states(model).items():
+        if channel not in recording.channels or not recording.valid[channel].any():
+            continue
+        values, (low, high), unit = recording[channel], model.states[state].bounds, model.states[state].unit
+        values = values[np.isfinite(values)]
+        outside = float(np.mean((values < low) | (values > high)))
+        if outside > OUTSIDE:
+            hint = "; if the file holds degrees, end the column's name in _deg" if unit == "rad" else ""
+            yield (
+                f"{recording.name}: {channel} leaves the bounds of the model ({low:g} to {high:g} {unit}) in "
+                f"{100 * outside:.0f} % of the samples{hint}"
+            )
+        reach = float(np.ptp(values))
+        if unit == "rad" and 0 < reach < STILL[person]:
+            yield (
+                f"{recording.name}: {channel} varies by only {np.degrees(reach):.2g} deg; if the file holds radians, "
+                "end the column's name in _rad"
+            )
