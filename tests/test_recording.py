@@ -306,7 +306,7 @@ BAD_FILES = {
     "all_rows_too_long": (csv_text([r + ",5" for r in GOOD]), "row 1 \\(line 2\\) has 3 cells"),
     "gap": (
         csv_text(GOOD[:10] + GOOD[14:]),
-        "row 11 \\(line 12\\): time jumps from 0.09 s to 0.14 s, about 4 sample.*fill_gaps",
+        "row 11 \\(line 12\\): time jumps from 0.09 s to 0.14 s, about 4 sample.*allow_gaps=True",
     ),
     "repeated_time": (
         csv_text(GOOD[:10] + GOOD[9:]),
@@ -318,7 +318,7 @@ BAD_FILES = {
     ),
     "uneven_time": (
         spoilt(9, "0.0834,1"),
-        "row 9 \\(line 10\\): time is uneven: 0.0834 s is 34 %.*resample",
+        "row 9 \\(line 10\\): time is uneven: 0.0834 s is 34 %.*allow_gaps=True",
     ),
     "one_sample": (csv_text(GOOD[:1]), "row 1 \\(line 2\\): there is only one sample"),
     "fault_below_a_blank_line": (
@@ -590,6 +590,25 @@ def test_gaps_are_filled_where_allowed(tmp_path):
     rows = np.round(holed.time[measured] / 0.01).astype(int)
     assert np.array_equal(whole["ankle_angle"][rows], holed["ankle_angle"][measured])
     assert whole.history[-1] == "gaps up to 0.05 s filled by PCHIP: 5 value(s)"
+
+
+@pytest.mark.parametrize("row", ["0.05", "0.05,1", "0.05,1,2,3", "0.05,1,2,3,"])
+@pytest.mark.parametrize("allow_gaps", [False, True])
+def test_a_row_that_is_too_short_or_too_long_is_never_read_shifted(tmp_path, row, allow_gaps):
+    rows = [f"{0.01 * i:.2f},{i % 5},{i % 3}" for i in range(20)]
+    path = written(tmp_path, csv_text([*rows[:5], row, *rows[6:]], "time_s,ankle_angle_deg,hip_angle_deg"))
+    with pytest.raises(RecordingError, match=r"row 6 \(line 7\)"):
+        read_recording(path, allow_gaps=allow_gaps)
+
+
+def test_missing_samples_stay_where_they_were_measured(tmp_path):
+    rows = [f"{0.01 * i:.2f},{i % 5},{'' if i == 7 else i % 3}" for i in range(20)]
+    recording = read_recording(
+        written(tmp_path, csv_text(rows, "time_s,ankle_angle_deg,hip_angle_deg")), allow_gaps=True
+    )
+    assert recording.valid["ankle_angle"].all()
+    assert np.flatnonzero(~recording.valid["hip_angle"]).tolist() == [7]
+    assert recording["ankle_angle"][7] == pytest.approx(2 * DEGREE)
 
 
 def test_gaps_that_are_too_long_or_at_an_end_are_refused(tmp_path):

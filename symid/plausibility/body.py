@@ -104,5 +104,5 @@ def _links(model: Model) -> Iterator[str]:
                 inertia, mass = parts["inertia"], parts["mass"]
                 yield (
                     f"{link}: the inertia {inertia.value:.3g} kg m² is that of a body {ratio:.2g} times larger than "
-                    f"the link; {inertia.name} or {mass.name} has another unit than kg m² and kg, or a wrong power of ten"
+                    f"the link; {inertia.name} or {mass.name} has another unit than kg m² and kg, or wrong digits"
                 )
