@@ -94,7 +94,7 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
     tied, tie_names = ties(model, layout, _linked_episodes(episodes, recording_of))
     program = CollocationProgram(
         layout=layout, interval=interval, error=error, data=tuple(data),
-        constants=interval_constants(model, scheme, interval, layout, measured, data, recording_of, _typical(model, layout),
+        constants=interval_constants(model, scheme, interval, layout, measured, data, recording_of, _for_scales(model, layout, duration),
                                      graded),
         error_constants=error_constants(model, layout), weights=np.asarray(weights)[list(recording_of)],
         late=tuple(gather_late(model, scheme, layout, measured, recording_of, interval.m * sum(layout.intervals))),
@@ -148,12 +148,12 @@ def _lay_out(model, measured, scheme, episodes, per_recording, refine) -> tuple[
     return layout, recording_of
 
 
-def _typical(model: Model, layout: Layout) -> np.ndarray:
-    """(free parameters,) SI: the declared guess, else the middle of finite bounds, else zero as far as allowed."""
+def _for_scales(model: Model, layout: Layout, duration: str | None) -> np.ndarray:
+    """(free parameters,) SI, at which equations are scaled: zero, but for the duration by which rates are divided."""
     values = np.zeros(len(layout.parameter_names))
-    for p, columns in zip(model.parameters.values(), layout.parameter_index.T, strict=True):
-        middle = 0.5 * (p.bounds[0] + p.bounds[1]) if np.isfinite(p.bounds).all() else np.clip(0.0, *p.bounds)
-        values[columns] = middle if p.guess is None else p.guess
+    if duration:
+        part = model.parameters[duration]
+        values[layout.parameter_names.index(duration)] = part.guess or 0.5 * sum(part.bounds)
     return values
 
 
