@@ -36,7 +36,7 @@ def lower(graph: Graph, expressions, symbols: dict[sm.Symbol, int]) -> list[int]
     """
     done: dict[sm.Basic, int] = dict(symbols)
     for root in expressions:
-        stack = [sm.sympify(root)]
+        stack = [sm.sympify(root, strict=True)]
         while stack:  # not recursive: long sums of nested quotients go deeper than Python's stack
             e = stack[-1]
             waiting = [a for a in _arguments(e) if a not in done] if e not in done else []
@@ -46,7 +46,7 @@ def lower(graph: Graph, expressions, symbols: dict[sm.Symbol, int]) -> list[int]
             stack.pop()
             if e not in done:
                 done[e] = _operation(graph, e, [done[a] for a in _arguments(e)])
-    return [done[sm.sympify(e)] for e in expressions]
+    return [done[sm.sympify(e, strict=True)] for e in expressions]
 
 
 def _arguments(e: sm.Basic) -> tuple[sm.Basic, ...]:

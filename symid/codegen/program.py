@@ -37,7 +37,7 @@ class Program:
     constants: tuple[sm.Symbol, ...] = ()
 
     def __post_init__(self):
-        object.__setattr__(self, "rows", tuple(sm.sympify(r) for r in self.rows))
+        object.__setattr__(self, "rows", tuple(sm.sympify(r, strict=True) for r in self.rows))
         for group in ("local", "shared", "data", "constants"):
             object.__setattr__(self, group, tuple(getattr(self, group)))
         symbols = (*self.local, *self.shared, *self.data, *self.constants)

@@ -85,7 +85,7 @@ def structure(program: Program, derived: Derived) -> dict:
 
 def print_source(program: Program, key: str, derived: Derived) -> Source:
     shape = structure(program, derived)
-    legend = [f"// {k}[{i}]: {s}" for k in ("local", "shared", "data", "constants")
+    legend = [f"// {k}[{i}]: {_commented(s)}" for k in ("local", "shared", "data", "constants")
               for i, s in enumerate(getattr(program, k))]
     functions = [
         _function("residual", shape, derived.graph, derived.residual, STORE),
@@ -95,6 +95,11 @@ def print_source(program: Program, key: str, derived: Derived) -> Source:
     text = "\n".join([f"// {key}", f"// {json.dumps(shape)}", *legend, PREAMBLE + "#define BLOCK 8",
                       *functions])
     return Source(key, shape, text)
+
+
+def _commented(symbol) -> str:
+    """A name as a comment holds it: nothing in it can end or prolong the line."""
+    return "".join(c if c.isprintable() and c not in "\\?" else "_" for c in str(symbol))
 
 
 def _function(name: str, shape: dict, graph: Graph, outputs: list[int], scatter: str) -> str:

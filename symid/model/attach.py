@@ -10,7 +10,7 @@ import sympy as sm
 from symid.errors import ModelError
 from symid.model.conditions import Constraint, Objective
 from symid.model.declare import Component, Constant, Equation, Expression, Input, Output, Port
-from symid.model.quantity import AlongTime
+from symid.model.quantity import AlongTime, sympified
 
 if TYPE_CHECKING:
     from symid.model.model import Model
@@ -26,6 +26,7 @@ def hint(part) -> str:
 def completed(model: Model, part: Component, name: str) -> Component:
     """The part with its name, its expression as SymPy, and defaults taken from its state."""
     changes: dict = {"name": name}
+    refuse_odd_name(model, name)
     _refuse_wrong_types(model, part, name)
     if isinstance(part, (Expression, Equation, Output)):
         changes["expr"] = _expression(model, part.expr, name)
@@ -40,9 +41,20 @@ def completed(model: Model, part: Component, name: str) -> Component:
     if isinstance(part, Objective):
         changes |= {k: _expression(model, getattr(part, k), name) for k in ("running", "terminal")}
     if isinstance(part, Port):
-        changes |= {"position": sm.sympify(part.position), "rate": sm.sympify(part.rate)}
+        changes |= {"position": sympified(part.position), "rate": sympified(part.rate)}
         changes["unit"] = part.unit or _unit_of_force(model, part, changes["position"])
     return replace(part, **changes)
+
+
+def refuse_odd_name(model: Model, name: str) -> None:
+    """Names stand in generated code and in files: they are identifiers, or indices behind one."""
+    if not (name.isidentifier() and name.isprintable()):
+        raise ModelError(f"model '{_short(model.name)}': {_short(name)!r} cannot name a part; take letters, digits and _, with a "
+                         "letter first")
+
+
+def _short(text: str) -> str:
+    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _refuse_wrong_types(model: Model, part: Component, name: str) -> None:
@@ -60,12 +72,12 @@ def _refuse_wrong_types(model: Model, part: Component, name: str) -> None:
 
 
 def _expression(model: Model, expr, name: str) -> sm.Expr:
-    """`expr` as SymPy; ModelError where it is none."""
+    """`expr` as SymPy; ModelError where it is none. A text is none: nothing that a user writes is evaluated as code."""
     try:
-        found = sm.sympify(expr, strict=not isinstance(expr, str))
-    except (sm.SympifyError, TypeError, AttributeError):
+        found = sympified(expr)
+    except ModelError:
         found = None
-    if isinstance(expr, str) or not isinstance(found, sm.Expr):
+    if not isinstance(found, sm.Expr):
         raise ModelError(f"model '{model.name}': '{name}' is made of {expr!r}, which is no expression: write it with the "
                          "model's parts, for instance m.x.dot - m.v (a comparison belongs into a Constraint)")
     return found

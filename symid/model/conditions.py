@@ -16,7 +16,7 @@ from sympy.core.relational import Relational
 from symid.errors import ModelError
 from symid.model.declare import Component
 from symid.model.prior import Prior
-from symid.model.quantity import initial, terminal
+from symid.model.quantity import initial, sympified, terminal
 
 
 @dataclass(frozen=True)
@@ -67,9 +67,9 @@ class Constraint(Component):
         """The squared distance to where the condition holds."""
         row = self.row
         if row.equality:
-            return (row.expr - sm.sympify(row.lower)) ** 2
-        below = sm.Max(0, sm.sympify(row.lower) - row.expr) if row.lower > -inf else sm.Integer(0)
-        above = sm.Max(0, row.expr - sm.sympify(row.upper)) if row.upper < inf else sm.Integer(0)
+            return (row.expr - sympified(row.lower)) ** 2
+        below = sm.Max(0, sympified(row.lower) - row.expr) if row.lower > -inf else sm.Integer(0)
+        above = sm.Max(0, row.expr - sympified(row.upper)) if row.upper < inf else sm.Integer(0)
         return below**2 + above**2
 
 
@@ -114,9 +114,9 @@ class Boundary(Component):
             for quantity, value in ends.items():
                 if isinstance(value, Prior):
                     continue
-                expr, (low, high) = sm.sympify(quantity).xreplace(table), _interval(value)
+                expr, (low, high) = sympified(quantity).xreplace(table), _interval(value)
                 found.append(Row(expr, low, high) if low is not None else Row(expr - high.xreplace(table), 0.0, 0.0))
-        return found + [Row(sm.sympify(x).xreplace(last) - sm.sympify(y).xreplace(first), 0.0, 0.0)
+        return found + [Row(sympified(x).xreplace(last) - sympified(y).xreplace(first), 0.0, 0.0)
                         for x, y in self.periodic.items()]
 
 
@@ -148,7 +148,7 @@ def _plain(ends) -> dict:
     """Parts as keys would compare by their fields: their symbols are the keys."""
     if ends is not None and not isinstance(ends, Mapping):
         raise ModelError(f"a Boundary needs a dictionary of quantity -> value, not {ends!r}: initial={{m.x: 0}}")
-    return {sm.sympify(k): v for k, v in (ends or {}).items()}
+    return {sympified(k): v for k, v in (ends or {}).items()}
 
 
 def _interval(value) -> tuple:
@@ -156,14 +156,14 @@ def _interval(value) -> tuple:
     if isinstance(value, (tuple, list)):
         low, high = (float(v) for v in value)
         return low, high
-    value = sm.sympify(value)
+    value = sympified(value)
     return (float(value), float(value)) if value.is_number else (None, value)
 
 
 def row_of(condition, lower: float | None = None, upper: float | None = None) -> Row:
     """A comparison, or an expression with its bounds, as one Row."""
     try:
-        condition = sm.sympify(condition)
+        condition = sympified(condition)
     except (sm.SympifyError, TypeError, AttributeError):
         raise ModelError(f"a condition must be a comparison or an expression, not {condition!r}") from None
     if condition in (sm.true, sm.false):

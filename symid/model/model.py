@@ -17,7 +17,7 @@ from symid.model.declare import (
     Algebraic, Bounds, Component, Constant, Control, Delay, Equation, Expression, Input, Noise, Output,
     Parameter, Port, Process, State,
 )
-from symid.model.quantity import symbol
+from symid.model.quantity import symbol, sympified
 
 if TYPE_CHECKING:
     from symid.model.term import Term
@@ -168,7 +168,7 @@ class Model:
         `lag` [s] is a number, a Constant or a Parameter of this model; a signal that is late
         already becomes later by `lag`.
         """
-        expr, lag = self.inline(sm.sympify(expr)), sm.sympify(lag)
+        expr, lag = self.inline(sympified(expr)), sympified(lag)
         late = {c.symbol for c in self._of((State, Control, Input)).values()}
         table = {}
         for s in sorted(expr.free_symbols & (late | self.delays.keys()), key=str):
@@ -255,17 +255,17 @@ class Model:
     # ---- for the build function of a Law, which works on a fresh copy -----------------
     def redefine(self, name: str, expr) -> None:
         """Give the Expression or Output `name` another meaning, everywhere it is used."""
-        self.components[name] = replace(self._part(name, (Expression, Output)), expr=sm.sympify(expr))
+        self.components[name] = replace(self._part(name, (Expression, Output)), expr=sympified(expr))
 
     def add_effort(self, port: str, force) -> None:
         """Let `force` (along the port's rate) act: it enters each equation that the port names."""
         for equation, coefficient in self._part(port, Port).into.items():
             part = self._part(equation, Equation)
-            self.components[equation] = replace(part, expr=part.expr + coefficient * sm.sympify(force))
+            self.components[equation] = replace(part, expr=part.expr + coefficient * sympified(force))
 
     def substitute(self, table: Mapping[sm.Symbol, sm.Expr]) -> None:
         """Put expressions in the place of symbols in every equation, expression and output."""
-        table = {sm.sympify(k): sm.sympify(v) for k, v in table.items()}
+        table = {sympified(k): sympified(v) for k, v in table.items()}
         for name, part in self.components.items():
             if isinstance(part, (Expression, Equation, Output)):
                 self.components[name] = replace(part, expr=part.expr.xreplace(table))

@@ -29,34 +29,34 @@ class Quantity:
         return self.symbol
 
     def __add__(self, other):
-        return self.symbol + _sympified(other)
+        return self.symbol + sympified(other)
 
     def __radd__(self, other):
-        return _sympified(other) + self.symbol
+        return sympified(other) + self.symbol
 
     def __sub__(self, other):
-        return self.symbol - _sympified(other)
+        return self.symbol - sympified(other)
 
     def __rsub__(self, other):
-        return _sympified(other) - self.symbol
+        return sympified(other) - self.symbol
 
     def __mul__(self, other):
-        return self.symbol * _sympified(other)
+        return self.symbol * sympified(other)
 
     def __rmul__(self, other):
-        return _sympified(other) * self.symbol
+        return sympified(other) * self.symbol
 
     def __truediv__(self, other):
-        return self.symbol / _sympified(other)
+        return self.symbol / sympified(other)
 
     def __rtruediv__(self, other):
-        return _sympified(other) / self.symbol
+        return sympified(other) / self.symbol
 
     def __pow__(self, other):
-        return self.symbol ** _sympified(other)
+        return self.symbol ** sympified(other)
 
     def __rpow__(self, other):
-        return _sympified(other) ** self.symbol
+        return sympified(other) ** self.symbol
 
     def __neg__(self):
         return -self.symbol
@@ -68,16 +68,16 @@ class Quantity:
         return sm.Abs(self.symbol)
 
     def __le__(self, other):
-        return sm.Le(self.symbol, _sympified(other))
+        return sm.Le(self.symbol, sympified(other))
 
     def __lt__(self, other):
-        return sm.Lt(self.symbol, _sympified(other))
+        return sm.Lt(self.symbol, sympified(other))
 
     def __ge__(self, other):
-        return sm.Ge(self.symbol, _sympified(other))
+        return sm.Ge(self.symbol, sympified(other))
 
     def __gt__(self, other):
-        return sm.Gt(self.symbol, _sympified(other))
+        return sm.Gt(self.symbol, sympified(other))
 
 
 class AlongTime(Quantity):
@@ -94,8 +94,8 @@ class AlongTime(Quantity):
         return terminal(self.symbol)
 
 
-def _sympified(other) -> sm.Expr:
+def sympified(other) -> sm.Expr:
     try:
-        return sm.sympify(other)
+        return sm.sympify(other, strict=True)
     except (sm.SympifyError, AttributeError, TypeError):
         raise ModelError(f"{other!r} cannot stand in an equation; use parts of the model, numbers and SymPy expressions") from None

@@ -83,4 +83,4 @@ def html(model: Model) -> str:
     table = f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>"
     terms = f"<p>terms added: {escape(', '.join(map(str, model.terms)))}</p>" if model.terms else ""
     return (f"<h4>{escape(model.name)}</h4><p>{escape(model.description)}</p>{terms}"
-            f'<div style="overflow-x:auto">{latex(model)}</div>{table}')
+            f'<div style="overflow-x:auto">{escape(latex(model), quote=False)}</div>{table}')
