@@ -9,6 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
+from symid.errors import RecordingError
+
+DIGITS = 300
+"""Of an integer: more do not fit into a floating-point number."""
+
 
 def write_atomically(path: str | Path, content: str | bytes) -> Path:
     """Write `content` to a temporary neighbour of `path`, then rename: the old file or the new, never a part."""
@@ -32,6 +37,30 @@ def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
+
+
+def read_json(path: str | Path, **options):
+    """Content of a JSON file that anybody may have written.
+
+    Raises
+    ------
+    RecordingError
+        The file is missing, is no JSON in UTF-8, is nested without end, or holds a number beyond all use.
+    """
+    try:
+        content = json.loads(Path(path).read_text(encoding="utf-8"), parse_int=_integer, **options)
+    except OSError as problem:
+        raise RecordingError(f"{path}: cannot be read: {problem.strerror}") from None
+    except (ValueError, RecursionError) as problem:
+        told = "nested too deeply" if isinstance(problem, RecursionError) else str(problem)
+        raise RecordingError(f"{path}: is not JSON: {told[:200]}") from None
+    return content
+
+
+def _integer(digits: str) -> int:
+    if len(digits) > DIGITS:
+        raise ValueError(f"the number {digits[:20]}... has {len(digits)} digits; {DIGITS} are the most that make sense")
+    return int(digits)
 
 
 def write_json(path: str | Path, content) -> Path:

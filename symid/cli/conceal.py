@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
@@ -50,12 +49,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _imitated(path: str) -> dict:
     from symid.errors import SymidError
-    try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise SymidError(f"conceal: no system '{path}' and no such file; give standing, rig or a case.json") from None
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise SymidError(f"{path}: is not JSON: {error}") from None
+    from symid.files import read_json
+
+    if not Path(path).is_file():
+        raise SymidError(f"conceal: no system '{path}' and no such file; give standing, rig or a case.json")
+    content = read_json(path)
     if not isinstance(content, dict):
         raise SymidError(f"{path}: a case.json with its JSON object is expected")
     return content

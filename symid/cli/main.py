@@ -12,6 +12,7 @@ from importlib.metadata import version
 from pkgutil import iter_modules
 
 import symid.cli as cli
+from symid.cli.options import refuse_absurd
 from symid.errors import SymidError
 from symid.progress import alive
 
@@ -25,6 +26,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parsed = build_parser().parse_args(arguments)
     warnings.showwarning = _show_warning
     try:
+        refuse_absurd(parsed)
         with alive(lambda: f"symid {parsed.command} is at work"):
             code = parsed.run(parsed)
         sys.stdout.flush()

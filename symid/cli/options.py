@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
@@ -10,7 +11,28 @@ from contextlib import AbstractContextManager, nullcontext
 from symid.errors import ModelError, SolveError
 from symid.progress import said
 
+LARGEST = {"episodes": 1000, "jobs": 1024, "threads": 1024, "starts": 10**5, "count": 10**5, "formulations": 1000,
+           "max_iterations": 10**9, "duration": 1e6, "rate": 1e6}
+"""Numbers above these are slips of the keyboard: more than any machine holds or does in a year."""
+SAMPLES = 10**8
+"""Likewise for the samples of one simulation: a gigabyte a channel."""
 CONTROLLERS = ("pd", "fpd", "fpd-delay", "nn")
+
+
+def refuse_absurd(arguments: argparse.Namespace) -> None:
+    """SolveError for a number that is not finite, or so large that the command would never end."""
+    given = vars(arguments)
+    for name, value in given.items():
+        option = f"--{name.replace('_', '-')}"
+        for number in value if isinstance(value, (list, tuple)) else [value]:
+            if isinstance(number, float) and not math.isfinite(number):
+                raise SolveError(f"{option} {number} is not possible; give a finite number")
+            if name in ("seed", "seeds") and isinstance(number, int) and not 0 <= number < 2**63:
+                raise SolveError(f"{option} {str(number)[:30]} is not possible; give a whole number from 0 to 2^63 - 1")
+            if name in LARGEST and number is not None and number > LARGEST[name]:
+                raise SolveError(f"{option} {str(number)[:30]} is not possible; give at most {LARGEST[name]:g}")
+    if (given.get("duration") or 0) * (given.get("rate") or 0) > SAMPLES:
+        raise SolveError(f"--duration {given['duration']:g} at --rate {given['rate']:g} are more than {SAMPLES:g} samples; give less")
 
 
 def add_model_arguments(parser: argparse.ArgumentParser) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import argparse
 import json
 import math
-from pathlib import Path
 
 from symid.cli.options import add_model_arguments, build_model
 from symid.errors import RecordingError
+from symid.files import read_json
 
 SUMMARY = "simulate a standing person under a known controller and write a recording"
 EXAMPLES = ("symid simulate made.csv --body body.json --controller fpd --parameters gains.json",)
@@ -69,10 +69,7 @@ def read_parameters(path: str, model) -> dict[str, float]:
     ------
     RecordingError : the file is no such JSON, or a parameter is missing, unknown or no finite number.
     """
-    try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"))
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise RecordingError(f"{path}: is not JSON: {error}") from None
+    content = read_json(path)
     content = content.get("parameters", content) if isinstance(content, dict) else content
     if not isinstance(content, dict):
         raise RecordingError(f'{path}: a JSON object such as {{"kp_ankle": 900}} is expected')

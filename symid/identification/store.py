@@ -53,7 +53,7 @@ class StudyDirectory:
         file = self.path / "study.json"
         try:
             register = json.loads(file.read_text(encoding="utf-8"))
-            found = register["format"]
+            found, solves = register["format"], register["solves"]
         except FileNotFoundError:
             if self.path.is_dir() and any(f.suffix != ".part" for f in self.path.iterdir()):
                 raise SolveError(f"{self.path} holds other files and no study.json: give an empty or new directory "
@@ -61,12 +61,17 @@ class StudyDirectory:
             return {}
         except NotADirectoryError:
             raise SolveError(f"{self.path} is a file: give a directory for the study") from None
-        except (ValueError, KeyError, TypeError) as damage:
-            raise SolveError(f"{file} is damaged ({damage}): give another directory for the study") from None
+        except OSError as problem:
+            raise SolveError(f"{file} cannot be read ({problem.strerror}): give another directory for the study") from None
+        except (ValueError, KeyError, TypeError, RecursionError) as damage:
+            raise SolveError(f"{file} is damaged ({str(damage)[:200]}): give another directory for the study") from None
         if found != FORMAT:
-            raise SolveError(f"{file} has the format '{found}', and this version of symid reads '{FORMAT}': give "
+            raise SolveError(f"{file} has the format {str(found)[:60]!r}, and this version of symid reads '{FORMAT}': give "
                              "another directory, or use the version that wrote it")
-        return register["solves"]
+        if not (isinstance(solves, dict) and all(isinstance(parts, dict) and isinstance(parts.get("key"), str)
+                                                 for parts in solves.values())):
+            raise SolveError(f"{file} is damaged (its 'solves' are no names with their keys): give another directory for the study")
+        return solves
 
     def _write(self, act) -> None:
         try:
@@ -92,7 +97,7 @@ class StudyDirectory:
             sums = content.pop("sha256")
             whole = sums == {"content": _sha256(_text(content)), "arrays": _sha256(arrays)}
             return _put_together(content, arrays) if whole else None
-        except (OSError, ValueError, KeyError, TypeError, AttributeError, zipfile.BadZipFile):
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError, EOFError, zipfile.BadZipFile):
             return None
 
     def __getitem__(self, key: str) -> Outcome:

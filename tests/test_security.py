@@ -1,0 +1,119 @@
+"""What SECURITY.md says: nothing that somebody else wrote becomes code, a hang or a foreign error."""
+
+import json
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+import sympy as sm
+from conftest import pendulum
+
+import symid as si
+from symid.cli import main
+from symid.cli.main import BAD_INPUT
+from symid.codegen import Program
+from symid.codegen.source import generate
+from symid.errors import ModelError, RecordingError, SolveError
+from symid.files import read_json
+from symid.identification.store import StudyDirectory
+
+BREAKS_OUT = ("a\nint planted = 1; //", "a\rint planted;", "a\\", "a b", "a;b", "", "1a", "a\u2028b", "a\0b", "../a", "a" * 9 + "*/")
+
+
+@pytest.fixture
+def planted(tmp_path):
+    """Code that leaves a trace where it runs."""
+    trace = tmp_path / "ran"
+    yield f"__import__('pathlib').Path({str(trace)!r}).touch()"
+    assert not trace.exists()
+
+
+@pytest.mark.parametrize("name", BREAKS_OUT)
+def test_a_name_is_an_identifier(name):
+    model = si.Model("m")
+    with pytest.raises(ModelError, match="cannot name a part"):
+        setattr(model, name, si.Parameter(unit="m"))
+
+
+@pytest.mark.parametrize("name", BREAKS_OUT)
+def test_no_symbol_leaves_its_comment(name):
+    """Programs are made by symid alone, and still."""
+    if not name:
+        return
+    plain, odd = (generate(Program(n, (sm.Symbol(n, real=True) ** 2,), (sm.Symbol(n, real=True),))).text for n in ("x", name))
+    assert len(odd.split("\n")) == len(plain.split("\n"))
+    code = [[line for line in text.splitlines() if not line.startswith("//")] for text in (plain, odd)]
+    assert code[0] == code[1]
+    assert not any(line.endswith("\\") for line in odd.split("\n") if line.startswith("//"))
+
+
+def test_a_text_is_no_expression(planted):
+    for declare in (lambda m: setattr(m, "e", si.Equation(planted)), lambda m: setattr(m, "y", si.Output(planted)),
+                    lambda m: setattr(m, "z", si.Expression(planted)), lambda m: m.angle + planted,
+                    lambda m: m.add_effort("angle", planted), lambda m: m.delayed(planted, 0.1),
+                    lambda m: m.delayed(m.angle, planted), lambda m: setattr(m, "c", si.Constraint(planted)),
+                    lambda m: setattr(m, "o", si.Objective(running=planted)),
+                    lambda m: setattr(m, "b", si.Boundary(initial={planted: 0}))):
+        with pytest.raises((ModelError, TypeError)):
+            declare(pendulum())
+
+
+def test_texts_of_a_model_are_escaped_in_a_notebook():
+    model = pendulum()
+    evil = "<script>alert(1)</script>"
+    model.size = si.Parameter(unit="m", latex=evil, meaning=evil)
+    model.extra = si.Output(model.size * model.angle)
+    assert evil not in model._repr_html_()
+
+
+@pytest.mark.parametrize("text", ["[" * 100_000, "{", "\xff", '{"a": ' + "9" * 400 + "}", "9" * 5000])
+def test_json_that_is_none(tmp_path, text):
+    file = tmp_path / "odd.json"
+    file.write_bytes(text.encode("latin-1"))
+    with pytest.raises(RecordingError, match="odd.json: is not JSON: ") as told:
+        read_json(file)
+    assert len(str(told.value)) < 400
+
+
+@pytest.mark.parametrize("content", ['{"format": "symid study 1", "solves": []}', '{"format": "symid study 1", "solves": {"a": 1}}',
+                                     '{"format": "symid study 1"}', "[]", "[" * 100_000, '{"format": [[]], "solves": {}}', "\0"])
+def test_a_register_of_solves_that_is_none(tmp_path, content):
+    (tmp_path / "study.json").write_text(content)
+    with pytest.raises(SolveError, match="study.json .*give another directory") as told:
+        StudyDirectory(tmp_path, {"a": {"key": "k"}})
+    assert len(str(told.value)) < 500
+
+
+def test_a_pickle_in_a_store_is_not_opened(tmp_path):
+    """Its sums are right: an attacker can compute them."""
+    from symid.identification.store import FORMAT, _sha256, _text
+
+    class Touch:
+        def __reduce__(self):
+            return subprocess.run, (["touch", str(tmp_path / "ran")],)
+
+    np.savez(tmp_path / "k.npz", z=np.array([Touch()], dtype=object))
+    (tmp_path / "k.npz").write_bytes(arrays := (tmp_path / "k.npz").read_bytes())
+    content = {"format": FORMAT, "row": {}, "result": {}}
+    content["sha256"] = {"content": _sha256(_text(content)), "arrays": _sha256(arrays)}
+    (tmp_path / "k.json").write_text(json.dumps(content))
+    (tmp_path / "study.json").write_text(json.dumps({"format": FORMAT, "solves": {"a": {"key": "k"}}}))
+    assert StudyDirectory(tmp_path, {"a": {"key": "k"}}).get("k") is None
+    assert not (tmp_path / "ran").exists()
+    pickle.loads(pickle.dumps(Touch()))
+    assert (tmp_path / "ran").exists()    # the trap works
+
+
+@pytest.mark.parametrize("arguments", [
+    ["identify", "r", "--body", "b", "--episodes", "99999999999999999999"], ["identify", "r", "--body", "b", "--starts", "9" * 300],
+    ["identify", "r", "--body", "b", "--window", "nan", "1"], ["identify", "r", "--body", "b", "--seed", "-1"],
+    ["simulate", "o", "--body", "b", "--parameters", "p", "--duration", "1e300"], ["identify", "r", "--body", "b", "--noise", "inf"],
+    ["simulate", "o", "--body", "b", "--parameters", "p", "--duration", "1e6", "--rate", "1e6"], ["conceal", "o", "--count", "9" * 20],
+    ["diagnose", "r", "--threads", "9" * 20],
+])
+def test_numbers_beyond_all_use_are_refused_at_once(arguments, capsys):
+    assert main(arguments) == BAD_INPUT
+    told = capsys.readouterr().err
+    assert "is not possible; give" in told or "are more than" in told
+    assert len(told) < 200
