@@ -122,7 +122,7 @@ class Boundary(Component):
 
     def penalties(self, along: set[sm.Symbol]) -> list[sm.Expr]:
         """-2 log of the density of each value that has a prior."""
-        return [value.penalty(sm.sympify(quantity).xreplace({s: f(s) for s in along}))
+        return [value.penalty(sympified(quantity).xreplace({s: f(s) for s in along}))
                 for ends, f in ((self.initial, initial), (self.terminal, terminal))
                 for quantity, value in ends.items() if isinstance(value, Prior)]
 
