@@ -26,8 +26,8 @@ pytest.importorskip("cyipopt", reason="cyipopt is absent: run `python -m symid.s
 def either_way(request, monkeypatch):
     """Run a test through Ipopt's C interface and through cyipopt."""
     if request.param == "cyipopt":
-        monkeypatch.setattr(ipopt_solver, "_runner", lambda: ipopt_solver._run_cyipopt)
-    elif ipopt_solver._runner() is ipopt_solver._run_cyipopt:
+        monkeypatch.setattr(ipopt_solver, "_runner", lambda interface: ("cyipopt", ipopt_solver._run_cyipopt))
+    elif ipopt_solver._runner("auto")[0] == "cyipopt":
         pytest.skip("this cyipopt hides Ipopt's C interface")
 
 
@@ -59,10 +59,11 @@ def test_tracking_finds_the_friction_and_satisfies_the_first_order_conditions(ei
     assert report.ok, str(report)
 
 
-def test_both_ways_to_ipopt_take_the_same_steps(monkeypatch):
-    direct = solve_nlp(tracking())
-    monkeypatch.setattr(ipopt_solver, "_runner", lambda: ipopt_solver._run_cyipopt)
-    copied = solve_nlp(tracking())
+def test_both_ways_to_ipopt_take_the_same_steps():
+    direct, copied = (solve_nlp(tracking(), interface=name) for name in ("auto", "cyipopt"))
+    assert copied.interface == "cyipopt"
+    with pytest.raises(SolveError, match="interface='other' is unknown"):
+        solve_nlp(tracking(), interface="other")
     assert direct.iterations == copied.iterations
     np.testing.assert_allclose(direct.z, copied.z, atol=1e-10)
     np.testing.assert_allclose(direct.multipliers, copied.multipliers, atol=1e-10)
@@ -238,7 +239,7 @@ def stuck(monkeypatch):
         point["z"][:] = 7.0    # Ipopt may still write to its arrays
         goes_on.wait(30)
         return 0
-    monkeypatch.setattr(ipopt_solver, "_runner", lambda: factorise)
+    monkeypatch.setattr(ipopt_solver, "_runner", lambda interface: ("direct", factorise))
     yield goes_on
     goes_on.set()
     for thread in bounded._left:

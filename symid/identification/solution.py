@@ -251,7 +251,7 @@ class Solution:
             "fit": self.fit,
             "solver": {"status": self.result.status_name, "solved": self.solved, "sentence": self.message,
                        "iterations": self.result.iterations, "seconds": self.seconds,
-                       "linear_solver": asdict(self.result.linear_solver)},
+                       "interface": self.result.interface, "linear_solver": asdict(self.result.linear_solver)},
             "warnings": list(self.warnings),
             "starts": [asdict(row) for row in self.starts],
             "provenance": self.provenance,

@@ -44,6 +44,8 @@ class SolverResult:
         None where there are no constraints.
     linear_solver : LinearSolver
         Which one worked, and what it did.
+    interface : str
+        The way to Ipopt: "direct" or "cyipopt".
     """
 
     z: np.ndarray
@@ -60,6 +62,7 @@ class SolverResult:
     seconds: dict[str, float]
     worst_constraint: WorstConstraint | None
     linear_solver: LinearSolver
+    interface: str
 
     def __repr__(self) -> str:
         return (
@@ -70,7 +73,7 @@ class SolverResult:
 
 def make_result(
     nlp: NonlinearProgram, evaluation: Evaluation, status: int, point: dict, total: float,
-    linear: LinearSolver,
+    linear: LinearSolver, interface: str,
 ) -> SolverResult:
     """Put together what Ipopt left in `point` after `total` seconds."""
     name, message = explain(status)
@@ -87,7 +90,7 @@ def make_result(
         bound_multipliers_lower=point["lower"], bound_multipliers_upper=point["upper"],
         status=status, status_name=name, solved=status in SOLVED, message=message,
         iterations=evaluation.iterations, seconds=seconds, worst_constraint=worst,
-        linear_solver=linear,
+        linear_solver=linear, interface=interface,
     )  # fmt: skip
 
 

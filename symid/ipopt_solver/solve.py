@@ -51,7 +51,8 @@ def solve_nlp(
     max_iterations: int = 3000,
     time_limit_s: float | None = None,
     hessian: str = "exact",
-    linear_solver: str = "mumps",
+    linear_solver: str = "auto",
+    interface: str = "auto",
 ) -> SolverResult:
     """Solve `nlp` with Ipopt.
 
@@ -73,6 +74,10 @@ def solve_nlp(
     linear_solver : {"auto", "chain", "mumps"} or Ipopt's name of another
         "chain" is symid's own, for collocation (`symid.kkt`); "auto" takes it where the problem is a
         chain and a C compiler is there, else MUMPS. `options` may name one as well.
+    interface : {"auto", "direct", "cyipopt"}
+        The way to Ipopt: "direct", its C interface in the library that cyipopt is linked to, or cyipopt's own
+        callbacks. "auto" is direct where the library can be opened: cyipopt 1.7 needs twice the
+        processor time for the whole solve (see `cyipopt.patch` beside this module, with which it needs 1.2 times).
 
     Returns
     -------
@@ -90,7 +95,7 @@ def solve_nlp(
     time_limit_s = _tightest(time_limit_s)
     point = _starting_point(nlp, start, warm_start)
     chosen = _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian)
-    run = _runner()
+    way, run = _runner(interface)
     _keep_freed_memory()
     evaluation = Evaluation(nlp, on_iteration)
     wanted = chosen.pop("linear_solver", linear_solver)
@@ -113,7 +118,7 @@ def solve_nlp(
         _raise_failure(evaluation, ended["status"])
     else:
         point = _last_point(nlp, evaluation, begin)
-    return make_result(nlp, evaluation, ended["status"], point, time.perf_counter() - began, ended["linear"])
+    return make_result(nlp, evaluation, ended["status"], point, time.perf_counter() - began, ended["linear"], way)
 
 
 def _tightest(time_limit_s: float | None) -> float | None:
@@ -189,8 +194,10 @@ def _scales(nlp: NonlinearProgram) -> tuple[float, np.ndarray, np.ndarray]:
 
 
 @functools.cache
-def _runner() -> Callable[..., int]:
-    """Choose the way to Ipopt: its C interface through cyipopt's library, else cyipopt itself."""
+def _runner(interface: str) -> tuple[str, Callable[..., int]]:
+    """The way to Ipopt, by name, and the function that takes it."""
+    if interface not in ("auto", "direct", "cyipopt"):
+        raise SolveError(f"interface={interface!r} is unknown: choose 'auto', 'direct' or 'cyipopt'.")
     try:
         import cyipopt
     except ModuleNotFoundError as absent:
@@ -203,8 +210,14 @@ def _runner() -> Callable[..., int]:
             f"cyipopt is installed but cannot be loaded ({problem}). Does the machine, or its limit for a process, have "
             "memory enough? If it never loads, build it anew with `python -m symid.setup_ipopt`."
         ) from problem
-    library = ipopt_library.open_library(sys.modules[cyipopt.Problem.__module__].__file__)
-    return _run_cyipopt if library is None else functools.partial(ipopt_library.solve, library)
+    library = None
+    if interface != "cyipopt":
+        library = ipopt_library.open_library(sys.modules[cyipopt.Problem.__module__].__file__)
+    if library is not None:
+        return "direct", functools.partial(ipopt_library.solve, library)
+    if interface == "direct":
+        raise SolveError("interface='direct' is not possible: this cyipopt hides Ipopt's C interface. Choose 'auto'.")
+    return "cyipopt", _run_cyipopt
 
 
 class _CyipoptFunctions:

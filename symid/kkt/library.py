@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import os
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
@@ -80,9 +81,19 @@ def _library() -> ctypes.CDLL:
     return library
 
 
-def begin(threads: int = 1) -> None:
-    """Prepare for one solve; only one at a time in a process."""
-    _library().symid_kkt_begin(threads, THRESHOLD)
+def begin(threads: int | None = None) -> None:
+    """Prepare for one solve; only one at a time in a process.
+
+    threads : by default OMP_NUM_THREADS, or as many as there are cores for this process.
+    """
+    _library().symid_kkt_begin(threads or _threads(), THRESHOLD)
+
+
+def _threads() -> int:
+    wanted = os.environ.get("OMP_NUM_THREADS", "").split(",")[0]
+    if wanted.isdecimal() and int(wanted) > 0:
+        return int(wanted)
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def end() -> Statistics:

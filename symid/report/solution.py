@@ -142,7 +142,8 @@ def _solver(solution: Solution) -> str:
                "delayed pivots": linear.delayed}
     return facts({"status": _in_words(solution.result.status_name, solution.solved),
                   "iterations": solution.result.iterations,
-                  "linear solver": f"{linear.name}: {linear.reason}", **{k: v for k, v in details.items() if v is not None},
+                  "interface to Ipopt": solution.result.interface, "linear solver": f"{linear.name}: {linear.reason}",
+                  **{k: v for k, v in details.items() if v is not None},
                   **{f"{k.replace('_', ' ')} [s]": round(v, 3) for k, v in solution.seconds.items()}})
 
 
