@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -34,6 +35,9 @@ def completed(model: Model, part: Component, name: str) -> Component:
         shown = model.components.get(str(changes["expr"]))
         changes["unit"] = part.unit or getattr(shown, "unit", "")
         changes["channel"] = part.channel or (shown.name if isinstance(shown, AlongTime) else name)
+    if isinstance(getattr(part, "bounds", None), tuple):
+        with suppress(TypeError, ValueError):           # what is no pair of numbers, check() says in words
+            changes["bounds"] = tuple(float(b) for b in part.bounds)
     if isinstance(part, Input):
         changes["channel"] = part.channel or name
     if isinstance(part, Constraint):
