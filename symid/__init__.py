@@ -14,7 +14,7 @@ _WHERE = {
                     "Parameter", "Port", "Process", "State", "Term"),
     "symid.recording": ("Recording", "read_recording"),
     "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
-    "symid.analysis": ("Stability", "Uncertainty", "compare", "stability", "stability_of", "uncertainty"),
+    "symid.analysis": ("Stability", "Uncertainty", "bootstrap", "compare", "identifiability", "profile", "stability", "stability_of", "uncertainty"),
     "symid.discrepancy": ("Diagnosis", "diagnose"),
     "symid.cases": ("diagnose_case", "read_case", "rig_case"),
     "symid.optimization": ("Free", "Optimization", "Plan"),

@@ -1,17 +1,15 @@
-"""How well the data know each parameter: errors, bounds, what they cannot tell apart, likelihood profiles."""
+"""How well the data know each parameter: errors, bounds, what they cannot tell apart."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
 from symid.errors import ModelError
-from symid.identification import Identification, Solution
+from symid.identification import Solution
 from symid.identification.covariance import ParameterErrors
-from symid.model import nearest
 
 ALIKE = 0.95
 """Share of a parameter's variance explained by others from which on the data hardly tell them apart."""
@@ -103,53 +101,3 @@ def _combinations(names: list[str], correlation: np.ndarray):
             step = direction * np.sign(direction[np.argmax(np.abs(direction))])
             members = sorted(((n, float(s)) for n, s in zip(names, step, strict=True) if abs(s) >= 0.2), key=lambda m: -abs(m[1]))
             yield float(variance), dict(members)
-
-
-def profile(solution: Solution, parameter: str, values: Sequence[float] | None = None) -> pd.DataFrame:
-    """Solve again with one parameter kept at each of several values: its likelihood profile.
-
-    Parameters
-    ----------
-    parameter : name of a free parameter.
-    values : SI; by default -3 to 3 standard errors around the optimum, within the bounds.
-
-    Returns
-    -------
-    DataFrame
-        By value: deviance, twice the loss of log-likelihood. The rise of the objective is scaled so
-        that its curvature at the optimum gives the standard error, since coloured residuals are
-        worth fewer samples than there are (composite likelihood; Pace, Salvan & Sartori 2011):
-        values with a deviance below 3.84 are the 95 % interval.
-
-    Raises
-    ------
-    ModelError
-        If there is no such parameter, it sits at a bound and no values were given, or a fit fails.
-    """
-    table, problem = solution.parameters, solution.problem
-    if parameter not in problem.model.parameters or parameter not in table.index:
-        raise ModelError(f"profile: the solution has no parameter '{parameter}' shared by all recordings; "
-                         f"{nearest(parameter, list(table.index))}")
-    row = table.loc[parameter]
-    if not np.isfinite(row.std_error):
-        raise ModelError(f"profile: '{parameter}' sits at its bound, {row.value:g}, and has no standard error to scale by")
-    if values is None:
-        values = np.clip(row.value + row.std_error * np.array([-3, -2, -1, 1, 2, 3]), row.lower, row.upper)
-    rise = {row.value: 0.0}
-    for value in values:
-        rise[float(value)] = _objective_with(problem, solution, parameter, float(value)) - solution.result.objective
-    x = np.array(sorted(rise))
-    y, far = np.array([rise[v] for v in x]), (x - row.value) / row.std_error
-    near = (np.abs(far) > 0) & (np.abs(far) <= max(1.5, np.abs(far[far != 0]).min()))
-    scale = np.sum(far[near] ** 2 * y[near]) / np.sum(far[near] ** 4)
-    return pd.DataFrame({"objective": y + solution.result.objective, "deviance": y / scale}, index=pd.Index(x, name=parameter))
-
-
-def _objective_with(problem: Identification, solution: Solution, parameter: str, value: float) -> float:
-    other = Identification(problem.model.fixed(**{parameter: value}), problem.recordings, problem.window, scheme=problem.scheme,
-                           episodes=problem.episodes, weights=problem.weights, per_recording=problem.per_recording,
-                           backend=problem.backend)
-    found = other.solve(start=solution, check=False)
-    if not found.solved:
-        raise ModelError(f"profile: with {parameter}={value:g} no solution was found: {found.message}")
-    return found.result.objective

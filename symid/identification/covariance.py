@@ -28,18 +28,22 @@ class ParameterErrors:
     Parameters
     ----------
     covariance : (q, q) on what is determined; zero for parameters at a bound.
+    inverse : (q, q) inverse of half the objective's curvature: what the covariance would be for unit weights and noise.
     null : (q, k) directions in which the outputs do not change.
     at_bound : (q,) whether a parameter sits at a bound.
     model : name of the error model. why : a sentence about it.
     noise : (recordings, m) standard deviation of the noise of each output.
+    residuals : of each recording, with what the fit could follow of them.
     """
 
     covariance: np.ndarray
+    inverse: np.ndarray
     null: np.ndarray
     at_bound: np.ndarray
     model: str
     why: str
     noise: np.ndarray
+    residuals: list[Errors]
 
     @property
     def undetermined(self) -> np.ndarray:
@@ -51,6 +55,13 @@ class ParameterErrors:
         """(q,) NaN for a parameter at a bound, infinite for one that is not determined."""
         errors = np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
         return np.where(self.at_bound, np.nan, np.where(self.undetermined, np.inf, errors))
+
+    def worth(self, index: int) -> float:
+        """Deviance of a unit of the objective: for parameter `index`, or over all where it is not determined."""
+        covariance, inverse = np.diag(self.covariance), np.diag(self.inverse)
+        known = np.flatnonzero(np.isfinite(self.std_errors) & (covariance > 0))
+        chosen = [index] if index in known else known
+        return float(np.exp(np.mean(np.log(inverse[chosen] / covariance[chosen])))) if len(chosen) else 1.0
 
     def determined(self, names: list[str], values: np.ndarray) -> list[tuple[Combination, float]]:
         """Combinations of undetermined parameters that are determined, with their standard errors."""
@@ -85,11 +96,11 @@ def parameter_errors(t: Transcription, result: SolverResult, known: np.ndarray, 
     total = total + t.information * inverse @ reduced.prior @ inverse
     scale, q = t.layout.parameter_scale, len(t.layout.parameter_names)
     free = ~at_bound[t.layout.offsets[-1]:]
-    full = np.zeros((q, q))
-    full[np.ix_(free, free)] = total * np.outer(scale[free], scale[free])
+    full, unit = np.zeros((q, q)), np.zeros((q, q))
+    full[np.ix_(free, free)], unit[np.ix_(free, free)] = (x * np.outer(scale[free], scale[free]) for x in (total, inverse))
     directions = np.zeros((q, null.shape[1]))
     directions[free] = null * scale[free, None]
-    return ParameterErrors(full, directions, ~free, model, why, noise)
+    return ParameterErrors(full, unit, directions, ~free, model, why, noise, errors)
 
 
 def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:

@@ -70,7 +70,7 @@ class Errors:
 def choose(errors: list[Errors], choice: str, episodes: int) -> tuple[str, str]:
     """Name of the error model, and a sentence on why it is this one."""
     if choice not in CHOICES:
-        raise SolveError(f"error model '{choice}': known are {', '.join(CHOICES)}, and bootstrap() of the solution")
+        raise SolveError(f"error model '{choice}': known are {', '.join(CHOICES)}; blocks are drawn again by symid.bootstrap(solution)")
     if choice == "clustered" and len(errors) < FEWEST_CLUSTERS:
         raise SolveError(f"clustered errors compare recordings with each other and need {FEWEST_CLUSTERS} of them; there "
                          f"{'is' if len(errors) == 1 else 'are'} {len(errors)}: cut the recording into segments, or choose "
@@ -80,8 +80,13 @@ def choose(errors: list[Errors], choice: str, episodes: int) -> tuple[str, str]:
     if episodes > 1:
         return "coloured", "episodes with process noise leave residuals with a memory"
     chance = whiteness(likeliest(likeliest(errors)))
-    return ("white", f"the residual's autocorrelation does not refute it (p = {chance:.2g})") if chance > REFUTED else \
-        ("coloured", f"the residual is correlated in time (p = {chance:.2g})")
+    agreed = [r.believed for r in errors]
+    if chance > REFUTED and np.all(agreed):
+        return "white", f"known, and the residual does not refute it (p = {chance:.2g})"
+    if chance > REFUTED:
+        source = "partly known" if np.any(agreed) else "estimated"
+        return "white", f"{source}; the residual's autocorrelation does not refute it (p = {chance:.2g})"
+    return "coloured", f"the residual is correlated in time (p = {chance:.2g})"
 
 
 def covariance(model: str, errors: list[Errors], influences: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

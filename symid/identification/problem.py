@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -162,9 +162,18 @@ class Identification:
             return searches[kind](self, seed, number)
         return given_start(self.transcription, kind)
 
-    def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
-        """What Ipopt solves from the free vector `start`: the collocation, with the ridge."""
+    def nonlinear_program(self, start: np.ndarray, kept: Mapping[str, float] | None = None) -> NonlinearProgram:
+        """What Ipopt solves from the free vector `start`: the collocation, with the ridge.
+
+        kept : free parameters that stay at a value [SI], by name.
+        """
         nlp, layout = self.transcription.nonlinear_program(start), self.transcription.layout
+        if kept:
+            columns = layout.offsets[-1] + np.array([layout.parameter_names.index(name) for name in kept])
+            z, lower, upper = nlp.start.copy(), nlp.lower.copy(), nlp.upper.copy()
+            scaled = np.array(list(kept.values())) / layout.parameter_scale[columns - layout.offsets[-1]]
+            z[columns] = lower[columns] = upper[columns] = scaled
+            nlp = replace(nlp, start=z, lower=lower, upper=upper)
         if not self.ridge:
             return nlp
         columns = np.arange(layout.offsets[-1], layout.size)
@@ -172,12 +181,14 @@ class Identification:
         return with_ridge(nlp, columns, self.ridge * len(layout.intervals), centre)
 
     def solve_from(self, start: np.ndarray, *, on_iteration: Callable[[Iteration], bool | None] | None = None,
-                   warm_start: SolverResult | None = None, dual_limit: float = np.inf, **solver) -> SolverResult:
+                   warm_start: SolverResult | None = None, dual_limit: float = np.inf,
+                   kept: Mapping[str, float] | None = None, **solver) -> SolverResult:
         """Run Ipopt from one free vector; `solver` goes to `symid.ipopt_solver.solve_nlp`.
 
         dual_limit : dual infeasibility above which the solve is given up. Where several episodes
             lead to an unstable loop the multipliers grow without end, and each factorisation takes
             longer than all before it.
+        kept : free parameters that stay at a value [SI], by name.
         """
         if self.model.delays:
             solver["options"] = DELAY_OPTIONS | (solver.get("options") or {})
@@ -186,7 +197,7 @@ class Identification:
             told = None if on_iteration is None else on_iteration(iteration)
             return told is not False and iteration.dual_infeasibility <= dual_limit
 
-        return solve_nlp(self.nonlinear_program(start), on_iteration=watch, warm_start=warm_start, **solver)
+        return solve_nlp(self.nonlinear_program(start, kept), on_iteration=watch, warm_start=warm_start, **solver)
 
     def solve(self, starts: int = 1, *, start: str | dict[str, float] | Solution = "default", seed: int = 0,
               executor: Executor | None = None, store: str | Path | None = None,

@@ -1,0 +1,98 @@
+"""Bootstrap: the same identification on recordings whose residuals are drawn again, in blocks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from symid.errors import ModelError
+from symid.identification import Solution, Solve, Study
+from symid.identification.error_models import Errors, bandwidth
+from symid.identification.study import Finished, tell
+from symid.recording import Recording
+
+LEAST_DRAWS = 20
+"""Solved draws below which a spread is not given: its own error would be a sixth."""
+
+
+@dataclass(frozen=True, eq=False)
+class Bootstrap:
+    """Estimates from drawn recordings.
+
+    Attributes
+    ----------
+    draws : one row for each draw that was solved, one column for each parameter [SI].
+    parameters : value of the solution, std_error and 95 % interval (lower, upper; percentiles of the draws).
+    failed : draws without a solution.
+    block : samples that stay together, of each recording.
+    """
+
+    draws: pd.DataFrame
+    parameters: pd.DataFrame
+    failed: int
+    block: tuple[int, ...]
+
+    def __repr__(self) -> str:
+        lost = f", {self.failed} more were not solved" if self.failed else ""
+        blocks = ", ".join(map(str, sorted(set(self.block))))
+        return (f"{self.parameters.to_string(float_format='%.5g')}\n"
+                f"Error model: bootstrap, {len(self.draws)} draws of blocks of {blocks} samples{lost}.")
+
+
+def bootstrap(solution: Solution, count: int = 200, *, seed: int = 0, block: int | None = None,
+              executor: Executor | None = None, store: str | Path | None = None, on_finished: Callable[[Finished], None] | None = tell) -> Bootstrap:
+    """Standard errors and intervals from `count` identifications of drawn recordings.
+
+    A draw is the fitted motion plus the residual in another order: circular blocks of it begin at random
+    (Politis & Romano 1992), made as large as the noise by the degrees of freedom that the fit used up. Blocks keep
+    the noise's memory; channels stay together.
+
+    Parameters
+    ----------
+    block : samples of a block; by default 1 where the solution's error model is white, else as many
+        as the noise's memory asks for (`error_models.bandwidth`).
+    executor, store, on_finished : as for `Study.run`.
+
+    Raises
+    ------
+    ModelError
+        If the problem was not solved, or too few of the draws were.
+    """
+    if not solution.solved:
+        raise ModelError(f"bootstrap: the problem was not solved: {solution.message}")
+    residuals = solution.errors.residuals
+    blocks = tuple(block or (1 if solution.errors.model == "white" else max(1, bandwidth(r.error))) for r in residuals)
+    rng = np.random.default_rng(seed)
+    solves = {}
+    for k in range(count):
+        drawn = [_drawn(solution, r, residuals[r], blocks[r], rng) for r in range(len(residuals))]
+        solves[f"draw {k + 1}"] = Solve(replace(solution.problem, recordings=drawn), solution.result.z, k)
+    study = Study(solves, store)
+    ended = study.run_here(on_finished) if executor is None else study.run(executor, on_finished=on_finished)
+    table = ended.table
+    draws = table.loc[table["solved"], list(solution.values)]
+    if len(draws) < min(LEAST_DRAWS, count):
+        raise ModelError(f"bootstrap: only {len(draws)} of {count} draws were solved; the first that was not says: "
+                         f"{table.loc[~table['solved'], 'message'].iloc[0]}")
+    low, high = draws.quantile(0.025), draws.quantile(0.975)
+    parameters = pd.DataFrame({"value": solution.values, "std_error": draws.std(), "lower": low, "upper": high})
+    return Bootstrap(draws, parameters.loc[list(solution.values)], count - len(draws), blocks)
+
+
+def _drawn(solution: Solution, r: int, residual: Errors, block: int, rng) -> Recording:
+    """Recording `r` with its outputs drawn anew inside the window."""
+    recording, m = solution.problem.recordings[r], solution.transcription.measured[r]
+    samples = len(residual.error)
+    begins = rng.integers(0, samples, -(-samples // block))
+    order = ((begins[:, None] + np.arange(block)) % samples).ravel()[:samples]
+    error = residual.error / np.sqrt(residual.freedom / np.maximum(residual.present.sum(axis=0), 1))
+    for j, y in enumerate(solution.model.outputs.values()):
+        values = recording[y.channel].copy()
+        values[m.nodes] = values[m.nodes] + residual.error[:, j] - error[order, j]    # recorded + (model - recorded) - noise
+        recording = recording.with_channel(y.channel, values, recording.units[y.channel], noise=recording.noise.get(y.channel))
+    return recording
