@@ -82,7 +82,7 @@ def test_the_report_says_it_all_without_a_file_beside_it(finding, tmp_path):
     assert html.index(finding.words.split(" ")[0]) < html.index("<table")
     for part in ("My rig", "missing physics", "sensor offset", "held-out window", "torsional spring", "rig.csv", "What is left"):
         assert part in html
-    assert html.count("data:image/png;base64,") == 4
+    assert html.count("data:image/png;base64,") == 8   # four figures, each for a wide and a narrow screen
     assert not re.search(r'(src|href)="(?!data:)', html)
     assert diagnosis_html(finding, "My rig", {"recording": "rig.csv"}) == html
 

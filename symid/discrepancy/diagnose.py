@@ -7,18 +7,21 @@ from functools import cache
 
 from symid.discrepancy.locate.audit import audit
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
+from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect, established_suspects
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
-from symid.discrepancy.prove.certain import honest
+from symid.discrepancy.prove.certain import honest, weakest
 from symid.discrepancy.prove.halves import survivals, verdicts
+from symid.discrepancy.prove.held_out import compare
+from symid.discrepancy.prove.nulls import false_alarm_probability, null_maxima
+from symid.discrepancy.prove.opponents import collocated, free_runs, with_values
 from symid.discrepancy.say.diagnosis import Diagnosis
 from symid.discrepancy.say.judge import judge, rivals
 from symid.discrepancy.say.words import Story, words
 from symid.errors import DiagnosisError
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data, segments_of
-from symid.estimation.free_run import free_run
 from symid.identification import Solution
 from symid.model import Model
 from symid.recording import Recording
@@ -62,29 +65,44 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     data = Data(segments, checked.noise, driven, checked.rounding, checked.weight(segments[0].step)).thinned()
     base = fit_model(model, data, dict(start or {}))
     progress(f"the model as given is fitted ({base.iterations} iterations)")
-    pool = list(established_suspects(model) if suspects is None else suspects)
+
     flexible = cache(lambda: flexible_fits(base, data, flexible_terms(base, data))[0])
-    search = Search(base, data, pool, flexible, threads, progress)
+    search = Search(base, data, list(established_suspects(model) if suspects is None else suspects), flexible, threads, progress)
     found, ranking = search.run()
-    left = search.remainder(found)
-    if (len(found.suspects) > 1 or not found.established or left[0].minus_log10_p > POLICY.remainder) and search.beaten(found):
+    if _doubtful(found, search) and search.beaten(found):
         found = flexible()
-        left = search.remainder(found)
+    left = search.remainder(found)
     progress("tested for a remainder")
+
     white = not checked.filtered and all(t.locates or t.minus_log10_p <= POLICY.remainder for t in left)
     before, found = found.suspects, honest(found, white, threads)
     left = left if found.suspects == before else search.remainder(found)
-    verdict, effects, equivalent = judge(found, search.equivalents(found), left, flexible)
+    chance = false_alarm_probability(weakest(found) if found.suspects else _largest(ranking), null_maxima(search.projection, found.fit))
     survived = survivals(found.suspects, found.fit, base, data, white)
     halves = () if white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking))
-    runs = {"baseline_train": free_run(base, data, settling), "augmented_train": free_run(found.fit, data, settling)}
-    if held_out is not None:
-        # Segments that were set apart are judged whole.
-        later = data.with_segments(segments_of(model, recording, held_out, None if isinstance(held_out, str) else segment_length))
-        runs |= {"baseline_heldout": free_run(base, later), "augmented_heldout": free_run(found.fit, later)}
+    given = [base, *([with_values(base, subject.values)] if isinstance(subject, Solution) else []),
+             *(collocated(base, recording, fit_window) if found.suspects and held_out is not None else [])]
+    better = [found.fit, *(collocated(found.fit, recording, fit_window) if found.suspects and held_out is not None else [])]
+    # Segments that were set apart are judged whole, and so are those that were fitted.
+    windows = {key: data.with_segments(segments_of(model, recording, w, None if isinstance(w, str) else segment_length))
+               for key, w in (("train", fit_window), ("heldout", held_out)) if w is not None}
+    runs = free_runs(given, better, windows, settling)
+    proof = compare(runs["baseline_heldout"], runs["augmented_heldout"]) if "heldout" in windows and found.suspects else None
+
+    verdict, effects, equivalent = judge(found, search.equivalents(found), left, flexible)
     text = words(Story(verdict, effects, equivalent, ranking, left, runs, checked, survived, halves, white,
-                       base.kalman_gain is not None, data.weight))
-    return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text, checked, survived, halves)
+                       base.kalman_gain is not None, data.weight, model, proof, chance))
+    return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text, checked, survived, halves,
+                     proof, chance)
+
+
+def _doubtful(found: Hypothesis, search: Search) -> bool:
+    """Whether something of no list may be behind what was found."""
+    return len(found.suspects) > 1 or not found.established or search.remainder(found)[0].minus_log10_p > POLICY.remainder
+
+
+def _largest(ranking: Sequence[Hypothesis]) -> float:
+    return max((h.log_ratio for h in ranking), default=0.0)
 
 
 def _of_solution(solution: Solution, recording, fit_window, start):

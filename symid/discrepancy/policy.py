@@ -28,7 +28,7 @@ class Policy:
     equivalent : answers whose evidence is so near are told; the better test then errs in 4 % (Phi(-sqrt(12)/2)).
     most_effects : a search ends here.
     quiet : -log10 of the probability by chance of the most suspicious test, below which no search goes on:
-        of about ten tests one reaches it in a quarter of the recordings with nothing left.
+        of about ten tests one reaches it in a tenth of the recordings with nothing left.
     remainder : likewise, above which a rest counts as systematic: 30 nulls of `symid conceal` stayed below 4.
     located : likewise, above which a test tells the place of a rest.
     far : errors so many times the sensors' noise are not explained by whatever acts at one place alone.
@@ -47,7 +47,7 @@ class Policy:
     harmonics: int = 6
     equivalent: float = 12.0
     most_effects: int = 8
-    quiet: float = 1.5
+    quiet: float = 2.0
     remainder: float = 4.5
     located: float = 2.0
     far: float = 5.0

@@ -274,6 +274,14 @@ class Model:
     @property
     def fingerprint(self) -> str:
         """Changes with the equations and conditions, their symbols and their order; not with values or bounds."""
+        parts = (*self.components.values(), *self.delays.items())
+        known = self.__dict__.get("_known_fingerprint", ((), ""))
+        if len(known[0]) != len(parts) or any(a is not b and a != b for a, b in zip(known[0], parts, strict=True)):
+            known = parts, self._new_fingerprint()
+            object.__setattr__(self, "_known_fingerprint", known)
+        return known[1]
+
+    def _new_fingerprint(self) -> str:
         kinds = [(type(c).__name__, c.name) for c in self.components.values()]
         kinds += [(u.name, u.hold) for u in self.inputs.values() if u.hold != "smooth"]
         text = repr((kinds, [sm.srepr(e) for e in (*self.residual(), *self.observed())],

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.signal import welch
 
-from symid.discrepancy.say.words import law_name
+from symid.discrepancy.say.names import law_name
 from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened
 from symid.units import shown_unit, unit_symbol
 

@@ -10,6 +10,7 @@ from functools import lru_cache
 import numpy as np
 
 from symid.codegen.build import or_numpy
+from symid.codegen.kept import kept_source
 from symid.codegen.ode import OdeSource, ode_source
 from symid.deadline import check
 from symid.errors import SymidError
@@ -75,8 +76,8 @@ class Simulator:
 
     def __init__(self, model: Model, backend: str = "auto"):
         self.model = model
-        self.source: OdeSource = ode_source(model)
-        self._loop = or_numpy(backend, lambda: CompiledLoop(self.source), lambda: PythonLoop(self.source))
+        self.source: OdeSource = kept_source(model) if backend != "numpy" else ode_source(model)
+        self._loop = or_numpy(backend, lambda: CompiledLoop(self.source), lambda: PythonLoop(ode_source(model)))
         s = self.source
         self.states, self.outputs, self.parameters = s.states, s.outputs, s.parameters
         self.constants = np.array([c.value for c in model.constants.values()], dtype=float)

@@ -17,7 +17,7 @@ class Projection:
     """The innovations of one fit with everything that its own unknowns could explain taken out."""
 
     def __init__(self, fit: Fit, data: Data):
-        self.fit, self.data = fit, data
+        self.fit, self.data, self.bases = fit, data, []
         fitter = Fitter(fit.model, data)
         self.substeps = fitter.substeps
         runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.kalman_gain, sensitivities=True)
@@ -51,6 +51,15 @@ class Projection:
         a = np.where(kept, a / scale, 0.0)
         c, *_ = np.linalg.lstsq(a.T @ a, a.T @ rest, rcond=1e-8)
         return float(c @ (a.T @ rest)), c / scale
+
+    def forecast(self, columns: np.ndarray) -> tuple[float, np.ndarray]:
+        """`score`, remembering in `bases` what it was that was tried: an orthonormal basis of what the columns add."""
+        a = self.project(columns)
+        scale = np.sqrt((a**2).sum(0)) + 1e-300
+        kept = scale**2 > 1e-8 * (columns**2).sum(0)
+        if kept.any():
+            self.bases.append(np.linalg.qr((a / scale)[:, kept])[0].astype(np.float32))
+        return self.score(columns)
 
     def response(self, suspect: Suspect, sim: Simulator, values: dict[str, float],
                  each: Sequence[dict[str, float]] | None = None) -> np.ndarray | None:

@@ -29,10 +29,10 @@ class Start:
     values: dict[str, float]
 
 
-def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, later: bool = False, threads: int = 2,
-            progress: Callable[[str], None] = lambda text: None) -> list[Hypothesis]:
+def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, later: bool = False,
+            projection: Projection | None = None, threads: int = 2, progress: Callable[[str], None] = lambda text: None) -> list[Hypothesis]:
     """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found."""
-    projection = Projection(fit, data)
+    projection = projection or Projection(fit, data)
     refitted, converged = ((POLICY.refitted_later, POLICY.converged_later) if later else (POLICY.refitted, POLICY.converged))
     with ThreadPoolExecutor(threads) as pool:
         starts = [s for s in pool.map(lambda s: _starts(fit, data, projection, s), suspects) if s]
@@ -41,11 +41,15 @@ def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, later: bool = 
         chosen = chosen[:refitted]
         chosen += [s for s in starts if s not in chosen and s[0].suspect.bypasses]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
-        first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen) if c is not None]
+        first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen[:POLICY.always_refitted]) if c is not None]
+        best = max((c.log_ratio for c in first), default=0.0)
+        worth = [s for s in chosen[POLICY.always_refitted:] if s[0].forecast > POLICY.beam_share * best or s[0].suspect.bypasses]
+        first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
         first.sort(key=lambda c: -c.log_ratio)
         others = {s[0].suspect: s[1:3] for s in chosen}
-        found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), first[:converged]))
-        rest = first[converged:]
+        good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
+        found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), good))
+        rest = first[len(good):]
         near = max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near
         close = [c for c in rest if c.log_ratio > max(near, 0.0) and not c.fit.converged]
         found += list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), close))
@@ -72,7 +76,7 @@ def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> l
             except SymidError:
                 continue
             if columns is not None:
-                found.append(Start(projection.score(columns)[0], suspect, values))
+                found.append(Start(projection.forecast(columns)[0], suspect, values))
     found.sort(key=lambda s: -s.forecast)
     if found and not suspect.strength.starts:
         return found[:1]

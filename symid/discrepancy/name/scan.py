@@ -29,7 +29,7 @@ def scan(projection: Projection, suspect: Suspect, model: Model) -> list[tuple[f
         columns = [projection.response(suspect, sim, v) for v in quadratures]
         if any(c is None for c in columns):
             continue
-        gain, c = projection.score(np.hstack(columns))
+        gain, c = projection.forecast(np.hstack(columns))
         if len(c) == 2:
             turned = {strength: float(np.hypot(*c)), suspect.phase: float(np.arctan2(c[1], c[0]))}
         else:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from math import log
 
 import numpy as np
 
+from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import Test, remainder
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect
@@ -39,6 +41,11 @@ class Search:
     progress: Callable[[str], None] = lambda text: None
     left: dict[int, list[Test]] = field(default_factory=dict)
     tried: list[Hypothesis] = field(default_factory=list)
+
+    @cached_property
+    def projection(self) -> Projection:
+        """Of the model as given, with the responses of all suspects that were tried on it."""
+        return Projection(self.base, self.data)
 
     def run(self) -> tuple[Hypothesis, list[Hypothesis]]:
         """The best hypothesis, and each suspect alone, best first."""
@@ -129,7 +136,8 @@ class Search:
         return by_score(found)
 
     def _explored(self, best: Hypothesis, pool: Sequence[Suspect]) -> list[Hypothesis]:
-        found = explore(best.fit, self.data, pool, later=bool(best.suspects), threads=self.threads, progress=self.progress)
+        found = explore(best.fit, self.data, pool, later=bool(best.suspects), threads=self.threads, progress=self.progress,
+                        projection=None if best.suspects else self.projection)
         return [Hypothesis((*best.suspects, h.suspect), h.fit, self.base, self.data, h.forecast) for h in found]
 
     def _other_pairs(self, best: Hypothesis, single: list[Hypothesis]) -> list[Hypothesis]:

@@ -50,6 +50,11 @@ def sure(found: Hypothesis) -> Hypothesis:
     return found
 
 
+def weakest(found: Hypothesis) -> float:
+    """Log-likelihood ratio of the least certain effect to nothing, from its standard errors; of all where none can be nothing."""
+    return min((min(_certainty(s, found.fit) ** 2, found.log_ratio) for s in found.suspects), default=0.0)
+
+
 def _certainty(suspect: Suspect, fit: Fit) -> float:
     """Standard errors between the suspect and nothing; infinite where no value of it means nothing."""
     nulls = {suspect.term.parameter_name(q.key): q.null for q in suspect.law.parameters if q.null is not None}

@@ -9,14 +9,19 @@ from importlib import import_module
 from math import isfinite
 from pathlib import Path
 
+import numpy as np
+
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
+from symid.discrepancy.prove.held_out import Proof
 from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
 from symid.files import write_atomically
+from symid.identification.fit import common_unit
 from symid.model import Model
+from symid.units import column_name
 
 FORMAT = 1
 
@@ -56,6 +61,9 @@ class Diagnosis:
     remainder : tests for something left over. words : the finding in sentences.
     audit : noise of the sensors, and whether the recording was filtered. halves : each effect on two halves;
     verdicts_of_halves : what either half alone says, where what is left is not random.
+    proof : held-out errors before and after, compared; None without held-out data or effects.
+    false_alarm_probability : that chance alone makes the best suspect look as good as the weakest effect that was found
+        (of an adequate model: as the best suspect); None where that cannot be told.
     """
 
     verdict: str
@@ -70,6 +78,8 @@ class Diagnosis:
     audit: Audit
     halves: tuple[Survival, ...] = ()
     verdicts_of_halves: tuple[HalfVerdict, ...] = ()
+    proof: Proof | None = None
+    false_alarm_probability: float | None = None
 
     @property
     def improved(self) -> Model:
@@ -82,11 +92,6 @@ class Diagnosis:
 
     def answer(self) -> dict:
         """The finding as plain numbers and text, in the answer format."""
-        def rms(when: str) -> dict:
-            runs = {part: self.runs[f"{when}_{part}"] for part in ("train", "heldout") if f"{when}_{part}" in self.runs}
-            pieces = {f"{part}_rms_rad_of_segments": [r for _, r in run.of_segments()]
-                      for part, run in runs.items() if len(run.lengths) > 1}
-            return {f"{part}_rms_rad": run.rms for part, run in runs.items()} | pieces
         return {
             "format": FORMAT,
             "verdict": self.verdict,
@@ -98,7 +103,9 @@ class Diagnosis:
             "equivalent": [{"name": c.suspect.term.name, "location": c.suspect.term.location,
                             "why": f"explains the recording almost as well (score {c.score:.1f})"} for c in self.equivalent],
             "confirmed": self.confirmed,
-            "fit": {"baseline": rms("baseline"), "augmented": rms("augmented")},
+            "false_alarm_probability": self.false_alarm_probability,
+            "proof": None if self.proof is None else vars(self.proof),
+            "fit": {"baseline": self._errors("baseline"), "augmented": self._errors("augmented")},
             "halves": [self._half(s) for s in self.halves],
             "verdicts_of_halves": [{"span_s": list(v.span), "verdict": v.verdict, "better_explained_by": None if v.rival is None else
                                     {"name": v.rival.term.name, "location": v.rival.term.location}} for v in self.verdicts_of_halves],
@@ -110,10 +117,28 @@ class Diagnosis:
 
     @property
     def confirmed(self) -> bool | None:
-        """Whether the held-out window is simulated better with what was found; None where there is neither."""
-        if not self.effects or "augmented_heldout" not in self.runs or self.final is self.baseline:
-            return None
-        return self.runs["augmented_heldout"].rms < self.runs["baseline_heldout"].rms
+        """Whether held-out data prove what was found; None where there is neither."""
+        return None if self.proof is None or not self.effects else self.proof.confirmed
+
+    @property
+    def unit(self) -> str:
+        """SI unit of all outputs, or "mixed"."""
+        return common_unit(y.unit for y in self.baseline.model.outputs.values()) or "mixed"
+
+    def _errors(self, when: str) -> dict:
+        """RMS errors of free runs in the outputs' unit, of each segment and of each channel; in radians under the former keys, too."""
+        channels, found = [y.channel for y in self.baseline.model.outputs.values()], {"unit": self.unit}
+        for part in ("train", "heldout"):
+            run = self.runs.get(f"{when}_{part}")
+            if run is None:
+                continue
+            pieces = [r for _, r in run.of_segments()]
+            errors = np.sqrt(np.mean((run.simulated - run.recorded) ** 2, axis=0))
+            found |= {f"{part}_rms": run.rms, f"{part}_rms_by_channel": dict(zip(channels, map(float, errors), strict=True))}
+            found |= {f"{part}_rms_of_segments": pieces} if len(pieces) > 1 else {}
+            if self.unit == "rad":
+                found |= {f"{part}_rms_rad": run.rms} | ({f"{part}_rms_rad_of_segments": pieces} if len(pieces) > 1 else {})
+        return found
 
     @staticmethod
     def _half(s: Survival) -> dict:
@@ -145,7 +170,7 @@ class Diagnosis:
     def held_out_csv(self, path: str | Path) -> Path:
         """Write the improved model's prediction of the held-out window, columns as in the recording."""
         run = self.runs["augmented_heldout"]
-        names = [f"{y.channel}_rad" if y.unit == "rad" else y.channel for y in self.improved.outputs.values()]
+        names = [column_name(y.channel, y.unit) for y in self.improved.outputs.values()]
         rows = [["time_s", *names], *([f"{t:.6f}", *(f"{v:.9g}" for v in y)] for t, y in zip(run.time, run.simulated, strict=True))]
         text = "".join(",".join(r) + "\n" for r in rows)
         return write_atomically(path, text)

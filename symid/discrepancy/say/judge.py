@@ -12,7 +12,7 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.explore import moment_profile
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.say.diagnosis import Effect
-from symid.discrepancy.say.words import sentence
+from symid.discrepancy.say.names import sentence
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
 
@@ -84,4 +84,4 @@ def _effect(suspect: Suspect, found: Hypothesis) -> Effect:
         at, error = _moment(fit, found.data, term.parameter_name(moment), parameters[moment][1])
         parameters[moment] = (at, error)
         window = (at - min(2 * error, 3.0), at + min(2 * error, 3.0))
-    return Effect(term.name, term.location, parameters, window, found.log_ratio, sentence(suspect, parameters), suspect.established)
+    return Effect(term.name, term.location, parameters, window, found.log_ratio, sentence(suspect, parameters, fit.model), suspect.established)

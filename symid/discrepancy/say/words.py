@@ -2,85 +2,36 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import degrees, floor, isfinite, log10
 
 import numpy as np
 
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis
-from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
+from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.diagnosis import Effect
+from symid.discrepancy.say.names import law_name, place_name
 from symid.estimation.free_run import FreeRun
+from symid.identification.fit import common_unit, rms_text
+from symid.model import Model
+from symid.units import quantity
 
-_UNITS = {"1": "", "N*m": "N m", "N*m*s/rad": "N m s/rad", "kg*m^2": "kg m²"}
-_PREFIXED = ("N*", "N/", "m", "kg*")
 LOSSES = ("viscous_friction", "coulomb_friction", "quadratic_drag", "stribeck_friction", "joint_drag",
           "load_dependent_friction", "bouc_wen_hysteresis")
 """Laws by which a mechanism loses energy."""
-UNSURE, HOPELESS = 100.0, 1e6
-"""A value with an error this many times larger, or with one this large in its unit, is not worth digits."""
 STILL = 3.0
 """What varies by less than so many times the sensors' noise does not move."""
 ABOVE = 2.0
 """A rest this many times larger than the sensors' noise is spoken of."""
 
 
-# ---- names and numbers -----------------------------------------------------------------------
-def place_name(location: str) -> str:
-    """A place as a person says it: "joint 1", "the ankle", "the sensor of link 2"."""
-    kind, _, rest = location.rpartition(":")
-    noun = re.sub(r"([a-z])(\d+)$", r"\1 \2", rest).replace("_", " ")
-    noun = noun if noun[-1:].isdigit() else f"the {noun}"
-    return f"the {kind} of {noun}" if kind else {"the global": "the whole system", "the input": "the input"}.get(noun, noun)
-
-
-def law_name(name: str, location: str = "") -> str:
-    """A law as a person says it, with its place: "viscous friction at joint 1"."""
-    said = name.replace("_", " ")
-    return said if location in ("", "global", "input", "base") else f"{said} at {place_name(location)}"
-
-
-def sentence(suspect: Suspect, parameters: Mapping[str, tuple[float, float]]) -> str:
-    """The law's own sentence with place, values and standard errors put in."""
-    units = {q.key: q.unit for q in suspect.law.parameters}
-    filled = {k: quantity(v, s, units[k]) for k, (v, s) in parameters.items()}
-    place = place_name(suspect.term.location)
-    template = re.sub(r"\b([Tt])he (?:sensor )?\{place\}", lambda the: place if the[1] == "t" else place[:1].upper() + place[1:],
-                      suspect.law.sentence)
-    return template.format(place=place.removeprefix("the "), **filled)
-
-
-def quantity(value: float, error: float, unit: str) -> str:
-    """A value with its standard error and unit: "84 ± 3 ms", "0.052 ± 0.004 N m"."""
-    prefixed = unit.startswith(_PREFIXED)
-    unit = _UNITS.get(unit, unit.replace("*", " ")).replace("^2", "²").replace("^3", "³")
-    size = abs(value) or error
-    if unit == "s" and size < 1:
-        value, error, unit = 1e3 * value, 1e3 * error, "ms"
-    elif unit == "rad" and size < 0.2:
-        value, error, unit = degrees(value), degrees(error), "deg"
-    elif 0 < size < 1e-2 and prefixed and not unit.startswith("kg"):
-        factor, prefix = (1e3, "m") if size > 1e-3 else (1e6, "µ")
-        value, error, unit = factor * value, factor * error, prefix + unit
-    if not isfinite(error) or error > UNSURE * abs(value) > 0 or error > HOPELESS:
-        return f"{value:.2g} {unit}".strip() + " (hardly determined)"
-    if not error > 0:
-        return f"{value:.3g} {unit}".strip()
-    digits = min(9, max(0, 1 - floor(log10(error))))
-    return f"{value:.{digits}f} ± {error:.{digits}f} {unit}".strip()
-
-
 def _listed(items: Sequence[str], last: str = "and") -> str:
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {last} {items[-1]}"
 
 
-def _deg(radians: float) -> str:
-    return f"{degrees(radians):.3g}"
 
 
 # ---- the text --------------------------------------------------------------------------------
@@ -100,6 +51,17 @@ class Story:
     white: bool
     driven: bool
     weight: float
+    model: Model
+    proof: Proof | None
+    chance: float | None
+
+    def error(self, value: float) -> str:
+        """An error of the outputs with their unit, where they share one."""
+        return rms_text(value, common_unit(y.unit for y in self.model.outputs.values()), digits=3)
+
+    def channels(self, values: np.ndarray) -> str:
+        """One number for each output, with its unit."""
+        return _listed([quantity(float(v), unit=y.unit) for v, y in zip(values, self.model.outputs.values(), strict=True)])
 
 
 def words(story: Story) -> str:
@@ -115,7 +77,7 @@ def _finding(s: Story) -> list[str]:
         return ["The model explains the recording: no suspect improves it beyond chance and nothing systematic is left."]
     known = [e for e in s.effects if e.name != "unknown"]
     if s.verdict == "missing_physics":
-        return [f"{e.sentence}." for e in known]
+        return [f"{e.sentence}." for e in known] + _unproved(s)
     first, others = s.effects[0], [e for e in known if e is not s.effects[0]]
     said = [f"{e.sentence}." for e in others if e.established]
     part = [f"In part it looks like this: {_lowered(e.sentence)}." for e in others if not e.established]
@@ -125,6 +87,12 @@ def _finding(s: Story) -> list[str]:
     out = [f"Something systematic acts at {place_name(first.location)} that no established effect explains. It looks like this: "
            f"{_lowered(first.sentence)}.", *part]
     return out + (["Besides:", *said] if said else [])
+
+
+def _unproved(s: Story) -> list[str]:
+    if s.proof is None or s.proof.confirmed:
+        return []
+    return ["The held-out data do not confirm this yet." if s.proof.margin > 0 else "The held-out data speak against this."]
 
 
 def _lowered(sentence: str) -> str:
@@ -144,8 +112,8 @@ def _losses(s: Story) -> list[str]:
         return [f"{text}."]
     left = float(np.sqrt(np.mean(np.vstack(alone.fit.innovations) ** 2)))
     name = law_name(alone.suspect.term.name, alone.suspect.term.location)
-    return [f"{text}, and one law is not enough: the best alone, {name}, leaves an error of {_deg(left)} deg in the fit window, "
-            f"all that was found together {_deg(s.runs['augmented_train'].rms)} deg."]
+    return [f"{text}, and one law is not enough: the best alone, {name}, leaves an error of {s.error(left)} in the fit window, "
+            f"all that was found together {s.error(s.runs['augmented_train'].rms)}."]
 
 
 def _alike(s: Story) -> list[str]:
@@ -158,14 +126,34 @@ def _alike(s: Story) -> list[str]:
 
 def _proof(s: Story) -> list[str]:
     if "augmented_heldout" not in s.runs:
-        return []
+        return _chance(s)
     before, after = s.runs["baseline_heldout"].rms, s.runs["augmented_heldout"].rms
     if np.all(s.runs["baseline_heldout"].recorded.std(axis=0) < STILL * s.audit.noise):
-        return ["In the held-out window nothing moves, so that it proves nothing."]
-    if not s.effects or before == after:
-        return [f"The error of free simulation on the held-out window is {_deg(before)} deg."]
-    text = f"The error of free simulation on the held-out window goes from {_deg(before)} to {_deg(after)} deg"
-    return [f"{text}." if after < before else f"{text}: the held-out window does not confirm the finding."]
+        return ["In the held-out window nothing moves, so that it proves nothing.", *_chance(s)]
+    if not s.effects or before == after or s.proof is None:
+        return [f"The error of free simulation on the held-out window is {s.error(before)}.", *_chance(s)]
+    text = f"The error of free simulation on the held-out window goes from {s.error(before)} to {s.error(after)}"
+    return [text + _confirmation(s.proof) + ".", *_chance(s)]
+
+
+def _confirmation(p: Proof) -> str:
+    """What the blocks of the held-out data say of the fall of the error."""
+    if p.confirmed:
+        return f", which confirms the finding (probability {min(p.probability, 0.999):.3g} from {p.blocks} blocks)"
+    if p.margin <= 0:
+        return ": the held-out window does not confirm the finding"
+    longer = f"; about {p.needed:.2g} s like these would" if p.needed is not None and p.needed > p.seconds else ""
+    return f": not confirmed, because chance could do that (probability {p.probability:.2g} from {p.blocks} blocks{longer})"
+
+
+def _chance(s: Story) -> list[str]:
+    """How often chance alone looks like the finding, in recordings like this one."""
+    if s.chance is None or s.effects and s.effects[0].name.startswith("unknown"):
+        return []
+    size = f"{s.chance:.2g}" if s.chance >= 1e-6 else "below one in a million"
+    what = "the least certain effect" if s.effects else "the best suspect"
+    return [f"With nothing missing, chance alone would make a suspect look as good as {what} here with a probability of {size}."
+            if s.chance >= 1e-6 else f"With nothing missing, chance alone would make a suspect look like this with a probability {size}."]
 
 
 def _halves(s: Story) -> list[str]:
@@ -207,8 +195,8 @@ def _rest(s: Story) -> list[str]:
     floor_, rms = float(np.sqrt(np.mean(s.audit.noise**2))), s.runs["augmented_train"].rms
     if s.driven or s.verdict != "unexplained" or not rms > ABOVE * floor_:
         return []
-    return [f"In the fit window an error of {_deg(rms)} deg remains, {rms / floor_:.0f} times the noise of the sensors "
-            f"({_deg(floor_)} deg): unexplained."]
+    return [f"In the fit window an error of {s.error(rms)} remains, {rms / floor_:.0f} times the noise of the sensors "
+            f"({s.error(floor_)}): unexplained."]
 
 
 def _caveats(s: Story) -> list[str]:
@@ -218,8 +206,7 @@ def _caveats(s: Story) -> list[str]:
         out.append(f"The recording holds nothing above about {cutoff:.2g} Hz: it was low-pass filtered. Only one sample in "
                    f"{round(1 / s.weight)} is counted as independent; tests for a remainder may still be too strict.")
     elif not s.audit.stated:
-        noise = _listed([_deg(x) for x in s.audit.noise])
-        out.append(f"The sensors' noise was not stated; the highest frequencies of the recording show {noise} deg.")
+        out.append(f"The sensors' noise was not stated; the highest frequencies of the recording show {s.channels(s.audit.noise)}.")
     if not s.white and any(e.parameters for e in s.effects):
         out.append("What is left is not random, so the standard errors are taken from blocks of the recording.")
     return out

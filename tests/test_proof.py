@@ -1,0 +1,60 @@
+"""Held-out data prove, or do not; chance is counted."""
+
+import numpy as np
+import pytest
+
+from symid.discrepancy.policy import POLICY
+from symid.discrepancy.prove.held_out import compare
+from symid.discrepancy.prove.nulls import false_alarm_probability
+from symid.estimation.free_run import FreeRun
+from symid.estimation.independence import independent_share
+
+
+def run(error, lengths=None):
+    time, recorded = np.arange(len(error)) * 0.02, np.sin(np.arange(len(error)) * 0.05)[:, None]
+    return FreeRun(time, recorded, recorded + error[:, None], float(np.sqrt(np.mean(error**2))), lengths or (len(error),))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_clear_fall_is_confirmed_and_none_is_not(seed):
+    rng = np.random.default_rng(seed)
+    large, small, other = (rng.standard_normal(2000) * s for s in (1.0, 0.5, 1.0))
+    proof = compare(run(large), run(small))
+    assert proof.confirmed and proof.margin == pytest.approx(0.5, abs=0.05) and proof.blocks == 13
+    assert not compare(run(large), run(other)).confirmed
+    worse = compare(run(small), run(large))
+    assert not worse.confirmed and worse.margin < 0 and worse.needed is None and worse.probability < 0.05
+
+
+def test_confirmations_of_nothing_are_as_rare_as_said():
+    rng, z = np.random.default_rng(0), []
+    for _ in range(400):
+        before, after = (np.repeat(rng.standard_normal(20), 150) * 0.3 + rng.standard_normal(3000) for _ in range(2))
+        z.append(compare(run(before), run(after)).probability > POLICY.confirm)
+    assert np.mean(z) < 0.09
+
+
+def test_what_is_too_short_says_how_long_it_would_have_to_be():
+    rng = np.random.default_rng(3)
+    common = np.repeat(rng.lognormal(0, 1.0, 10), 150)
+    proof = compare(run(common), run(common * np.repeat(rng.lognormal(-0.1, 0.5, 10), 150)))
+    if not proof.confirmed and proof.margin > 0:
+        assert proof.needed is None or proof.needed > proof.seconds
+
+
+def test_the_tail_of_the_largest_of_many():
+    rng = np.random.default_rng(1)
+    maxima = rng.chisquare(1, (99, 40)).max(1)
+    assert false_alarm_probability(float(np.median(maxima)), maxima) == pytest.approx(0.5, abs=0.12)
+    assert false_alarm_probability(40.0, maxima) < 1e-5 and false_alarm_probability(3.0, np.zeros(0)) is None
+
+
+def test_coloured_errors_hold_fewer_independent_samples():
+    rng = np.random.default_rng(2)
+    white = rng.standard_normal((4000, 2))
+    assert independent_share([white[:2000], white[2000:]]) > 0.9
+    a, slow = 0.9, np.zeros((4000, 1))
+    for k in range(1, 4000):
+        slow[k] = a * slow[k - 1] + white[k, :1]
+    # For r_k = a^k: 1 / (1 + 2 a^2 / (1 - a^2)) = (1 - a^2) / (1 + a^2).
+    assert independent_share([slow]) == pytest.approx((1 - a**2) / (1 + a**2), rel=0.35)
