@@ -107,7 +107,7 @@ def test_a_pickle_in_a_store_is_not_opened(tmp_path):
 
 @pytest.mark.parametrize("arguments", [
     ["identify", "r", "--body", "b", "--episodes", "99999999999999999999"], ["identify", "r", "--body", "b", "--starts", "9" * 300],
-    ["identify", "r", "--body", "b", "--window", "nan", "1"], ["identify", "r", "--body", "b", "--seed", "-1"],
+    ["identify", "r", "--body", "b", "--time-limit", "nan"], ["identify", "r", "--body", "b", "--seed", "-1"],
     ["simulate", "o", "--body", "b", "--parameters", "p", "--duration", "1e300"], ["identify", "r", "--body", "b", "--noise", "inf"],
     ["simulate", "o", "--body", "b", "--parameters", "p", "--duration", "1e6", "--rate", "1e6"], ["conceal", "o", "--count", "9" * 20],
     ["diagnose", "r", "--threads", "9" * 20],

@@ -25,7 +25,7 @@ def refuse_absurd(arguments: argparse.Namespace) -> None:
     for name, value in given.items():
         option = f"--{name.replace('_', '-')}"
         for number in value if isinstance(value, (list, tuple)) else [value]:
-            if isinstance(number, float) and not math.isfinite(number):
+            if isinstance(number, float) and not math.isfinite(number) and name not in ("window", "held_out"):  # said by measure
                 raise SolveError(f"{option} {number} is not possible; give a finite number")
             if name in ("seed", "seeds") and isinstance(number, int) and not 0 <= number < 2**63:
                 raise SolveError(f"{option} {str(number)[:30]} is not possible; give a whole number from 0 to 2^63 - 1")
