@@ -8,7 +8,7 @@ READY := .venv/.ready
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: demo test test-slow bench docs clean
+.PHONY: demo test test-slow lint bench docs clean
 
 demo: $(READY)
 	$(PY) -m symid.cli demo
@@ -18,6 +18,9 @@ test: $(READY)
 
 test-slow: $(READY)
 	$(PY) -m pytest -n 2 -m slow
+
+lint: $(READY)
+	$(PY) -m ruff check symid tests
 
 bench: $(READY)
 	$(PY) -m symid.cli bench

@@ -249,8 +249,8 @@ def test_a_piecewise_without_a_branch_is_nan(backend):
 # ---- structure -----------------------------------------------------------------------------
 def test_structural_zeros_are_dropped_and_the_hessian_is_a_lower_triangle():
     k = compile_program(program(X * P + D * C, Y - X, Q**2 * Y), "numpy")
-    assert list(zip(k.jacobian_rows, k.jacobian_cols)) == [(0, 0), (0, 2), (1, 0), (1, 1), (2, 1), (2, 3)]
-    assert list(zip(k.hessian_rows, k.hessian_cols)) == [(2, 0), (3, 1), (3, 3)]
+    assert list(zip(k.jacobian_rows, k.jacobian_cols, strict=True)) == [(0, 0), (0, 2), (1, 0), (1, 1), (2, 1), (2, 3)]
+    assert list(zip(k.hessian_rows, k.hessian_cols, strict=True)) == [(2, 0), (3, 1), (3, 3)]
 
 
 def test_what_is_not_differentiated_has_no_derivatives():
@@ -308,7 +308,7 @@ def test_threads_may_share_a_kernel():
     k = compile_program(program(sm.sin(X * P) + sm.exp(Y * D), X * Y), "c")
     many = [arguments(k, 3000, seed) for seed in range(8)]
     with ThreadPoolExecutor(4) as pool:
-        for args, r in zip(many, pool.map(lambda a: k.residual(*a), many)):
+        for args, r in zip(many, pool.map(lambda a: k.residual(*a), many), strict=True):
             assert np.array_equal(r, k.residual(*args))
 
 
@@ -339,7 +339,7 @@ def test_an_unknown_backend_is_refused():
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_arrays_that_do_not_fit_are_refused_by_name(backend):
     k = compile_program(program(X * P + D * C, X**2 * Q), backend)
-    good = dict(zip(("local", "shared", "data", "constants"), arguments(k, 5)))
+    good = dict(zip(("local", "shared", "data", "constants"), arguments(k, 5), strict=True))
     bad = [("local", np.zeros((5, 3)), "local must be .* shape \\(5, 2\\), not float64 of shape \\(5, 3\\)"),
            ("local", np.zeros((5, 2), np.float32), "local must be .* not float32"),
            ("local", np.zeros((2, 5)).T, "local must be contiguous in its last axis"),

@@ -143,7 +143,7 @@ def test_conditions_that_make_no_sense_are_refused_in_words(condition, words):
     m.components["x"] = si.State(unit="m", bounds=(0, 2), name="x")
     with pytest.raises((ModelError, TranscriptionError), match=words):
         m.odd = condition(m)
-        si.Optimization(m, duration=1, nodes=5, backend="numpy").transcription
+        si.Optimization(m, duration=1, nodes=5, backend="numpy").transcription  # noqa: B018 - made when first asked for
 
 
 @pytest.mark.parametrize(("arguments", "words"), [

@@ -22,7 +22,7 @@ def double_pendulum(speeds):
     q = dynamicsymbols("q1:3")
     u = dynamicsymbols("u1:3") if speeds else [x.diff() for x in q]
     m1, m2, a1, a2, L1, I1, I2, g = sm.symbols("m1 m2 a1 a2 L1 I1 I2 g")
-    N, O = ReferenceFrame("N"), Point("O")
+    N, O = ReferenceFrame("N"), Point("O")  # noqa: E741 - the letters of the books
     O.set_vel(N, 0)
     bodies, loads, at = [], [], O
     for q_i, u_i, m, a, L, inertia in zip(q, u, (m1, m2), (a1, a2), (L1, 0), (I1, I2), strict=True):

@@ -14,7 +14,7 @@ from symid.simulation import Simulator as AnySimulator
 
 
 @pytest.fixture(params=["c", "numpy"])
-def Simulator(request):  # noqa: N802 - stands for the class
+def Simulator(request):
     return partial(AnySimulator, backend=request.param)
 
 

@@ -46,14 +46,14 @@ def derive(graph: Graph, rows: list[int], variables: list[int]) -> Derived:
         jacobian |= {(i, column[v]): d for v, d in found.items()}
     multipliers = [graph.symbol(f"multipliers[{i}]", POINT) for i in range(len(rows))]
     lagrangian = graph.zero
-    for row, multiplier in zip(rows, multipliers):
+    for row, multiplier in zip(rows, multipliers, strict=True):
         lagrangian = graph.add(lagrangian, graph.mul(multiplier, row))
     gradient = adjoints(graph, {lagrangian: graph.one}, column)
     hessian = {}
     for v in sorted(gradient, key=column.get):
         below = [u for u in gradient if column[u] >= column[v]]
         slopes = tangents(graph, [gradient[u] for u in below], v)
-        hessian |= {(column[u], column[v]): s for u, s in zip(below, slopes) if s != graph.zero}
+        hessian |= {(column[u], column[v]): s for u, s in zip(below, slopes, strict=True) if s != graph.zero}
     return Derived(graph, rows, dict(sorted(jacobian.items())), dict(sorted(hessian.items())))
 
 
@@ -92,7 +92,7 @@ def partials(g: Graph, k: int) -> list[tuple[int, int]]:
     """(operand, derivative of operation k for it). Conditions and jumps have none."""
     op, args = g.ops[k], g.operands(k)
     if op in RULES:
-        return list(zip(args, RULES[op](g, k, *args)))
+        return list(zip(args, RULES[op](g, k, *args), strict=True))
     if op == "select":
         c, a, b = args
         return [(a, g.select(c, g.one, g.zero)), (b, g.select(c, g.zero, g.one))]

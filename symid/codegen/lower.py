@@ -84,7 +84,7 @@ def _operation(g: Graph, e: sm.Basic, args: list[int]) -> int:
         return result
     if isinstance(e, sm.Piecewise):
         result = g.number(nan)
-        for value, condition in reversed(list(zip(args[::2], args[1::2]))):
+        for value, condition in reversed(list(zip(args[::2], args[1::2], strict=True))):
             result = value if condition == g.one else g.select(condition, value, result)
         return result
     if kind == "Heaviside":

@@ -15,7 +15,7 @@ from symid.model.declare import (
 from symid.model.dimensions import Mismatch, dimension_of, dimensions_of_symbols
 from symid.model.model import TIME, Model, nearest
 from symid.model.prior import LogNormal, Prior
-from symid.model.quantity import initial, symbol, terminal
+from symid.model.quantity import initial, terminal
 from symid.units import dimension, known_unit
 
 
