@@ -155,3 +155,14 @@ def test_a_problem_that_makes_no_sense_is_refused_in_words(arguments, words):
         si.Optimization(double_integrator(), **arguments)
     with pytest.raises(TranscriptionError, match="finite bounds above 0 s"):
         si.Free(3, 1)
+
+
+def test_a_duration_may_be_a_parameter_of_the_model():
+    m = double_integrator(bounds=(-1, 1))
+    m.length = si.Parameter(unit="s", bounds=(0.5, 9))
+    m.cost = si.Objective(terminal=m.length)
+    plan = si.Optimization(m, duration=m.length, nodes=101, scheme=si.Trapezoid()).solve()
+    assert plan.duration == plan.values["length"] == pytest.approx(2, abs=0.02)
+    m.components["length"] = si.Parameter(unit="s", name="length")
+    with pytest.raises(TranscriptionError, match="finite bounds above 0 s"):
+        si.Optimization(m, duration=m.length)

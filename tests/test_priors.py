@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import sympy as sm
 from conftest import pendulum, pendulum_recording
 
 import symid as si
@@ -84,3 +85,16 @@ def test_a_prior_that_is_none_is_refused():
     m.odd, m.zero = si.Parameter(unit="1", prior=3), si.Parameter(unit="1", prior=si.LogNormal(1, 2), bounds=(0, 3))
     with pytest.raises(ModelError, match="(?s)is none: give Normal.*lower bound above 0"):
         m.check()
+
+
+def test_a_smooth_control_is_an_estimated_disturbance():
+    recording = pendulum_recording(noise=0.001)
+    m = pendulum().fixed(damping=0.4)
+    m.components["drive"] = si.Control(unit="1/s^2", smooth=1e-6, name="drive")       # the drive was not recorded
+    m.gain = si.Parameter(unit="1", bounds=(0.5, 2))
+    m.components["measured"] = replace(m.measured, expr=m.gain.symbol * m.angle.symbol, unit="rad", channel="angle")
+    m.known_gain = si.Constraint(sm.Eq(m.gain, 1))
+    solution = si.Identification(m, recording).solve()
+    drive = solution.transcription.layout.nodes(solution.result.z, 0)[:, 2]
+    assert solution.solved and solution.values["gain"] == pytest.approx(1)
+    assert np.sqrt(np.mean((drive - recording["drive"])[20:-20] ** 2)) < 0.15 and not solution.cut_off

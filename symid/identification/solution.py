@@ -165,7 +165,8 @@ class Solution:
     def cut_off(self) -> dict[str, float]:
         """States that lie at a bound of theirs, and at which share of the nodes: the motion is cut off there."""
         t = self.transcription
-        active = bound_active(t, self.result).astype(float)
+        free = t.program.lower < t.program.upper       # what a Boundary fixes is not cut off
+        active = (bound_active(t, self.result) & free).astype(float)
         share = np.mean(np.concatenate([t.layout.states(active, e) != 0 for e in range(len(t.recording_of))]), axis=0)
         return {name: float(s) for name, s in zip(t.model.states, share, strict=True) if s > 0}
 
