@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 
 from symid.cli.options import (
-    add_episode_arguments, add_executor_arguments, add_model_arguments, build_model, chosen_executor,
+    add_episode_arguments, add_executor_arguments, add_model_arguments, add_recording_arguments, build_model, chosen_executor,
     show_iteration,
 )
 from symid.deadline import START_LIMIT_S
@@ -19,7 +19,9 @@ EXAMPLES = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("recording", metavar="RECORDING.csv", help="samples with units in the column names")
+    parser.add_argument("recording", metavar="RECORDING",
+                        help="samples with units in the column names: CSV, TSV, Excel, Parquet, C3D, TRC, MOT, STO, MAT, HDF5")
+    add_recording_arguments(parser)
     add_model_arguments(parser)
     parser.add_argument("--window", nargs=2, type=float, metavar=("T0", "T1"), help="part to fit, s (default: all)")
     parser.add_argument("--held-out", nargs=2, type=float, metavar=("T0", "T1"),
@@ -46,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     scheme = scheme_by_name(arguments.scheme)
     model = build_model(arguments.body, arguments.controller)
-    recording = read_recording(arguments.recording)
+    recording = read_recording(arguments.recording, allow_gaps=arguments.allow_gaps, columns=arguments.columns)
     if arguments.held_out:
         measure(model, recording, arguments.held_out)    # refused now, not after the solve
     noise = {"torque": arguments.noise} if arguments.episodes > 1 else {}

@@ -35,6 +35,14 @@ def refuse_absurd(arguments: argparse.Namespace) -> None:
         raise SolveError(f"--duration {given['duration']:g} at --rate {given['rate']:g} are more than {SAMPLES:g} samples; give less")
 
 
+def add_recording_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--columns", metavar="MAP.toml",
+                        help='what the file calls its columns: lines such as ankle_angle_deg = "Ankle Flexion", time_s = "t"; '
+                             "a minus before the file's name turns the sign")
+    parser.add_argument("--allow-gaps", action="store_true",
+                        help="accept blank cells, missing rows and uneven times, and give what is missing no weight")
+
+
 def add_model_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--body", metavar="BODY.json", required=True, help="body parameters with units in their names")
     parser.add_argument("--controller", choices=CONTROLLERS, default="fpd", help="feedback law (default: fpd)")

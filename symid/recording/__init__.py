@@ -1,6 +1,8 @@
 """What was measured: recordings and body files, with units and a history. See `Recording`."""
 
 from symid.recording.body import read_body
+from symid.recording.columns import load_columns
+from symid.recording.markers import joint_angles
 from symid.recording.prepare import (
     differentiate,
     fill_gaps,
@@ -19,6 +21,8 @@ __all__ = [
     "differentiate",
     "fill_gaps",
     "find_spikes",
+    "joint_angles",
+    "load_columns",
     "lowpass",
     "rate_name",
     "rate_unit",

@@ -73,6 +73,12 @@ def file_rows(path: Path) -> Iterator[tuple[int, list[str]]]:
         raise RecordingError(f"{path}: is not a text file of comma-separated values") from error
 
 
+def require_file(path: Path) -> None:
+    """RecordingError with the nearest names where there is no such file."""
+    if not path.exists():
+        raise RecordingError(f"{path}: there is no such file{_neighbours(path)}")
+
+
 def _neighbours(path: Path) -> str:
     if not path.parent.is_dir():
         return f", nor a folder {path.parent}"
@@ -114,10 +120,10 @@ def _parse(cells: list[str]) -> tuple[list[Column], list[str]]:
             columns.append(Column(text, text, None))
         else:
             try:
-                columns.append(_measured(text))
+                columns.append(measured_column(text))
             except RecordingError as error:
                 problems.append(str(error))
-    problems += _contradictions(columns)
+    problems += contradictions(columns)
     if not any(column.name == "time" for column in columns) and not _time_named_wrongly(cells):
         close = nearest("time_s", cells, 1)
         hint = f"; '{close[0]}' may be meant" if close else f"; columns: {', '.join(cells)}"
@@ -132,7 +138,8 @@ def _time_named_wrongly(cells: list[str]) -> bool:
     return any(cell == "time" or cell.startswith("time_") for cell in cells)
 
 
-def _measured(text: str) -> Column:
+def measured_column(text: str) -> Column:
+    """A column from its name, whose last part is the unit; RecordingError where that cannot be right."""
     name, unit_text = split_column_name(text)
     unit = known_unit(unit_text)
     quantity = name.split("_")[-1]
@@ -145,7 +152,8 @@ def _measured(text: str) -> Column:
     return Column(text, name, unit)
 
 
-def _contradictions(columns: list[Column]) -> list[str]:
+def contradictions(columns: list[Column]) -> list[str]:
+    """A sentence for each two columns that give one channel."""
     seen: dict[str, str] = {}
     problems = []
     for column in columns:

@@ -6,18 +6,21 @@ unusable, it is read again slowly, cell by cell, to say in which column and row 
 
 import os
 import warnings
+from collections.abc import Mapping
 from itertools import islice
 from pathlib import Path
 
 import numpy as np
 
 from symid.errors import RecordingError, RecordingWarning
-from symid.recording.header import Column, file_rows, read_header
+from symid.recording.header import Column, file_rows, read_header, require_file
 from symid.recording.recording import Recording
 from symid.recording.spikes import find_spikes
 from symid.recording.timing import on_grid, time_fault
 from symid.units import FloatArray
 
+OTHER_FORMATS = (".tsv", ".xlsx", ".parquet", ".c3d", ".trc", ".mot", ".sto", ".mat", ".h5", ".hdf5")
+"""Endings of files that are not comma-separated text; those have readers of their own."""
 _FULL_TURN = 2 * np.pi
 _CURES = {
     "gap": "read with allow_gaps=True (--allow-gaps), which gives what is missing no weight (or mark the parts in "
@@ -30,18 +33,33 @@ _CURES = {
 _MISSING = {"", "nan", "na", "n/a", "null", "none"}
 
 
-def read_recording(path: str | os.PathLike, *, allow_gaps: bool = False) -> Recording:
-    """Read a CSV file with a column `time_s` and units in the column names, into SI.
+def read_recording(
+    path: str | os.PathLike,
+    *,
+    allow_gaps: bool = False,
+    columns: Mapping[str, str] | str | os.PathLike | None = None,
+) -> Recording:
+    """Read a recording into SI, from a file whose ending says what it is.
+
+    ========================== ==================================================================
+    .csv, .tsv, .txt           one row a sample, a header of names that end in units
+    .xlsx, .parquet            likewise
+    .c3d, .trc                 markers, as ``<marker>_x`` in m, and analog channels
+    .mot, .sto                 tables of OpenSim
+    .mat, .h5, .hdf5           vectors and columns of matrices, by the names they have
+    ========================== ==================================================================
 
     Columns are named ``<name>_<unit>``, such as ``ankle_angle_deg``; the channel is then called
     ``ankle_angle`` and is in rad. Columns ``segment`` (whole numbers) and ``split`` (words) part
-    the rows into separate runs, each with its own evenly spaced time.
+    the rows into separate runs, each with its own evenly spaced time. Where a file has other names,
+    `columns` says which is which; the others are left out.
 
     Parameters
     ----------
     path : the file
     allow_gaps : accept blank cells, missing rows and uneven time. An identification gives what is missing no
         weight; `fill_gaps` and `resample` mend it. Refused otherwise, as are rows that are too short or too long
+    columns : ``{"time_s": "Time", "ankle_angle_deg": "-Ankle Flexion"}``, or a TOML file; see `load_columns`
 
     Raises
     ------
@@ -52,15 +70,47 @@ def read_recording(path: str | os.PathLike, *, allow_gaps: bool = False) -> Reco
     -----
     RecordingWarning
         For single samples that stand out (by row), and angles in rad that look like degrees.
+
+    Examples
+    --------
+    >>> read_recording("walk.csv", columns={"time_s": "t", "hip_angle_deg": "Hip"})  # doctest: +SKIP
     """
     path = Path(path)
-    columns = read_header(path)
-    table = _read_table(path, columns, allow_gaps)
-    recording = _assemble(path, columns, table, allow_gaps)
-    remarks = [*_spike_remarks(path, columns, recording), *_degree_remarks(path, recording)]
+    if columns is None and path.suffix.lower() not in OTHER_FORMATS:
+        found = read_header(path)
+        table = _read_table(path, found, allow_gaps)
+    else:
+        found, table = _read_other(path, columns, allow_gaps)
+    recording = _assemble(path, found, table, allow_gaps)
+    remarks = [*_spike_remarks(path, found, recording), *_degree_remarks(path, recording)]
     for remark in remarks:
         warnings.warn(remark, RecordingWarning, stacklevel=2)
     return recording.noted(*(f"warning: {remark}" for remark in remarks))
+
+
+def _read_other(path: Path, mapping, allow_gaps: bool) -> tuple[list[Column], dict[str, np.ndarray]]:
+    """Columns and values of a file with names of its own, or in a format of its own."""
+    from symid.recording.columns import load_columns, mapped, own_names
+    from symid.recording.readers import READERS
+
+    chosen = None if mapping is None else load_columns(mapping)
+    reader = READERS.get(path.suffix.lower())
+    if reader is None:
+        raise RecordingError(f"{path}: files that end in '{path.suffix}' are not read; known: {', '.join(READERS)}")
+    require_file(path)
+    raw = reader(path)
+    columns, table = own_names(path, raw) if chosen is None else mapped(path, raw, chosen)
+    for column in columns:
+        values = table[column.name]
+        wrong = np.flatnonzero(~np.isfinite(values)) if column.name != "split" else []
+        if len(wrong) and not (allow_gaps and column.unit and column.name != "time" and not np.isinf(values).any()):
+            raise RecordingError(
+                f"{path}: column '{column.text}', row {wrong[0] + 1}: a value is missing or not finite"
+                + ("; read with allow_gaps=True (--allow-gaps), which gives it no weight" if column.name != "time" else "")
+            )
+    if table["time"].size < 2:
+        raise RecordingError(f"{path}: a recording needs at least two samples")
+    return columns, table
 
 
 def _read_table(path: Path, columns: list[Column], allow_gaps: bool) -> dict[str, np.ndarray]:
@@ -216,7 +266,7 @@ def _checked_time(
         elif not (allow_gaps and fault.kind in ("gap", "uneven")):
             row = run.start + fault.sample + 1
             raise RecordingError(
-                f"{path}: column '{text}', row {row} (line {_line_of(path, row)}): "
+                f"{path}: column '{text}', {_place(path, row)}: "
                 f"{fault.text}; {_CURES[fault.kind]}"
             )
     if largest == 0.0:
@@ -236,16 +286,19 @@ def _runs(path: Path, table: dict) -> list[slice]:
         if keys[run.start] in seen:
             row = run.start + 1
             raise RecordingError(
-                f"{path}: row {row} (line {_line_of(path, row)}) goes back to segment "
+                f"{path}: {_place(path, row)} goes back to segment "
                 f"{' '.join(map(str, keys[run.start]))}; keep the rows of a segment together"
             )
         seen.add(keys[run.start])
     return runs
 
 
-def _line_of(path: Path, row: int) -> int:
-    """Line of the file on which a data row (from 1) stands; blank lines count."""
-    return next(line for place, (line, _) in enumerate(file_rows(path)) if place == row)
+def _place(path: Path, row: int, more: str = "") -> str:
+    """A data row (from 1), and the line of a text file on which it stands; blank lines count."""
+    facts = [more] if more else []
+    if path.suffix.lower() not in OTHER_FORMATS:
+        facts.insert(0, f"line {next(line for place, (line, _) in enumerate(file_rows(path)) if place == row)}")
+    return f"row {row} ({', '.join(facts)})" if facts else f"row {row}"
 
 
 def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> list[str]:
@@ -263,8 +316,8 @@ def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> l
             more = f"; likewise row {', '.join(map(str, others[:5]))}" if others else ""
             more += f" and {len(others) - 5} more" if others[5:] else ""
             remarks.append(
-                f"{path}: column '{texts[name]}', row {worst + 1} (line "
-                f"{_line_of(path, worst + 1)}, time {recording.time[worst]:g} s): "
+                f"{path}: column '{texts[name]}', "
+                f"{_place(path, worst + 1, f'time {recording.time[worst]:g} s')}: "
                 f"{values[worst]:.4g} {recording.units[name]} stands out between "
                 f"{values[worst - 1]:.4g} and {values[worst + 1]:.4g}, {ratio:.0f} times more "
                 f"than is usual there{more}; keep it out of the window, or correct it"
