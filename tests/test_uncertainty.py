@@ -115,6 +115,7 @@ def test_a_parameter_at_its_bound_is_named_and_its_profile_has_one_side():
 def test_a_term_that_is_not_there_is_not_preferred(plain, cubic):
     table = compare({"linear": plain, "cubic": cubic}, held_out=(4, 6))
     assert table["bic"]["linear"] == 0 < table["bic"]["cubic"]
+    assert table["evidence"].iloc[0] == "best" and table["evidence"].iloc[1] == "cannot be told apart"
     assert table["held_out_rms"]["linear"] == pytest.approx(0.01, rel=0.2)
     ratio = likelihood_ratio("linear", "cubic", table)
     assert ratio["degrees"] == 1 and ratio["p_value"] > 0.01
@@ -123,7 +124,7 @@ def test_a_term_that_is_not_there_is_not_preferred(plain, cubic):
 def test_a_term_that_is_there_is_preferred(plain):
     wrong = solved(pendulum().fixed(damping=0.9))
     table = compare({"free": plain, "wrong": wrong})
-    assert list(table.index) == ["free", "wrong"] and table["aic"]["wrong"] > 10
+    assert list(table.index) == ["free", "wrong"] and table["aic"]["wrong"] > 10 and table["evidence"]["wrong"] == "refuted"
     assert likelihood_ratio("wrong", "free", table)["p_value"] < 1e-6
 
 

@@ -13,6 +13,10 @@ from symid.identification import Solution
 from symid.identification.sensitivity import outputs_and_targets
 
 
+ALIKE, REFUTED = 2.0, 10.0
+"""Distances in AIC up to which a model has as good as the same support as the best, and from which it has none."""
+
+
 def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] | None = None) -> pd.DataFrame:
     """Solved models of the same data, side by side, the smallest AIC first.
 
@@ -30,7 +34,7 @@ def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] 
     -------
     DataFrame
         One row per model: parameters (free, not at a bound), log_likelihood, aic and bic
-        (Akaike 1974, Schwarz 1978) with the least taken as zero, rms [SI, over all outputs],
+        (Akaike 1974, Schwarz 1978) with the least taken as zero, evidence in words (from aic), rms [SI, over all outputs],
         held_out_rms where asked for; ``attrs["independent_samples"]`` by output.
 
     Raises
@@ -51,6 +55,7 @@ def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] 
             rows[name]["held_out_rms"] = s.fit_on(held_out)["rms"]["all"]
     table = pd.DataFrame.from_dict(rows, orient="index").sort_values("aic")
     table[["aic", "bic"]] -= table[["aic", "bic"]].min()
+    table.insert(list(table).index("bic") + 1, "evidence", [_words(x, i == 0) for i, x in enumerate(table["aic"])])
     table.attrs["independent_samples"] = dict(zip(next(iter(solutions.values())).model.outputs, count, strict=True))
     return table
 
@@ -95,7 +100,13 @@ def _errors(name: str, s: Solution) -> np.ndarray:
     if s.problem.episodes.count > 1:
         raise ModelError(f"compare: '{name}' has {s.problem.episodes.count} episodes, which repeat the same data; "
                          "compare fits of one episode")
-    return np.concatenate([y - d for y, d in outputs_and_targets(s.transcription, s.result.z)])
+    errors = np.concatenate([y - d for y, d in outputs_and_targets(s.transcription, s.result.z)])
+    return errors[np.isfinite(errors).all(axis=1)]
+
+
+def _words(aic: float, best: bool) -> str:
+    """What a distance in AIC says (Burnham & Anderson 2002, section 2.6)."""
+    return "best" if best else "cannot be told apart" if aic < ALIKE else "weaker" if aic < REFUTED else "refuted"
 
 
 def _refuse_other_data(solutions: Mapping[str, Solution]) -> None:
