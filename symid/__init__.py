@@ -15,7 +15,7 @@ _WHERE = {
     "symid.recording": ("Recording", "read_recording"),
     "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
     "symid.analysis": ("Stability", "Uncertainty", "bootstrap", "compare", "identifiability", "profile", "stability", "stability_of", "uncertainty"),
-    "symid.discrepancy": ("Diagnosis", "diagnose"),
+    "symid.discrepancy": ("Diagnosis", "Suspect", "diagnose", "suspects"),
     "symid.cases": ("diagnose_case", "read_case", "rig_case"),
     "symid.optimization": ("Free", "Optimization", "Plan"),
     "symid.identification": ("Cluster", "Identification", "LocalPool", "Solution", "Solve", "Study"),

@@ -14,7 +14,7 @@ from symid import plots
 from symid.cases import diagnose_case, read_case
 from symid.cli import main
 from symid.conceal import draw_case, write_case
-from symid.discrepancy import established_suspects
+from symid.discrepancy import suspects
 from symid.discrepancy.locate.latent import latent_torques
 from symid.mechanics import LIBRARY
 from symid.report import diagnosis_html, write_diagnosis_report
@@ -31,7 +31,7 @@ def folder(tmp_path_factory) -> Path:
 
 def few(case):
     """Suspects enough to be right and to be wrong."""
-    return [s for s in established_suspects(case.model) if s.term.name in ("sensor_offset", "gravity_tilt", "torsional_spring")]
+    return [s for s in suspects(case.model) if s.term.name in ("sensor_offset", "gravity_tilt", "torsional_spring")]
 
 
 @pytest.fixture(scope="module")
@@ -43,8 +43,8 @@ def finding(folder):
 @pytest.fixture
 def quick(monkeypatch):
     """The commands with few suspects: what they do with a finding is the same."""
-    monkeypatch.setattr(import_module("symid.discrepancy.diagnose"), "established_suspects",
-                        lambda model: [s for s in established_suspects(model) if s.term.name == "sensor_offset"])
+    monkeypatch.setattr(import_module("symid.discrepancy.diagnose"), "suspects_of",
+                        lambda model: [s for s in suspects(model) if s.term.name == "sensor_offset"])
 
 
 def test_a_case_directory_ends_in_words_json_report_and_prediction(folder, tmp_path, capsys, quick):

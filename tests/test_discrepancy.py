@@ -11,7 +11,7 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.cases import read_case
-from symid.discrepancy import Suspect, diagnose, established_suspects
+from symid.discrepancy import Suspect, diagnose, suspects
 from symid.discrepancy.locate.remainder import remainder
 from symid.discrepancy.model.hypothesis import hypothesis
 from symid.discrepancy.name.explore import explore
@@ -74,7 +74,7 @@ FEW = ("coulomb_friction", "cubic_stiffness", "input_gain", "input_delay", "exte
 
 def few() -> list[Suspect]:
     """Some suspects of the library, for speed."""
-    return [s for s in established_suspects(cart()) if s.term.name in FEW]
+    return [s for s in suspects(cart()) if s.term.name in FEW]
 
 
 def finding(recording, suspects=None):
@@ -173,7 +173,7 @@ def test_a_suspect_that_no_longer_earns_its_place_is_dropped():
 @pytest.mark.slow
 def test_with_the_whole_library():
     recording = recorded(4, LIBRARY["coulomb_friction"].at("cart"), {"torque_Nm": 0.35})
-    assert finding(recording, established_suspects(cart())).effects[0].name == "coulomb_friction"
+    assert finding(recording, suspects(cart())).effects[0].name == "coulomb_friction"
 
 
 @pytest.mark.slow
@@ -205,7 +205,7 @@ def test_laws_that_need_more_than_the_model_declares_are_no_suspects():
     m.kinematics = Equation(m.angle.dot - m.rate)
     m.balance = Equation(m.rate.dot + m.g_down * sm.sin(m.angle.symbol))
     m.seen = Output(m.angle, channel="angle", unit="rad", role="sensor", at="sensor:angle")
-    assert {s.term.name for s in established_suspects(m)} == {"sensor_gain", "sensor_offset", "sensor_delay"}
+    assert {s.term.name for s in suspects(m)} == {"sensor_gain", "sensor_offset", "sensor_delay"}
 
 
 def _sine_spring(model, place, p):

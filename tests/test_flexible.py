@@ -8,7 +8,7 @@ import sympy as sm
 from test_discrepancy import cart, data_of, few, finding, recorded
 
 from symid.conceal import conceal, draw_case, rig_facts, setup_from_facts
-from symid.discrepancy import established_suspects
+from symid.discrepancy import suspects
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.policy import POLICY
@@ -97,7 +97,7 @@ def test_a_late_sensor_shows_what_was_before_the_episode():
 
 def test_an_integral_is_found_although_it_hides_at_zero_gain():
     data, base, term, true = integral()
-    suspect, = [s for s in established_suspects(base.model) if str(s.term) == str(term)]
+    suspect, = [s for s in suspects(base.model) if str(s.term) == str(term)]
     assert suspect.bypasses
     best = explore(base, data, [suspect])[0]
     value, error = (d[term.parameter_name("gain_Nm_rad_s")] for d in (best.fit.values, best.fit.errors))

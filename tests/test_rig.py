@@ -9,7 +9,7 @@ import pytest
 from symid.cases import diagnose_case, read_case, rig_case
 from symid.cases.case import parts_of, with_base_acceleration
 from symid.cli import main
-from symid.discrepancy import Suspect, diagnose, established_suspects
+from symid.discrepancy import Suspect, diagnose, suspects
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.name.comb import comb
 from symid.errors import DiagnosisError, ModelError, RecordingError, SymidError
@@ -46,8 +46,8 @@ def rig(tmp_path_factory):
 
 @pytest.fixture
 def quick(monkeypatch):
-    monkeypatch.setattr(import_module("symid.discrepancy.diagnose"), "established_suspects",
-                        lambda model: [s for s in established_suspects(model) if s.term.name in ("coulomb_friction", "sensor_offset")])
+    monkeypatch.setattr(import_module("symid.discrepancy.diagnose"), "suspects_of",
+                        lambda model: [s for s in suspects(model) if s.term.name in ("coulomb_friction", "sensor_offset")])
 
 
 # ---- models ----------------------------------------------------------------------------------
@@ -218,7 +218,7 @@ def test_several_losses_are_told_apart_and_no_clock_is_needed():
     recording, model = losing(), rig_model(SINGLE)
     names = ("viscous_friction", "coulomb_friction", "quadratic_drag", "periodic_torque", "sensor_offset")
     finding = diagnose(model, recording, fit_window="fit", held_out="held_out", driven=False, threads=1,
-                       suspects=[s for s in established_suspects(model) if s.term.name in names])
+                       suspects=[s for s in suspects(model) if s.term.name in names])
     assert finding.verdict == "missing_physics" and finding.confirmed
     found = {e.name: next(iter(e.parameters.values())) for e in finding.effects}
     assert set(found) == {"viscous_friction", "coulomb_friction"}

@@ -1,7 +1,7 @@
-"""Find the physics that a model leaves out: locate, name, add, prove."""
+"""Find the physics that a model leaves out: locate, name, model, prove."""
 
 from symid.discrepancy.diagnose import diagnose
-from symid.discrepancy.model.suspects import Suspect, established_suspects
+from symid.discrepancy.model.suspects import Suspect, suspects
 from symid.discrepancy.say.diagnosis import Diagnosis, Effect
 
-__all__ = ["Diagnosis", "Effect", "Suspect", "diagnose", "established_suspects"]
+__all__ = ["Diagnosis", "Effect", "Suspect", "diagnose", "suspects"]

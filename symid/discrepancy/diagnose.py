@@ -8,7 +8,8 @@ from functools import cache
 from symid.discrepancy.locate.audit import audit
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.model.hypothesis import Hypothesis
-from symid.discrepancy.model.suspects import Suspect, established_suspects
+from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.model.suspects import suspects as suspects_of
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.certain import honest, weakest
@@ -34,7 +35,8 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
              sensor_noise: float | Mapping[str, float] | None = None,
              segment_length: float | None = None, driven: bool = True, settling: float = 0.0,
              start: Mapping[str, float] | None = None, suspects: Sequence[Suspect] | None = None,
-             threads: int = 2, progress: Callable[[str], None] = lambda text: None) -> Diagnosis:
+             threads: int = 2, progress: Callable[[str], None] = lambda text: None,
+             episode_length: float | None = None) -> Diagnosis:
     """Compare a model with a recording and say what physics the model leaves out.
 
     Parameters
@@ -46,6 +48,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     sensor_noise : standard deviation of the sensors, one or by channel; if left out what the recording
         states, or else what its highest frequencies show.
     segment_length : seconds of one piece with an initial state of its own; None for one piece.
+        `episode_length` is its former name.
     driven : whether random forces act at the model's noises besides the recorded inputs.
     settling : seconds that the fit measure leaves out at the start of the fit window.
     start : values [SI] of some parameters from which the first fit begins.
@@ -60,6 +63,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     model = subject.model if isinstance(subject, Solution) else subject
     if recording is None or fit_window is None:
         raise DiagnosisError("diagnose: a model alone is not enough; give the recording and fit_window=(t0, t1)")
+    segment_length = episode_length if segment_length is None else segment_length
     segments = segments_of(model, recording, fit_window, segment_length)
     checked = audit(model, recording, segments, sensor_noise)
     data = Data(segments, checked.noise, driven, checked.rounding, checked.weight(segments[0].step)).thinned()
@@ -67,7 +71,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     progress(f"the model as given is fitted ({base.iterations} iterations)")
 
     flexible = cache(lambda: flexible_fits(base, data, flexible_terms(base, data))[0])
-    search = Search(base, data, list(established_suspects(model) if suspects is None else suspects), flexible, threads, progress)
+    search = Search(base, data, list(suspects_of(model) if suspects is None else suspects), flexible, threads, progress)
     found, ranking = search.run()
     if _doubtful(found, search) and search.beaten(found):
         found = flexible()

@@ -10,7 +10,8 @@ import numpy as np
 
 from symid.errors import ModelError
 from symid.estimation.data import Data, Segment
-from symid.mechanics import CANONICAL, suspects
+from symid.mechanics import CANONICAL
+from symid.mechanics import suspects as terms_of
 from symid.mechanics.world_laws import GEOMETRY_LAWS
 from symid.model import Law, LawParameter, Model, Term
 
@@ -119,13 +120,13 @@ class Suspect:
                 yield values | {q.key: float(place)}
 
 
-def established_suspects(model: Model) -> list[Suspect]:
+def suspects(model: Model) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses.
 
     Of laws that write the same equations, such as a drag on the first link and friction at its joint, the first stands.
     """
     found = {}
-    for term in suspects(model):
+    for term in terms_of(model):
         equations = _equations(model, term)
         if equations is not None:
             found.setdefault(equations, Suspect(term, term.name in ESTABLISHED))
