@@ -145,7 +145,8 @@ def test_a_missed_target_is_said():
            "memory_mb": 900.0, "import": 1.0, "status": "Solve_Succeeded"}
     rates = {"residual_ms": 1.0, "jacobian_ms": 1.0, "hessian_ms": 1.0, "intervals": 10}
     found = {"absent": ["casadi", "opty"], "evaluations": {"symid, C": rates, "symid, NumPy": rates},
-             "first_use": [{"seconds": 0.2}], "first_identification": one,
+             "first_use": [{"seconds": 0.2}], "linear": {"chain": {"ms": 10.0}, "mumps": {"ms": 25.0}},
+             "first_identification": one,
              "solves": {"FPD": {"symid, random start": [one], "symid, default start": [one]}}}
     lines = table(found).splitlines()
     missed = [line for line in lines if "NOT MET" in line]

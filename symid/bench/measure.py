@@ -25,8 +25,8 @@ def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda
     Returns
     -------
     dict
-        ``absent``: packages that are not installed; ``evaluations``, ``first_use``, and ``solves``:
-        label of the solve -> side -> list of runs, one for each random start.
+        ``absent``: packages that are not installed; ``evaluations``, ``first_use``, ``linear`` (by linear
+        solver), and ``solves``: label of the solve -> side -> list of runs, one for each random start.
     """
     absent = [name for name in ("casadi", "opty") if find_spec(name) is None]
     rounds = 1 if quick else 3
@@ -39,8 +39,10 @@ def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda
                        "symid, NumPy": _evaluations("symid_side", "numpy", task, cache, say)}
         if "casadi" not in absent:
             evaluations |= {f"CasADi, {s}": _evaluations("casadi_side", s, task, cache, say) for s in CASADI}
+        linear = {solver: run_fresh("symid_side.linear_systems", task, solver, cache=cache) for solver in ("chain", "mumps")}
+        say("linear systems")
         solves = {label: _solves(each, sides, rounds, cache, say) for label, each, sides in _plan(task, absent, quick)}
-    return {"task": asdict(task), "absent": absent, "evaluations": evaluations, "first_use": first,
+    return {"task": asdict(task), "absent": absent, "evaluations": evaluations, "first_use": first, "linear": linear,
             "first_identification": new, "solves": solves}
 
 

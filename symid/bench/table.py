@@ -11,6 +11,8 @@ EVALUATION_MS = {"symid, C": 0.4, "symid, NumPy": 6.0}
 FIRST_USE_S = 1.5
 FASTER_THAN_CASADI = {"random": 1.5, "default": 4.0}
 FASTER_THAN_OPTY = 15.0
+FASTER_THAN_MUMPS = 1.8
+"""In linear systems; below, the solver for chains would not be worth its place as the default."""
 FUNCTIONS_SHARE = 0.05
 MEMORY_MB = 400.0
 
@@ -51,6 +53,8 @@ def _verdicts(found: dict) -> Iterator[str]:
     for side, most in EVALUATION_MS.items():
         row = found["evaluations"][side]
         yield _line(f"slowest evaluation, {side}", max(v for k, v in row.items() if k.endswith("_ms")), "ms", most)
+    chain, mumps = (found["linear"][solver]["ms"] for solver in ("chain", "mumps"))
+    yield _line(f"linear systems, {chain:.1f} ms an iteration: MUMPS / symid", mumps / chain, "x", FASTER_THAN_MUMPS, at_least=True)
     yield _line("first use of a new model", middle(found["first_use"], "seconds"), "s", FIRST_USE_S)
     for label, sides in found["solves"].items():
         casadi = [runs for side, runs in sides.items() if side.startswith("CasADi")]

@@ -13,6 +13,10 @@ and Walker 1967), of equals the one that waits longest, so that a chain burns fr
 middle and linked episodes from their ends to their links; a row is eliminated with the first of its
 groups that has a variable left for it.
 
+Scaling. Rows and columns are brought near one by powers of two (Ruiz 2001), anew only when an entry
+outgrows its last scales: else units decide on pivots, and Ipopt's regularisation (1e10 against 50 in
+the equations) delays them without end.
+
 Factorisation. Multifrontal L D L' (Duff and Reid 1983) with pivots of one or two columns (Bunch and
 Kaufman 1977): of a front's fully summed columns the first whose multipliers stay below 1000, else
 the best; a column without a pivot within the threshold is handed to the next front (delayed). The
@@ -25,7 +29,10 @@ gives the same bits.
 Cost. With b unknowns a node (variables and multipliers), a frontier of c unknowns (the next node's
 variables, b/2 for one-step schemes) and p border unknowns, a node takes about
 b (b^2/6 + b (c+p)/2 + (c+p)^2/2) multiplications and b (b/2 + c + p) numbers of the factor: linear in
-nodes and episodes. The full-state feedback model (b = 8, c = 4, p = 10): 1300 and 144.
+nodes and episodes. The full-state feedback model (b = 8, c = 4, p = 10): 1300 and 144, in memory 200
+with padding, besides 150 for the places of entries. Measured on its 5001 nodes, one core: analysis
+11 ms, factorisation 5 to 7, solution 2 for one right side; Ipopt's linear systems take a third of
+what they take with MUMPS (`symid bench`).
 
 Interface. The library exports the entry points that Ipopt loads for its solver "ma27"; they are
 written from Ipopt's calls (IpMa27TSolverInterface.cpp), and hold nothing of HSL.

@@ -27,8 +27,8 @@ typedef struct {
     Work *work;  /* (tasks + 2,) tasks, top, border */
     double *x;   /* (n,) of a solve, by position */
     double *scale, *most;     /* (n,) of the rows, in the matrix's order; room for finding it */
+    float *product;           /* (nz,) of the two scales of every entry */
     const double *values;     /* the matrix at hand */
-    const int *irn, *jcn;
     double threshold;
     int rank, negative, threads;
     Counts counts;
@@ -139,7 +139,7 @@ static void mirror(Part *p) {
 }
 
 static inline double scaled(const Factor *s, int source) {
-    return s->values[source] * s->scale[s->irn[source] - 1] * s->scale[s->jcn[source] - 1];
+    return s->values[source] * s->product[source];
 }
 
 static int factorise_front(Factor *s, Work *w, int f) {

@@ -3,7 +3,8 @@
    Without it a parameter's unit decides on pivots, and so do Ipopt's regularisations, of which far
    from feasible points one is 1e10 and the other 1e-8. */
 
-#define PASSES 12 /* from a factorisation to the next one or two suffice: scales start from the last ones */
+#define PASSES 12 /* one or two suffice where scales start from those of the last factorisation */
+#define LIMIT 60  /* of a scale's exponent: products of two are floats */
 #define NEAR 3    /* binary digits from one that are near enough */
 
 static inline int binary_exponent(double x) {
@@ -13,9 +14,24 @@ static inline int binary_exponent(double x) {
 }
 
 static inline double power_of_two(int e) {
-    int64_t bits = (int64_t)((e < -1000 ? -1000 : e > 1000 ? 1000 : e) + 1023) << 52;
+    int64_t bits = (int64_t)(e + 1023) << 52;
     double out;
     memcpy(&out, &bits, 8);
+    return out;
+}
+
+/* The largest scaled entry; `product` (nz,) of the scales of an entry's row and column. */
+static double largest_scaled(int64_t nz, const double *a, const float *product) {
+    int64_t most = 0;
+    for (int64_t k = 0; k < nz; k++) {
+        double x = a[k] * product[k];
+        int64_t bits;
+        memcpy(&bits, &x, 8);
+        bits &= INT64_MAX;
+        most = bits > most ? bits : most;
+    }
+    double out;
+    memcpy(&out, &most, 8);
     return out;
 }
 
@@ -34,7 +50,17 @@ static void equilibrate(int n, int64_t nz, const int *irn, const int *jcn, const
             int e = most[i] > 0 ? binary_exponent(most[i]) : 0;
             if (e >= -NEAR && e <= NEAR) continue;
             far = 1;
-            scale[i] *= power_of_two(-(e / 2));
+            e = binary_exponent(scale[i]) - 1 - e / 2;
+            scale[i] = power_of_two(e < -LIMIT ? -LIMIT : e > LIMIT ? LIMIT : e);
         }
     }
+}
+
+/* Scales that serve: the last ones as long as no entry has outgrown them. */
+static void find_scales(int n, int64_t nz, const int *irn, const int *jcn, const double *a, double *scale, double *most,
+                        float *product) {
+    double size = product[0] > 0 ? largest_scaled(nz, a, product) : INFINITY;
+    if (size <= power_of_two(NEAR) && size >= power_of_two(-NEAR)) return;
+    equilibrate(n, nz, irn, jcn, a, scale, most);
+    for (int64_t k = 0; k < nz; k++) product[k] = (float)(scale[irn[k] - 1] * scale[jcn[k] - 1]);
 }

@@ -150,7 +150,7 @@ class NonlinearProgram:
 
     def _freeze_indices(self, matrix: str, shape: tuple[int, int]) -> None:
         names = (f"{matrix}_rows", f"{matrix}_cols")
-        rows, cols = (np.array(getattr(self, name)) for name in names)
+        rows, cols = (np.asarray(getattr(self, name)) for name in names)
         if rows.ndim != 1 or rows.shape != cols.shape:
             raise TranscriptionError(
                 f"NonlinearProgram.{names[0]}, {names[1]}: found shapes {rows.shape} and "
@@ -162,11 +162,12 @@ class NonlinearProgram:
                     f"NonlinearProgram.{name}: expected integers from 0 to {size - 1}, "
                     f"found {index.dtype} from {index.min()} to {index.max()}."
                 )
-            index = index.astype(np.intc)
-            index.setflags(write=False)
+            if index.flags.writeable or index.dtype != np.intc:  # else nobody can change it: it is shared
+                index = index.astype(np.intc)
+                index.setflags(write=False)
             object.__setattr__(self, name, index)
         # Conversion to compressed rows sums doubles, so fewer entries remain where there are any.
-        merged = sparse.csr_array((np.ones(rows.size), (rows, cols)), shape=shape)
+        merged = sparse.csr_array((np.ones(rows.size, np.int8), (rows, cols)), shape=shape)
         if merged.nnz < rows.size:
             raise TranscriptionError(
                 f"NonlinearProgram.{names[0]}, {names[1]}: {rows.size - merged.nnz} positions occur "
