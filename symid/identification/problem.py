@@ -162,6 +162,11 @@ class Identification:
             return searches[kind](self, seed, number)
         return given_start(self.transcription, kind)
 
+    def load(self, path: str | Path) -> Solution:
+        """The solution of this problem that `Solution.save` wrote; SolveError where it is that of another."""
+        from symid.identification.saved import load
+        return load(path, self)
+
     def nonlinear_program(self, start: np.ndarray, kept: Mapping[str, float] | None = None) -> NonlinearProgram:
         """What Ipopt solves from the free vector `start`: the collocation, with the ridge.
 

@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from functools import cached_property
 from importlib import import_module
 from importlib.metadata import version
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -272,6 +273,11 @@ class Solution:
         compiled = sum(v for k, v in build.items() if k != "build")
         return {"build": build["build"], "compile": compiled, "functions": spent["functions"],
                 "linear_algebra": spent["solver"], "total": build["build"] + spent["total"]}
+
+    def save(self, path: str | Path) -> None:
+        """Write the result to the directory `path`, see `identification.saved`; `Identification.load` reads it."""
+        from symid.identification.saved import save
+        save(self, path)
 
     def plot(self):
         """Figure of the fit over time; more of them in `symid.plots`."""

@@ -1,0 +1,52 @@
+"""A solution on disk: JSON and NumPy arrays with a format version and checksums, never a pickle.
+
+What is kept is the result; the problem is declared again by the script that reads it, and a result of
+any other problem is refused, by name of what differs.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from symid.errors import SolveError
+from symid.files import write_json
+from symid.identification.identity import digest, problem_identity
+from symid.identification.solution import Solution, build_solution
+from symid.identification.store import StudyDirectory
+from symid.identification.worker import Outcome
+
+if TYPE_CHECKING:
+    from symid.identification.problem import Identification
+
+KEY, SUMMARY = "solution", "summary.json"
+
+
+def _directory(path: str | Path, problem: Identification) -> StudyDirectory:
+    identity = problem_identity(problem)
+    return StudyDirectory(path, {KEY: identity | {"key": digest(identity)}})
+
+
+def save(solution: Solution, path: str | Path) -> None:
+    """Write the best start's result to the directory `path`, and ``summary.json`` for people."""
+    _directory(path, solution.problem)[KEY] = Outcome(solution.starts[solution.best], solution.result)
+    write_json(Path(path) / SUMMARY, solution.to_dict() | {"noise": solution.problem.noise})
+
+
+def load(path: str | Path, problem: Identification) -> Solution:
+    """The solution of `problem` that `save` wrote to `path`.
+
+    Raises
+    ------
+    SolveError
+        The directory is damaged, of another format or of another problem.
+    """
+    try:
+        noise = json.loads((Path(path) / SUMMARY).read_text(encoding="utf-8"))["noise"]
+    except (OSError, ValueError, KeyError, TypeError) as absent:
+        raise SolveError(f"{path} holds no saved solution ({absent}): give the directory that Solution.save wrote") from None
+    problem = replace(problem, noise=problem.noise or noise)     # what the solve estimated belongs to its problem
+    outcome = _directory(path, problem)[KEY]
+    return build_solution(problem, outcome.result, (outcome.row,), 0)
