@@ -19,7 +19,7 @@ import pytest
 from study_problems import numbers, study
 
 from symid import files
-from symid.codegen import build
+from symid.codegen import build, cache
 from symid.codegen.cache import CodegenWarning
 from symid.errors import SolveError
 from symid.identification.store import StudyDirectory
@@ -79,6 +79,7 @@ def test_files_of_a_study(finished, tmp_path, seed):
 @pytest.mark.parametrize("seed", range(60))
 def test_the_cache_of_kernels(tmp_path, monkeypatch, seed):
     monkeypatch.setenv("SYMID_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(cache, "_spare", [])
     rng = random.Random(seed)
     libraries = [build.compiled(source(k)) for k in (1, 2)]
     done = hurt(libraries[0], libraries[1:], rng)

@@ -1,5 +1,6 @@
 """Studies: the same numbers on every executor, nothing lost by a kill, nothing done twice."""
 
+import json
 import os
 import pickle
 import random
@@ -19,6 +20,7 @@ from study_problems import STARTS, kept, numbers, poisoned, problem, study
 
 from symid.errors import MachineError, SolveError, TranscriptionError
 from symid.identification import Identification, LocalPool, Solve, Study, dispatch
+from symid.identification import store as store_module
 from symid.identification.store import StudyDirectory
 from symid.transcription import Episodes
 
@@ -442,6 +444,21 @@ def test_a_directory_keeps_outcomes_without_result(tmp_path):
     outcome = StudyDirectory(tmp_path, {"a": solve.identity})[solve.key]
     assert outcome.result is None and outcome.row.message == first.rows["a"].message
     assert np.isnan(outcome.row.objective) and outcome.finished
+
+
+def test_what_an_earlier_version_kept_is_read(tmp_path, solved):
+    """Format 1 as first written: nothing was noted of the linear solver."""
+    first = Study({"a": Solve(problem())}, tmp_path).run_here(on_finished=None)
+    (key,) = solved
+    file = tmp_path / f"{key}.json"
+    content = json.loads(file.read_text())
+    del content["result"]["linear_solver"]
+    sums = content.pop("sha256")
+    content["sha256"] = {"content": store_module._sha256(store_module._text(content)), "arrays": sums["arrays"]}
+    file.write_text(json.dumps(content))
+    again = Study({"a": Solve(problem())}, tmp_path).run_here(on_finished=None)
+    assert len(solved) == 1 and again.rows == first.rows
+    assert np.array_equal(again.best().result.z, first.best().result.z)
 
 
 @pytest.mark.parametrize("error", [MachineError("cyipopt cannot be loaded (no memory)."), MemoryError("1 GiB"),

@@ -137,7 +137,8 @@ def _put_together(content: dict, arrays: bytes) -> Outcome:
         return Outcome(row)
     worst = values["worst_constraint"]
     values["worst_constraint"] = None if worst is None else WorstConstraint(**_with_nan(worst, WorstConstraint))
-    values["linear_solver"] = LinearSolver(**values["linear_solver"])
+    noted = values.get("linear_solver", {"name": "mumps", "reason": "solved before it was noted which"})
+    values["linear_solver"] = LinearSolver(**noted)
     with np.load(io.BytesIO(arrays), allow_pickle=False) as file:
         return Outcome(row, SolverResult(**_with_nan(values, SolverResult), **{name: file[name] for name in ARRAYS}))
 
