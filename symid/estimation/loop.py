@@ -55,7 +55,7 @@ class Loop:
         m, values = self.t.measured[self.t.recording_of[episode]], (z * self.scale)[self._own(episode)]
         wanted = {"sensitivity": self.t.layout.parameter_names, "initial_sensitivity": self.t.layout.state_names}
         return self.simulator.simulate(values[:self.q], values[self.q:], m.time[m.nodes],
-                                       {k: u[m.nodes] for k, u in m.inputs.items()}, limit=100.0,
+                                       {k: u[m.nodes] for k, u in m.inputs.items()}, limit=self.t.diverged,
                                        noise=self.noise[episode] if noise else None, **(wanted if slopes else {}))
 
     def _error(self, z: np.ndarray, episode: int, **options) -> np.ndarray:

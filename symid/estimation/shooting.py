@@ -67,7 +67,7 @@ class _Shooting:
         values = z * self.scale
         return self.simulator.simulate(
             values[:len(names)], values[self._initial(r)], m.time[m.nodes], {k: u[m.nodes] for k, u in m.inputs.items()},
-            noise=noise, history=self._history(m), limit=100.0, **wanted)
+            noise=noise, history=self._history(m), limit=self.t.diverged, **wanted)
 
     def _history(self, m: Measured) -> tuple[np.ndarray, np.ndarray] | None:
         """Recorded states before the window, for delayed signals."""

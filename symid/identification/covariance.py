@@ -107,9 +107,10 @@ def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:
     """(n,) whether each unknown sits at one of its bounds."""
     lower, upper, z = t.program.lower, t.program.upper, result.z
     near = 1e-5 * np.maximum(1.0, np.abs(z))
+    pull = 1e-8 * t.program.objective_scale
     with np.errstate(invalid="ignore"):
-        return ((z - lower < near) & (result.bound_multipliers_lower > 1e-8)) | \
-               ((upper - z < near) & (result.bound_multipliers_upper > 1e-8))
+        return ((z - lower < near) & (result.bound_multipliers_lower > pull)) | \
+               ((upper - z < near) & (result.bound_multipliers_upper > pull))
 
 
 def _determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -49,8 +49,9 @@ class Evaluation:
         The last iterate.
     """
 
-    def __init__(self, nlp: NonlinearProgram, on_iteration: Callable[[Iteration], bool | None] | None):
-        self.nlp = nlp
+    def __init__(self, nlp: NonlinearProgram, on_iteration: Callable[[Iteration], bool | None] | None,
+                 objective_scale: float = 1.0):
+        self.nlp, self.objective_scale = nlp, objective_scale
         self.on_iteration = on_iteration
         self.seconds = dict.fromkeys(("objective", "gradient", "constraints", "jacobian", "hessian"), 0.0)
         self.failure: BaseException | None = None
@@ -95,7 +96,7 @@ class Evaluation:
             return False
         if self.on_iteration is None:
             return True
-        return self.on_iteration(Iteration(number, objective, primal, dual, barrier)) is not False
+        return self.on_iteration(Iteration(number, objective * self.objective_scale, primal, dual, barrier)) is not False
 
     def _timed(self, name: str, *arguments):
         start = time.perf_counter()

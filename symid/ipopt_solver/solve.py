@@ -16,7 +16,7 @@ from symid.ipopt_solver.evaluation import Evaluation, Iteration, RejectedPoint
 from symid.ipopt_solver.linear import LinearSolver, run_with
 from symid.ipopt_solver.result import SolverResult, WorstConstraint, make_result
 from symid.ipopt_solver.status import SOLVED, STOPPED, STOPPED_BY_LIMIT, WALL_TIME, explain
-from symid.nlp import NonlinearProgram
+from symid.nlp import NonlinearProgram, with_unit_objective
 
 __all__ = ["Iteration", "SolverResult", "WorstConstraint", "solve_nlp"]
 
@@ -94,10 +94,11 @@ def solve_nlp(
     """
     time_limit_s = _tightest(time_limit_s)
     point = _starting_point(nlp, start, warm_start)
+    given, nlp = nlp, with_unit_objective(nlp)
     chosen = _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian)
     way, run = _runner(interface)
     _keep_freed_memory()
-    evaluation = Evaluation(nlp, on_iteration)
+    evaluation = Evaluation(nlp, on_iteration, given.objective_scale)
     wanted = chosen.pop("linear_solver", linear_solver)
     begin = {name: value.copy() for name, value in point.items()}
 
@@ -118,7 +119,9 @@ def solve_nlp(
         _raise_failure(evaluation, ended["status"])
     else:
         point = _last_point(nlp, evaluation, begin)
-    return make_result(nlp, evaluation, ended["status"], point, time.perf_counter() - began, ended["linear"], way)
+    for name in ("objective", "multipliers", "lower", "upper"):
+        point[name] = point[name] * given.objective_scale
+    return make_result(given, evaluation, ended["status"], point, time.perf_counter() - began, ended["linear"], way)
 
 
 def _tightest(time_limit_s: float | None) -> float | None:
@@ -146,6 +149,8 @@ def _starting_point(nlp, start, warm_start) -> dict[str, np.ndarray]:
     if start is not None:
         point["z"] = start
     point = {name: np.array(value, dtype=float) for name, value in point.items()}
+    for name in ("multipliers", "lower", "upper"):
+        point[name] /= nlp.objective_scale
     sizes = {"z": nlp.n, "multipliers": nlp.m, "lower": nlp.n, "upper": nlp.n}
     for name, size in sizes.items():
         if point[name].shape != (size,):
@@ -179,7 +184,7 @@ def _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian) ->
             "hessian='limited-memory'."
         )
     chosen = DEFAULTS | {"hessian_approximation": hessian, "max_iter": int(max_iterations)}
-    if nlp.variable_scale is not None or nlp.constraint_scale is not None or nlp.objective_scale != 1:
+    if nlp.variable_scale is not None or nlp.constraint_scale is not None:
         chosen["nlp_scaling_method"] = "user-scaling"
     if time_limit_s is not None:
         chosen["max_wall_time"] = float(time_limit_s)
@@ -187,10 +192,10 @@ def _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian) ->
 
 
 def _scales(nlp: NonlinearProgram) -> tuple[float, np.ndarray, np.ndarray]:
-    """Turn typical sizes into the factors that Ipopt wants."""
+    """Turn typical sizes into the factors that Ipopt wants; the objective has its unit size already."""
     z = np.ones(nlp.n) if nlp.variable_scale is None else 1 / nlp.variable_scale
     g = np.ones(nlp.m) if nlp.constraint_scale is None else 1 / nlp.constraint_scale
-    return 1 / nlp.objective_scale, z, g
+    return 1.0, z, g
 
 
 @functools.cache

@@ -7,6 +7,7 @@ from symid.nlp.derivatives import DerivativeReport, check_derivatives
 from symid.nlp.hurwitz import with_hurwitz
 from symid.nlp.optimality import OptimalityReport, check_optimality
 from symid.nlp.program import NonlinearProgram
+from symid.nlp.objective import with_unit_objective
 from symid.nlp.ridge import with_ridge
 from symid.nlp.soften import soften
 
@@ -19,4 +20,5 @@ __all__ = [
     "soften",
     "with_hurwitz",
     "with_ridge",
+    "with_unit_objective",
 ]

@@ -10,14 +10,14 @@ from symid.nlp.program import NonlinearProgram
 
 
 def soften(nlp: NonlinearProgram, rows: np.ndarray, weight: float) -> NonlinearProgram:
-    """`nlp` with a free slack in each of `rows`, and weight * their sum of squares in the objective.
+    """`nlp` with a free slack in each of `rows`, and weight * objective_scale * their sum of squares in the objective.
 
     The slacks are the last variables and begin where the start satisfies the rows. In equations of
     motion they are process noise that is estimated: the motion may leave the model, so that no
     controller is too unstable to be followed, and Newton steps stay short (penalty method;
     Nocedal & Wright 2006, section 17.1).
     """
-    n, count = nlp.n, len(rows)
+    n, count, weight = nlp.n, len(rows), weight * nlp.objective_scale
     slack, free = np.arange(n, n + count), np.full(count, np.inf)
 
     def constraints(y):

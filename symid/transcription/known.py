@@ -11,9 +11,10 @@ from symid.codegen.interval import equations_over
 from symid.codegen.symbols import own_points, used_data
 from symid.model import Model
 from symid.transcription.data import Measured
+from symid.transcription.guesses import guesses
 from symid.transcription.layout import Layout
 from symid.transcription.program import EpisodeData
-from symid.transcription.scales import equation_scale
+from symid.transcription.scales import INCREMENT, equation_scale
 from symid.transcription.schemes import Scheme
 
 
@@ -69,20 +70,30 @@ def interval_constants(model: Model, scheme: Scheme, interval: Kernel, layout: L
 
     parameters : (free parameters,) SI, at which the scales are found.
     """
-    def build(step, scale):
-        return np.concatenate([values_of(model), [] if graded else [step], scales(layout), scale])
-    equation = equation_of_rows(model, scheme)
-    first = measured[recording_of[0]]
+    first, over = measured[recording_of[0]], np.isin(np.arange(len(model.equations)), equations_over(model))
     states = [measured[r].on_mesh(measured[r].states[measured[r].nodes], layout.refine) for r in recording_of]
-    z, step = layout.fill(states, parameters), first.step / layout.refine
-    slopes = interval.jacobian(layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
-                               build(step, np.ones(len(model.equations))))
-    steps = data[0].interval[:, -1:] if graded else np.full((len(slopes), 1), step)
-    counted = (interval.jacobian_cols < interval.n_local) & (equation[interval.jacobian_rows] >= 0)
-    over = np.isin(equation[interval.jacobian_rows[counted]], equations_over(model))
-    scale = equation_scale(equation[interval.jacobian_rows[counted]], slopes[:, counted], len(model.equations),
-                           np.where(over, steps, 1.0))
-    return tuple(build(d.step / layout.refine, scale) for d in data)
+    equation, step = equation_of_rows(model, scheme)[interval.jacobian_rows], first.step / layout.refine
+    counted = (interval.jacobian_cols < interval.n_local) & (equation >= 0)
+
+    def largest(at):
+        z = layout.fill(states, at)
+        slopes = interval.jacobian(layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
+                                   interval_constants_of(model, layout, data[0], np.ones(len(over)), graded))
+        steps = data[0].interval[:, -1:] if graded else np.full((len(slopes), 1), step)
+        typical = steps if first.targets is None else 1 / INCREMENT
+        return equation_scale(equation[counted], slopes[:, counted], len(over), np.where(over[equation[counted]], typical, 1.0))
+    scale = largest(parameters)
+    if not scale.all():         # an unknown mass, for instance
+        scale = np.where(scale > 0, scale, largest(guesses(model, layout)))
+    scale = np.where(scale > 0, scale, 1.0)
+    of_step = over & (first.targets is not None)
+    return tuple(interval_constants_of(model, layout, d, np.where(of_step, scale * data[0].step / d.step, scale), graded)
+                 for d in data)
+
+
+def interval_constants_of(model: Model, layout: Layout, data: EpisodeData, equations: np.ndarray, graded: bool) -> np.ndarray:
+    """The constants of `interval_program` for one episode. equations : scales of the equations."""
+    return np.concatenate([values_of(model), [] if graded else [data.step / layout.refine], scales(layout), equations])
 
 
 def equation_of_rows(model: Model, scheme: Scheme) -> np.ndarray:

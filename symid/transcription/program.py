@@ -43,7 +43,7 @@ class CollocationProgram:
     """
 
     def __init__(self, *, layout: Layout, interval: Kernel, error: Kernel | None, data: tuple[EpisodeData, ...],
-                 constants: tuple[np.ndarray, ...], error_constants: np.ndarray, weights: np.ndarray,
+                 constants: tuple[np.ndarray, ...], error_constants: np.ndarray, weights: np.ndarray, objective_scale: float,
                  late: tuple[LateSignal, ...], ties: np.ndarray, tie_names: tuple[str, ...], bounds: tuple[np.ndarray, np.ndarray],
                  row_names: tuple[str, ...], times: tuple[np.ndarray, ...], demanded: tuple[Block, ...] = (),
                  wanted: tuple[Block, ...] = ()):
@@ -51,7 +51,7 @@ class CollocationProgram:
         self.constants, self.error_constants, self.late, self.times = constants, error_constants, late, times
         self.weights = weights
         self.ties, self.tie_names, self.row_names = ties.reshape(-1, 2), tie_names, row_names
-        self.lower, self.upper = bounds
+        self.objective_scale, (self.lower, self.upper) = objective_scale, bounds
         self.intervals = tuple(self._interval_block(e) for e in range(len(data)))
         self.errors = tuple(self._error_block(e) for e in range(len(data)) if error)
         self.demanded, self.wanted = demanded, (*self.errors, *wanted)
@@ -193,7 +193,7 @@ class CollocationProgram:
             constraint_upper=self.constraint_upper, start=start, objective=self.objective, gradient=self.gradient,
             constraints=self.constraints, jacobian=self.jacobian, jacobian_rows=self.jacobian_rows,
             jacobian_cols=self.jacobian_cols, hessian=self.hessian, hessian_rows=self.hessian_rows,
-            hessian_cols=self.hessian_cols, describe_variable=self.layout.describe,
+            hessian_cols=self.hessian_cols, objective_scale=self.objective_scale, describe_variable=self.layout.describe,
             describe_constraint=self.describe_constraint)
 
 

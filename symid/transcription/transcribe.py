@@ -20,8 +20,9 @@ from symid.transcription.known import episode_data, error_constants, interval_co
 from symid.transcription.late import gather_late, refuse_late
 from symid.transcription.layout import Layout
 from symid.transcription.program import CollocationProgram
-from symid.transcription.scales import bounded_scale, parameter_scale, state_scale
+from symid.transcription.scales import bounded_scale, objective_scale
 from symid.transcription.schemes import Scheme
+from symid.transcription.sizes import scaled_by_data
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +49,12 @@ class Transcription:
     fingerprint: str
     seconds: dict[str, float]
     information: float = 1.0
+
+    @property
+    def diverged(self) -> float:
+        """SI size of a state that is far beyond all that was recorded: a simulation that reaches it has diverged."""
+        largest = [np.abs(m.states[m.nodes]).max(axis=0) for m in self.measured]
+        return 1e3 * float(np.max([*largest, self.layout.state_scale], initial=0.0))
 
     def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
         """The program from this start (a free vector)."""
@@ -89,6 +96,9 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
     layout, recording_of = _lay_out(model, measured, scheme, episodes, per_recording, refine)
     data = [episode_data(model, scheme, measured[r], noise, refine, graded, gaps, loss)
             for r in range(len(measured)) for noise in episodes.draw(model, measured[r].intervals)]
+    if measured[0].targets is not None:
+        layout = scaled_by_data(model, scheme, interval, layout, measured, data, recording_of, graded)
+    weights = np.asarray(weights)
     seconds = {k: sum(kernel.seconds.get(k, 0.0) for kernel in (interval, error) if kernel) for k in interval.seconds}
     demands = Demands(model, scheme, layout, tuple(measured), recording_of, duration, graded, information, backend, seconds)
     tied, tie_names = ties(model, layout, _linked_episodes(episodes, recording_of))
@@ -96,7 +106,8 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
         layout=layout, interval=interval, error=error, data=tuple(data),
         constants=interval_constants(model, scheme, interval, layout, measured, data, recording_of, _for_scales(model, layout, duration),
                                      graded),
-        error_constants=error_constants(model, layout), weights=np.asarray(weights)[list(recording_of)],
+        error_constants=error_constants(model, layout), weights=weights[list(recording_of)],
+        objective_scale=objective_scale(measured, recording_of, weights),
         late=tuple(gather_late(model, scheme, layout, measured, recording_of, interval.m * sum(layout.intervals))),
         ties=tied, tie_names=tie_names, bounds=bounds(model, layout), row_names=row_names(model, scheme),
         times=tuple(measured[r].mesh(refine) for r in recording_of), demanded=demands.demanded(), wanted=demands.wanted())
@@ -132,10 +143,10 @@ def _lay_out(model, measured, scheme, episodes, per_recording, refine) -> tuple[
         free += [f"{name}[{r + 1}]" for r in range(len(measured))] if own else [name]
     recording_of = tuple(r for r in range(len(measured)) for _ in range(episodes.count))
     scales = np.ones(len(free))
-    scales[index] = parameter_scale(model)
+    scales[index] = bounded_scale(model.parameters.values())
     beside = [*model.controls, *(model.algebraics if algebraics_at_nodes(model) else ())]
     own = own_points(model, scheme.stencil)
-    late, of_states, of_beside = late_signals(model), state_scale(model), bounded_scale(model[b] for b in beside)
+    late, of_states, of_beside = late_signals(model), np.ones(len(model.states)), bounded_scale(model[b] for b in beside)
     by_name = dict(zip((*model.states, *beside), (*of_states, *of_beside), strict=True))
     layout = Layout(
         state_names=tuple(model.states), parameter_names=tuple(free), late_names=tuple(map(str, late)),

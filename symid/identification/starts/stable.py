@@ -77,7 +77,7 @@ def _survives(loop: Simulator, parameters: np.ndarray, m: Measured, states: np.n
     time, targets = m.step * np.arange(len(order)), m.targets[m.nodes]
     inputs = {k: loud * u[m.nodes][order] for k, u in m.inputs.items()}
     limit = loud * LIMIT * np.mean(np.std(targets, axis=0))
-    runs = (loop.simulate(parameters, x, time, inputs, limit=10.0, keep="outputs") for x in states)
+    runs = (loop.simulate(parameters, x, time, inputs, limit=LIMIT * 1e2 * loud * float(np.max(np.abs(m.states[m.nodes]))), keep="outputs") for x in states)
     return np.array([not r.diverged and np.sqrt(np.mean((r.y - targets[order]) ** 2)) <= limit for r in runs])
 
 
@@ -144,7 +144,7 @@ class DisplacedRuns(Loop):
         """Weighted (nodes, outputs) error of a run, held within ten deviations, and the run."""
         m = self.t.measured[r]
         run = self.simulator.simulate(
-            (z * self.scale)[:self.q], x, m.time[m.nodes], {k: u[m.nodes] for k, u in m.inputs.items()}, limit=100.0,
+            (z * self.scale)[:self.q], x, m.time[m.nodes], {k: u[m.nodes] for k, u in m.inputs.items()}, limit=self.t.diverged,
             sensitivity=self.t.layout.parameter_names if slopes else ())
         return self.held(run.y - m.targets[m.nodes], r) * self.price * np.sqrt(m.step), run
 

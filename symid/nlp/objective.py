@@ -1,0 +1,21 @@
+"""A nonlinear program whose objective is divided by its typical size."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from symid.nlp.program import NonlinearProgram
+
+
+def with_unit_objective(nlp: NonlinearProgram) -> NonlinearProgram:
+    """`nlp` with f / objective_scale as objective; its multipliers are those of `nlp` / objective_scale.
+
+    Done here and not by a solver's own scaling, which looks at the size of the gradient first, or takes
+    the scaling of the constraints away with it.
+    """
+    size = nlp.objective_scale
+    if size == 1:
+        return nlp
+    hessian = None if nlp.hessian is None else lambda z, multipliers, factor: nlp.hessian(z, multipliers, factor / size)
+    return replace(nlp, objective=lambda z: nlp.objective(z) / size, gradient=lambda z: nlp.gradient(z) / size,
+                   hessian=hessian, objective_scale=1.0)

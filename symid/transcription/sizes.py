@@ -1,0 +1,67 @@
+"""The scales of an identification, found from its recordings and its equations."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from symid.codegen import Kernel
+from symid.codegen.interval import late_signals
+from symid.model import Model
+from symid.transcription.data import Measured
+from symid.transcription.guesses import first_guess, parameter_guesses
+from symid.transcription.known import equation_of_rows, interval_constants_of
+from symid.transcription.layout import Layout
+from symid.transcription.program import EpisodeData
+from symid.transcription.scales import (
+    RANGE, Sizes, hidden_scale, natural_size, parameter_scale, rate_scale, state_scale,
+)
+from symid.transcription.schemes import Scheme
+
+
+def scaled_by_data(model: Model, scheme: Scheme, interval: Kernel, layout: Layout, measured: Sequence[Measured],
+                   data: Sequence[EpisodeData], recording_of: Sequence[int], graded: bool) -> Layout:
+    """`layout`, whose states and parameters have no scale yet, with the scales that the recordings suggest."""
+    bounds = np.array([s.bounds for s in model.states.values()], dtype=float).reshape(-1, 2)
+
+    def sizes(hidden):
+        return _sizes(model, scheme, interval, layout, measured, data, recording_of, graded, hidden)
+    hidden, states = first_guess(bounds), state_scale(measured)
+    if np.isnan(states).any():
+        hidden = states = hidden_scale(sizes(hidden).states, states)
+    natural = natural_size(sizes(hidden), rate_scale(measured, states))
+    parameters = np.ones(len(layout.parameter_names))
+    parameters[layout.parameter_index] = parameter_scale(model.parameters.values(), natural)
+    by_name = dict(zip(model.states, RANGE * states, strict=True))
+    late = [by_name.get(str(model.delays[y].of), s) for y, s in zip(late_signals(model), layout.late_scale, strict=True)]
+    return replace(layout, state_scale=RANGE * states, parameter_scale=parameters, late_scale=np.array(late))
+
+
+def _sizes(model, scheme, interval: Kernel, layout: Layout, measured, data, recording_of, graded, hidden) -> Sizes:
+    """Sizes at the recorded motion and the first guesses, in the first episode.
+
+    hidden : (n,) values of the states that nothing recorded shows.
+    """
+    m, n, equations = measured[recording_of[0]], layout.n, len(model.equations)
+    states = m.states[m.nodes]
+    nodes = m.on_mesh(np.where(np.any(states != 0, axis=0), states, hidden), layout.refine)
+    z = layout.fill([nodes], np.zeros(len(layout.parameter_names)))
+    z[layout.parameter_columns(0)] = parameter_guesses(model)
+    arguments = (layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
+                 interval_constants_of(model, layout, data[0], np.ones(equations), graded))
+    # An expression may have no value at the recorded motion: the solver says so, in words.
+    residual, slopes = (np.nan_to_num(np.abs(f(*arguments)), nan=0.0, posinf=0.0) for f in (interval.residual, interval.jacobian))
+    rows, columns = equation_of_rows(model, scheme)[interval.jacobian_rows], interval.jacobian_cols
+    state_of = np.full(layout.local + interval.n_shared, -1)
+    state_of[:n] = state_of[layout.block:layout.block + n] = np.arange(n)
+    state_of[layout.width:layout.width + n * layout.interior] = np.tile(np.arange(n), layout.interior)
+    of_state, of_parameter = (rows >= 0) & (state_of[columns] >= 0), (rows >= 0) & (columns >= layout.local)
+    to_states, to_parameters, content = np.zeros((equations, n)), np.zeros((equations, interval.n_shared)), np.zeros(equations)
+    np.maximum.at(to_states, (rows[of_state], state_of[columns[of_state]]), slopes[:, of_state].max(axis=0) * m.step / layout.refine)
+    np.maximum.at(to_parameters, (rows[of_parameter], columns[of_parameter] - layout.local),
+                  np.sqrt(np.mean(slopes[:, of_parameter] ** 2, axis=0)))
+    own = equation_of_rows(model, scheme)
+    np.maximum.at(content, own[own >= 0], np.sqrt(np.mean(residual[:, own >= 0] ** 2, axis=0)))
+    return Sizes(to_states, to_parameters, content)
