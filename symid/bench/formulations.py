@@ -175,7 +175,7 @@ def _estimated_noise(problem: Identification, torque_noise: float):
     step = t.program.data[0].step
     per_torque = _constraint_per_noise(problem)
     price = step * SENSOR_NOISE**2 / (torque_noise**2 / 2) / per_torque**2
-    result = solve_nlp(soften(nlp, rows, price), max_iterations=300)
+    result = solve_nlp(soften(nlp, rows, price / nlp.objective_scale), max_iterations=300)
     return _values(problem, result), result.solved
 
 

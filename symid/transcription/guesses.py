@@ -22,8 +22,9 @@ def guesses(model: Model, layout: Layout) -> np.ndarray:
     return values
 
 
-def parameter_guesses(model: Model) -> np.ndarray:
-    """(q,) the declared guess of each parameter, else the first guess of its bounds."""
+def parameter_guesses(model: Model, small: bool = False) -> np.ndarray:
+    """(q,) the declared guess of each parameter, else the first guess of its bounds, or what is `small` within them."""
     parts = list(model.parameters.values())
-    found = first_guess(np.array([p.bounds for p in parts], dtype=float).reshape(-1, 2))
+    bounds = np.array([p.bounds for p in parts], dtype=float).reshape(-1, 2)
+    found = np.clip(0.0, *bounds.T) if small else first_guess(bounds)
     return np.array([g if p.guess is None else p.guess for p, g in zip(parts, found, strict=True)], dtype=float)

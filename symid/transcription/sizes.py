@@ -23,15 +23,16 @@ from symid.transcription.schemes import Scheme
 
 def scaled_by_data(model: Model, scheme: Scheme, interval: Kernel, layout: Layout, measured: Sequence[Measured],
                    data: Sequence[EpisodeData], recording_of: Sequence[int], graded: bool) -> Layout:
-    """`layout`, whose states and parameters have no scale yet, with the scales that the recordings suggest."""
+    """`layout`, whose states have no scale yet, with the scales of states and parameters that the recordings suggest."""
+    layout = replace(layout, parameter_scale=np.ones(len(layout.parameter_names)))
     bounds = np.array([s.bounds for s in model.states.values()], dtype=float).reshape(-1, 2)
 
-    def sizes(hidden):
-        return _sizes(model, scheme, interval, layout, measured, data, recording_of, graded, hidden)
+    def sizes(hidden, parameters):
+        return _sizes(model, scheme, interval, layout, measured, data, recording_of, graded, hidden, parameters)
     hidden, states = first_guess(bounds), state_scale(measured)
     if np.isnan(states).any():
-        hidden = states = hidden_scale(sizes(hidden).states, states)
-    natural = natural_size(sizes(hidden), rate_scale(measured, states))
+        hidden = states = hidden_scale(sizes(hidden, parameter_guesses(model)).states, states)
+    natural = natural_size(sizes(hidden, parameter_guesses(model, small=True)), rate_scale(measured, states))
     parameters = np.ones(len(layout.parameter_names))
     parameters[layout.parameter_index] = parameter_scale(model.parameters.values(), natural)
     by_name = dict(zip(model.states, RANGE * states, strict=True))
@@ -39,8 +40,9 @@ def scaled_by_data(model: Model, scheme: Scheme, interval: Kernel, layout: Layou
     return replace(layout, state_scale=RANGE * states, parameter_scale=parameters, late_scale=np.array(late))
 
 
-def _sizes(model, scheme, interval: Kernel, layout: Layout, measured, data, recording_of, graded, hidden) -> Sizes:
-    """Sizes at the recorded motion and the first guesses, in the first episode.
+def _sizes(model, scheme, interval: Kernel, layout: Layout, measured, data, recording_of, graded, hidden,
+           parameters) -> Sizes:
+    """Sizes at the recorded motion and these parameters (q,), in the first episode.
 
     hidden : (n,) values of the states that nothing recorded shows.
     """
@@ -48,7 +50,7 @@ def _sizes(model, scheme, interval: Kernel, layout: Layout, measured, data, reco
     states = m.states[m.nodes]
     nodes = m.on_mesh(np.where(np.any(states != 0, axis=0), states, hidden), layout.refine)
     z = layout.fill([nodes], np.zeros(len(layout.parameter_names)))
-    z[layout.parameter_columns(0)] = parameter_guesses(model)
+    z[layout.parameter_columns(0)] = parameters
     arguments = (layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
                  interval_constants_of(model, layout, data[0], np.ones(equations), graded))
     # An expression may have no value at the recorded motion: the solver says so, in words.
