@@ -17,6 +17,10 @@ SHOWN = 3
 """Recordings whose noise is written out."""
 
 
+VERIFIED = 25_000
+"""Unknowns up to which a solution is verified when it is shown: that takes a second or less."""
+
+
 def problem_facts(problem: Identification) -> dict[str, str]:
     """What an Identification will solve, in words; builds nothing."""
     model, e = problem.model, problem.episodes
@@ -47,6 +51,8 @@ def problem_html(problem: Identification) -> str:
 def headline(solution: Solution) -> str:
     """One line: solved or not, how well, in how many iterations."""
     word = "Solved" if solution.solved else "NOT SOLVED"
+    if solution.solved and solution.result.status != 0:
+        word = "ACCEPTABLE, not solved to the tolerance,"
     units = {name: y.unit for name, y in solution.model.outputs.items()}
     return (f"{word} in {solution.result.iterations} iterations and {solution.seconds['total']:.2f} s. "
             f"RMS error: {fit_text(solution.fit['rms'], units)}")
@@ -55,9 +61,17 @@ def headline(solution: Solution) -> str:
 def warnings(solution: Solution) -> list[str]:
     """A sentence for each mistake of units or signs that shows, and for each state that its bounds cut off."""
     states = solution.model.states
-    return [*solution.problem.remarks] + [f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} {states[name].unit}) at "
+    checked = solution.solved and solution.transcription.layout.size <= VERIFIED
+    return [*solution.problem.remarks, *_at_bounds(solution), *(solution.verification.sentences if checked else ())] + [f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} {states[name].unit}) at "
             f"{100 * share:.2g} % of the nodes: they cut the motion off, which biases the parameters; widen them with "
             f"model.with_bounds({name}=(lower, upper))" for name, share in solution.cut_off.items()]
+
+
+def _at_bounds(solution: Solution) -> list[str]:
+    """A sentence for each parameter at a bound, if it was solved."""
+    table = solution.parameters[solution.parameters["at_bound"]] if solution.solved else solution.parameters[:0]
+    return [f"{name} lies at its bound ({p.value:.5g} {p.unit}): the data ask for a value beyond it, and the other parameters "
+            "depend on where it stands" for name, p in table.iterrows() if p.lower < p.upper]
 
 
 def error_notes(solution: Solution) -> list[str]:

@@ -25,6 +25,7 @@ from symid.model import Model
 from symid.transcription import Transcription
 
 if TYPE_CHECKING:
+    from symid.identification.verify import Verification
     from symid.identification.problem import Identification
 
 
@@ -177,6 +178,24 @@ class Solution:
         in the recording, the body or the motion (`symid.plausibility`), and states that their bounds cut off."""
         from symid.identification.show import warnings
         return tuple(warnings(self))
+
+    @cached_property
+    def verification(self) -> Verification:
+        """What a finer mesh, an integrator and the optimality conditions say of it, see `identification.verify`."""
+        from symid.identification.verify import verify
+        return verify(self)
+
+    def refined(self, factor: int | None = None) -> Solution:
+        """Solved again from here with `factor` times as many collocation intervals.
+
+        factor : by default as many as leave a tenth of a standard error of the mesh's error, at most 16, at least 2.
+        """
+        if factor is None:
+            from symid.identification.verify import FINE
+            mesh = self.verification.mesh
+            worst = 0.0 if mesh is None else mesh["std_errors"].abs().max()
+            factor = int(np.clip(np.ceil((worst / FINE) ** (1 / self.problem.scheme.order)), 2, 16))
+        return replace(self.problem, refine=factor * self.problem.refine).solve(start=self, check=False)
 
     @cached_property
     def trajectories(self) -> tuple[pd.DataFrame, ...]:

@@ -173,7 +173,7 @@ def _trajectory(t: Transcription, solution: Solution, episode: int) -> np.ndarra
     states, time = m.states[m.nodes].copy(), m.time[m.nodes]
     frames = [f for f in solution.trajectories if f.attrs["recording"] == m.name] or list(solution.trajectories)
     frame = frames[min(episode, len(frames) - 1)]
-    inside = (time >= frame.index[0] - 1e-9) & (time <= frame.index[-1] + 1e-9)
+    inside = (time >= frame.index[0] - 1e-6 * m.step) & (time <= frame.index[-1] + 1e-6 * m.step)
     for i, name in enumerate(t.model.states):
         if name in frame:
             states[inside, i] = np.interp(time[inside], frame.index, frame[name])

@@ -1,0 +1,86 @@
+"""Solutions that others do not confirm are said to be so: coarse meshes, unstable motions, bounds, bad optima."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import sympy as sm
+from conftest import pendulum, pendulum_recording
+from scipy.integrate import solve_ivp
+
+import symid as si
+from symid.recording import Recording
+
+
+def swing(rate: float, seed: int = 0) -> si.Identification:
+    """Vyasarayani's pendulum x'' = -p sin x, p = 10, over 50 s (Vyasarayani, Uchida & McPhee 2012), recorded at `rate` [Hz]."""
+    m = si.Model("pendulum")
+    m.x = si.State(unit="rad")
+    m.v = si.State(unit="rad/s")
+    m.p = si.Parameter(unit="1/s^2", bounds=(0, 50))
+    m.kinematics = si.Equation(m.x.dot - m.v)
+    m.balance = si.Equation(m.v.dot + m.p * sm.sin(m.x))
+    m.y = si.Output(m.x)
+    t = np.arange(0, 50, 1 / rate)
+    x = solve_ivp(lambda t, x: [x[1], -10 * np.sin(x[0])], (0, 50), [1.0, 0.0], t_eval=t, rtol=1e-10, atol=1e-12).y[0]
+    return si.Identification(m, Recording("swing", t, {"x": x + 0.03 * np.random.default_rng(seed).standard_normal(len(t))}, {"x": "rad"}))
+
+
+def test_a_mesh_that_is_too_coarse_is_said_and_refined():
+    coarse = swing(10).solve()
+    assert coarse.values["p"] > 10.1
+    error = coarse.verification.mesh.loc["p"]
+    assert error["error"] == pytest.approx(coarse.values["p"] - 10, rel=0.15)
+    assert error["std_errors"] > 10
+    assert "The mesh is too coarse: it shifts p by" in str(coarse)
+    fine = coarse.refined()
+    assert fine.problem.refine >= 8
+    assert abs(fine.values["p"] - 10) < 4 * fine.parameters.std_error["p"] + 1e-3
+    assert abs(fine.verification.mesh.loc["p", "std_errors"]) < 0.5
+    assert "too coarse" not in str(fine)
+
+
+def test_a_motion_that_no_integrator_reproduces_is_said():
+    m = si.Model("falls away")
+    m.x = si.State(unit="m")
+    m.v = si.State(unit="m/s")
+    m.u = si.Input(unit="m/s^2")
+    m.k = si.Parameter(unit="1/s^2", bounds=(0, 100))
+    m.kinematics = si.Equation(m.x.dot - m.v)
+    m.balance = si.Equation(m.v.dot - m.k * m.x - m.u)
+    m.y = si.Output(m.x)
+    t = np.arange(0, 10, 0.02)
+    x = 0.1 * np.sin(2 * t) + 0.05 * np.sin(3.3 * t)
+    u = -0.4 * np.sin(2 * t) - 0.05 * 3.3**2 * np.sin(3.3 * t) - 20 * x
+    noisy = x + 0.003 * np.random.default_rng(0).standard_normal(len(t))
+    solution = si.Identification(m, Recording("held by nobody", t, {"x": noisy, "u": u}, {"x": "m", "u": "m/s^2"})).solve()
+    assert solution.solved and solution.values["k"] == pytest.approx(20, abs=0.5)
+    assert solution.verification.departs
+    assert "No integrator reproduces this motion" in str(solution)
+
+
+@pytest.mark.parametrize("scheme", [si.Midpoint(), si.HermiteSimpson()])
+def test_a_sound_solution_is_confirmed(scheme):
+    solution = si.Identification(pendulum(), pendulum_recording(noise=0.01), scheme=scheme).solve()
+    v = solution.verification
+    assert v.optimality.ok and not v.departs and v.sentences == ()
+    assert np.abs(v.mesh["std_errors"]).max() < 0.5
+    assert "agree" in repr(v)
+
+
+def test_noisy_episodes_are_integrated_with_their_noise():
+    problem = si.Identification(pendulum(), pendulum_recording(noise=0.01), episodes=si.Episodes(2, amplitude=0.3))
+    assert not problem.solve().verification.departs
+
+
+def test_a_point_that_is_not_optimal_is_found_without_ipopt():
+    solution = si.Identification(pendulum(), pendulum_recording(noise=0.01)).solve()
+    moved = replace(solution, result=replace(solution.result, z=solution.result.z * 1.01))
+    assert any("not optimal" in s for s in moved.verification.sentences)
+
+
+def test_a_parameter_at_its_bound_and_an_acceptable_end_are_said():
+    solution = si.Identification(pendulum().with_bounds(damping=(0, 0.2)), pendulum_recording(noise=0.01)).solve()
+    assert "damping lies at its bound (0.2 1/s)" in str(solution)
+    acceptable = replace(solution, result=replace(solution.result, status=1))
+    assert "ACCEPTABLE, not solved" in str(acceptable)
