@@ -162,6 +162,8 @@ class Reduced:
     def __init__(self, s: Sensitivity, hessian: sparse.csr_matrix):
         self.s = s
         self.states, self.parameters = s.columns
+        unit = s.t.program.objective_scale      # the factors do not depend on the units of the outputs
+        hessian = hessian / unit
         inner = hessian[self.states][:, self.states]
         inner = inner + DAMPING * (abs(inner.diagonal()).max(initial=0.0) or 1.0) * sparse.identity(len(self.states))
         a = s.constraints[:, self.states]
@@ -173,7 +175,7 @@ class Reduced:
         self.beside, self.prior = (self._reduced(m, follow) for m in (s.beside, s.prior))
         self.slopes = s.outputs[:, self.parameters].toarray() - s.outputs[:, self.states] @ solved[:len(self.states)]
         self.curvature = hessian[self.parameters][:, self.parameters].toarray() - border.T @ solved
-        self.curvature = 0.5 * (self.curvature + self.curvature.T) + s.penalty * np.eye(len(self.parameters))
+        self.curvature = 0.5 * unit * (self.curvature + self.curvature.T) + s.penalty * np.eye(len(self.parameters))
 
     def _reduced(self, matrix: sparse.csr_matrix, follow: np.ndarray) -> np.ndarray:
         """(q, q) a quadratic form of all unknowns, where the states follow the parameters."""
@@ -187,5 +189,5 @@ class Reduced:
         """(rows, count) outputs that the motion can add for itself, with the parameters kept: a random basis of them."""
         probes = np.random.default_rng(0).standard_normal((self.s.outputs.shape[0], count))
         pull = self.s.outputs[:, self.states].T @ (self.s.curvatures[:, None] * probes)
-        solved = self.factor.solve(np.vstack([pull, np.zeros((self.s.constraints.shape[0], count))]))
+        solved = self.factor.solve(np.vstack([pull / self.s.t.program.objective_scale, np.zeros((self.s.constraints.shape[0], count))]))
         return self.s.outputs[:, self.states] @ solved[:len(self.states)]
