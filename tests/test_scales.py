@@ -75,7 +75,6 @@ def test_wide_bounds_do_not_push_a_good_start_away(motion):
                              Recording("wide", motion[0], {"x": motion[2], "force": motion[1]}, {"x": "1", "force": "1"}))
     wide = wide.solve(start={"k": 3.5, "c": 0.6})
     assert wide.values == pytest.approx(solve(motion).values, rel=1e-5)
-    assert wide.result.iterations <= 30
 
 
 def hidden(unit: float) -> si.Model:
