@@ -70,7 +70,7 @@ def _compiler() -> str:
 
 
 def _cache() -> str:
-    from symid.codegen.build import cache_directory
+    from symid.codegen.cache import cache_directory
 
     folder = cache_directory()
     folder.mkdir(parents=True, exist_ok=True)
