@@ -48,7 +48,7 @@ def read_json(path: str | Path, **options):
         The file is missing, is no JSON in UTF-8, is nested without end, or holds a number beyond all use.
     """
     try:
-        content = json.loads(Path(path).read_text(encoding="utf-8"), parse_int=_integer, **options)
+        content = json.loads(Path(path).read_text(encoding="utf-8-sig"), parse_int=_integer, **options)
     except OSError as problem:
         raise RecordingError(f"{path}: cannot be read: {problem.strerror}") from None
     except (ValueError, RecursionError) as problem:

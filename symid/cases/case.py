@@ -12,7 +12,9 @@ import numpy as np
 
 from symid.discrepancy.diagnose import diagnose
 from symid.discrepancy.say.diagnosis import Diagnosis
-from symid.errors import DiagnosisError, SymidError
+from symid.cases.schema import refuse_violations
+from symid.errors import DiagnosisError, RecordingError, SymidError
+from symid.files import read_json
 from symid.estimation.data import piece_length, segments_of
 from symid.mechanics import model_of, rig_model
 from symid.mechanics.rig import BASES
@@ -153,24 +155,29 @@ def _check(facts: dict, path: Path) -> None:
             raise DiagnosisError(f"{path}: {key} must be a start and a later end in seconds, found {json.dumps(facts[key])}")
     for key in ("angle_noise_rms_rad_approx", "segment_s"):
         value = facts.get(key)
-        if value is not None and (isinstance(value, (bool, str)) or not value > 0):
+        if value is not None and (isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < 1e12):
             raise DiagnosisError(f"{path}: {key} must be a number above zero, found {json.dumps(value)}; leave it out if it is unknown")
 
 
 def _is_window(window) -> bool:
     return (isinstance(window, list) and len(window) == 2 and all(isinstance(t, (int, float)) for t in window)
-            and window[0] < window[1])
+            and not any(isinstance(t, bool) for t in window) and -1e12 < window[0] < window[1] < 1e12)
 
 
 def _facts(path: Path) -> dict:
+    if not path.exists():
+        raise DiagnosisError(f"{path.parent} is no case: it has no case.json")
     try:
-        facts = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise DiagnosisError(f"{path.parent} is no case: it has no case.json") from None
-    except json.JSONDecodeError as error:
-        raise DiagnosisError(f"{path}: line {error.lineno} is not JSON: {error.msg}") from None
+        facts = read_json(path, parse_constant=_refuse_constant)
+    except RecordingError as error:
+        raise DiagnosisError(str(error)) from None
     if not isinstance(facts, dict):
         raise DiagnosisError(f"{path}: an object with the key 'system' is expected")
     if "system" not in facts:
         raise DiagnosisError(f"{path}: the key 'system' is missing")
+    refuse_violations(facts, path)
     return facts
+
+
+def _refuse_constant(word: str) -> float:
+    raise ValueError(f"{word} is no number that can be used")

@@ -14,6 +14,8 @@ from symid.model import Input, Model
 from symid.recording import read_body
 from symid.recording.body import load_table
 
+MOST_LINKS = 20
+"""Equations of longer chains take minutes to derive."""
 BASES = ("base", "cart", "pivot", "platform", "mount")
 """Names by which a recording may call what the first joint is fixed to."""
 _QUANTITIES = {"m": "kg", "a": "m", "I": "kg*m^2", "L": "m"}
@@ -49,7 +51,10 @@ def rig_model(parameters: Mapping[str, object] | str | os.PathLike, channels: It
     if not isinstance(content, Mapping):
         raise RecordingError(f"{name}: 'parameters' must be an object such as {{\"m1_kg\": 0.09}}")
     table = {_short(k): v for k, v in content.items()}
-    count = max([int(n) for k in table for n in re.findall(r"^[maIL](\d+)_", k)], default=0)
+    numbers = [n for k in table for n in re.findall(r"^[maIL](\d+)_", k)]
+    if any(len(n) > 3 or int(n) > MOST_LINKS for n in numbers):
+        raise RecordingError(f"{name}: the parameters name link {max(numbers, key=len)[:12]}; a rig has {MOST_LINKS} links at most")
+    count = max(map(int, numbers), default=0)
     if count == 0:
         raise RecordingError(f"{name}: no link has a mass; give m1_kg, a1_m and I1_kg_m2 for one link, and m2_kg ... for more")
     needed = {f"{q}{i}": unit for i in range(1, count + 1) for q, unit in _QUANTITIES.items() if q != "L" or i < count}

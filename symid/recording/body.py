@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from symid.errors import RecordingError
+from symid.files import read_json
 from symid.units import known_unit, nearest, same_dimension, split_column_name
 
 _REMARKS = ("source", "description", "comment")
@@ -14,6 +15,10 @@ _REMARKS = ("source", "description", "comment")
 
 _POSITIVE = ("kg", "m", "kg*m^2")
 """What cannot be zero or less, by SI unit: masses, lengths and inertias."""
+
+
+LARGEST = 1e30
+"""No number of a body is larger, in whatever unit."""
 
 
 def read_body(
@@ -65,18 +70,9 @@ def load_table(source: str | os.PathLike | Mapping[str, object]) -> Mapping[str,
     if isinstance(source, Mapping):
         return source
     path = Path(source)
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise RecordingError(f"{path}: there is no such body file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise RecordingError(f"{path}: the body file cannot be read: {error}") from error
-    try:
-        content = json.loads(text, object_pairs_hook=lambda pairs: _unique(path, pairs))
-    except json.JSONDecodeError as error:
-        raise RecordingError(
-            f"{path}: is not JSON: {error.msg} at line {error.lineno}, column {error.colno}"
-        ) from error
+    if not path.exists():
+        raise RecordingError(f"{path}: there is no such body file")
+    content = read_json(path, object_pairs_hook=lambda pairs: _unique(path, pairs))
     if not isinstance(content, dict):
         raise RecordingError(f'{path}: a JSON object such as {{"leg_length_m": 0.84}} is expected')
     return content
@@ -103,13 +99,18 @@ def _entry(key: str, value: object, required: Mapping[str, str]) -> tuple[str, f
     if not same_dimension(text, required[name]):
         raise RecordingError(f"'{key}' is in {text}, but {name} is measured in {required[name]}")
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise RecordingError(f"'{key}' must be a number, found {json.dumps(value)}")
-    if not math.isfinite(value):
-        raise RecordingError(f"'{key}' must be finite, found {value}")
+        raise RecordingError(f"'{key}' must be a number, found {_shown(value)}")
+    if abs(value) > LARGEST or not math.isfinite(value):
+        raise RecordingError(f"'{key}' must be finite, and no number beyond all use, found {_shown(value)}")
     unit = known_unit(text)
     if unit.si in _POSITIVE and value <= 0:
         raise RecordingError(f"'{key}' must be greater than zero, found {value:g}")
     return name, value * unit.factor
+
+
+def _shown(value: object) -> str:
+    text = json.dumps(value, default=str)
+    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _missing(source: Mapping[str, object], required: Mapping[str, str]) -> list[str]:

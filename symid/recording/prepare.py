@@ -13,6 +13,8 @@ from symid.errors import RecordingError
 from symid.recording.recording import Recording
 from symid.units import FloatArray, known_unit
 
+MOST_SAMPLES = 10**8
+"""More samples than this are rather a fault of the time column."""
 _PASSBAND = 0.8  # of the new Nyquist frequency is kept when downsampling
 _ANTI_ALIAS_ORDER = 8  # of the Butterworth filter, before it runs in both directions
 
@@ -72,7 +74,7 @@ def resample(recording: Recording, rate_hz: float) -> Recording:
         if rate_hz < (1 - 1e-9) / old:
             even = lowpass(even, _PASSBAND * rate_hz / 2, order=_ANTI_ALIAS_ORDER)
         start, end = even.interval
-        count = int(np.floor((end - start) * rate_hz * (1 + 1e-12) + 1e-6)) + 1
+        count = int(np.floor(_few_enough(part.name, (end - start) * rate_hz) * (1 + 1e-12) + 1e-6)) + 1
         if count < 2:
             raise RecordingError(f"{part.name}: too short for a rate of {rate_hz:g} Hz")
         time = start + np.arange(count) / rate_hz
@@ -225,7 +227,7 @@ def _resampled(part: Recording, time: FloatArray, channels: dict) -> Recording:
 
 def _grid(time: FloatArray, step: float, name: str) -> FloatArray:
     """Even grid through the first and last time, with as many steps as the median step asks."""
-    count = int(round(float(time[-1] - time[0]) / step))
+    count = round(_few_enough(name, float(time[-1] - time[0]) / step))
     grid = time[0] + (time[-1] - time[0]) / count * np.arange(count + 1)
     places = np.searchsorted(grid, time - step / 2)
     if np.any(np.diff(places) == 0) or np.abs(grid[places] - time).max() > 0.1 * step:
@@ -234,6 +236,16 @@ def _grid(time: FloatArray, step: float, name: str) -> FloatArray:
             f"use resample()"
         )
     return grid
+
+
+def _few_enough(name: str, count: float) -> float:
+    """The number of samples of an even grid; RecordingError where they would not fit into memory."""
+    if not count <= MOST_SAMPLES:
+        raise RecordingError(
+            f"{name}: {count:.3g} samples would be needed, more than {MOST_SAMPLES:.0e}; look at the unit and the jumps of the "
+            f"time column, or take a lower rate"
+        )
+    return count
 
 
 def _check_gaps(part: Recording, name: str, good: np.ndarray, max_gap_s: float):
@@ -262,7 +274,7 @@ def _evened(part: Recording, step: float) -> Recording:
         raise RecordingError(
             f"{part.name}: samples are missing after {part.time[widest]:g} s; use fill_gaps() first"
         )
-    count = int(round((part.time[-1] - part.time[0]) / step))
+    count = round(_few_enough(part.name, float(part.time[-1] - part.time[0]) / step))
     time = np.linspace(part.time[0], part.time[-1], count + 1)
     values = {name: _spline(part.time, part[name], time) for name in part.channels}
     return _resampled(part, time, values)

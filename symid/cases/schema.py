@@ -1,0 +1,51 @@
+"""What a ``case.json`` may hold, as a JSON schema; every violation is told at once, with its place in the file."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from symid.errors import DiagnosisError
+
+_NUMBERS = {"type": "object", "additionalProperties": {"type": ["number", "string"]}}
+_BODY = ("l_L_m", "d_L_m", "d_T_m", "m_L_kg", "m_T_kg", "I_L_kg_m2", "I_T_kg_m2")
+SCHEMA = {
+    "type": "object",
+    "required": ["system"],
+    "properties": {
+        "id": {"type": "string", "maxLength": 200},
+        "system": {"type": "string"},
+        "body": {"type": "object", "properties": {
+            key: {"type": "number", "exclusiveMinimum": 0, "maximum": 1e6} for key in _BODY}},
+        "parameters": _NUMBERS,
+        "gravity_m_s2": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e3},
+        "baseline": {"type": "object", "properties": {
+            "controller": {"type": "string"}, "terms": {"type": "array", "items": {"type": "string"}}}},
+    },
+}
+"""Keys that it does not name are for people. Windows and noise have checks of their own (`symid.cases.case`)."""
+MOST = 5
+"""Violations that one message lists."""
+
+
+def refuse_violations(facts: object, path: Path) -> None:
+    """DiagnosisError that lists what in a case's JSON is not as `SCHEMA` says."""
+    from jsonschema import Draft202012Validator
+
+    found = sorted(Draft202012Validator(SCHEMA).iter_errors(facts), key=lambda e: e.json_path)
+    if found:
+        said = [f"{e.json_path.removeprefix('$').lstrip('.') or 'the whole'}: {_reason(e)}" for e in found[:MOST]]
+        more = [f"and {len(found) - MOST} more"] if len(found) > MOST else []
+        raise DiagnosisError(f"{path}: " + "; ".join(said + more))
+
+
+def _reason(error) -> str:
+    text = json.dumps(error.instance, default=str)
+    text = text if len(text) <= 40 else text[:37] + "..."
+    kinds = {"type": "must be a {}", "exclusiveMinimum": "must be above {}", "maximum": "must be at most {:g}",
+             "maxLength": "must have at most {} letters"}
+    if error.validator == "required":
+        return error.message
+    wanted = error.validator_value
+    wanted = " or ".join(wanted) if isinstance(wanted, list) else wanted
+    return f"{kinds.get(error.validator, error.message).format(wanted)}, found {text}"
