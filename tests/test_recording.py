@@ -827,7 +827,7 @@ def test_bodies_that_are_refused(change, message):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("{'leg': 1}", "is not JSON: .* at line 1, column 2"),
+        ("{'leg': 1}", "is not JSON: .*line 1 column 2"),
         ("", "is not JSON"),
         ("[1, 2]", "a JSON object such as"),
         ('{"leg_mass_kg": 1, "leg_mass_kg": 2}', "the key 'leg_mass_kg' occurs twice"),
@@ -841,7 +841,7 @@ def test_body_files_that_are_refused(tmp_path, text, message):
 def test_a_body_file_that_is_not_there(tmp_path):
     with pytest.raises(RecordingError, match="there is no such body file"):
         read_body(tmp_path / "body.json", PLAIN)
-    with pytest.raises(RecordingError, match="the body file cannot be read"):
+    with pytest.raises(RecordingError, match="cannot be read"):
         read_body(tmp_path, PLAIN)
 
 

@@ -100,8 +100,10 @@ def _entry(key: str, value: object, required: Mapping[str, str]) -> tuple[str, f
         raise RecordingError(f"'{key}' is in {text}, but {name} is measured in {required[name]}")
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise RecordingError(f"'{key}' must be a number, found {_shown(value)}")
-    if abs(value) > LARGEST or not math.isfinite(value):
-        raise RecordingError(f"'{key}' must be finite, and no number beyond all use, found {_shown(value)}")
+    if isinstance(value, float) and not math.isfinite(value):
+        raise RecordingError(f"'{key}' must be finite, found {value}")
+    if abs(value) > LARGEST:
+        raise RecordingError(f"'{key}' is {_shown(value)}, a number beyond all use")
     unit = known_unit(text)
     if unit.si in _POSITIVE and value <= 0:
         raise RecordingError(f"'{key}' must be greater than zero, found {value:g}")
