@@ -101,7 +101,7 @@ class Search:
         terms, others = {s.term for s in found.suspects}, {}
         for h in self.tried:
             new = [s for s in h.suspects if s.term not in terms]
-            if len(h.suspects) == len(found.suspects) and len(new) == 1:
+            if len(h.suspects) == len(found.suspects) and len(new) == 1 and h.doubt() < POLICY.harmonic:
                 share = max(h, found, key=lambda k: k.log_ratio).share
                 if h.evidence(share) > found.evidence(share) - POLICY.equivalent:
                     kept = [s for s in h.suspects if s.term in terms]
