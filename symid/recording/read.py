@@ -23,13 +23,14 @@ OTHER_FORMATS = (".tsv", ".xlsx", ".parquet", ".c3d", ".trc", ".mot", ".sto", ".
 """Endings of files that are not comma-separated text; those have readers of their own."""
 _FULL_TURN = 2 * np.pi
 _CURES = {
-    "gap": "read with allow_gaps=True (--allow-gaps), which gives what is missing no weight (or mark the parts in "
-    "a 'segment' column)",
-    "uneven": "read with allow_gaps=True (--allow-gaps)",
+    "gap": "read with allow_gaps=True (symid identify --allow-gaps), which gives what is missing no weight (or mark "
+    "the parts in a 'segment' column)",
+    "uneven": "read with allow_gaps=True (symid identify --allow-gaps)",
     "repeated": "remove the row, or mark separate runs in a 'segment' column",
     "backwards": "sort the rows, or mark separate runs in a 'segment' column",
     "single": "record more, or remove the row",
 }
+_NO_WEIGHT = "read with allow_gaps=True (symid identify --allow-gaps), which gives it no weight"
 _MISSING = {"", "nan", "na", "n/a", "null", "none"}
 
 
@@ -106,7 +107,7 @@ def _read_other(path: Path, mapping, allow_gaps: bool) -> tuple[list[Column], di
         if len(wrong) and not (allow_gaps and column.unit and column.name != "time" and not np.isinf(values).any()):
             raise RecordingError(
                 f"{path}: column '{column.text}', row {wrong[0] + 1}: a value is missing or not finite"
-                + ("; read with allow_gaps=True (--allow-gaps), which gives it no weight" if column.name != "time" else "")
+                + (f"; {_NO_WEIGHT}" if column.name != "time" else "")
             )
     if table["time"].size < 2:
         raise RecordingError(f"{path}: a recording needs at least two samples")
@@ -208,7 +209,7 @@ def _cell_fault(column: Column, cell: str, allow_gaps: bool) -> str | None:
         if allow_gaps and column.unit and column.name != "time":
             return None
         found = f"'{cell}'" if cell else "nothing"
-        cure = "; read with allow_gaps=True (--allow-gaps), which gives it no weight" if column.unit else ""
+        cure = f"; {_NO_WEIGHT}" if column.unit else ""
         return f"a value is missing (found {found}){cure if column.name != 'time' else ''}"
     if column.name == "split":
         return None
