@@ -15,8 +15,18 @@ from scipy.optimize import OptimizeResult, least_squares
 from symid.estimation.bounds import parameter_bounds
 from symid.simulation import Trajectory, simulator
 from symid.transcription import Measured, Transcription
+from symid.transcription.scales import RANGE
 
 MAX_EVALUATIONS = 15
+GAINS = (0.7, 0.3, 0.1, 0.03)
+"""Shares of the output error by which a simulation is led back to the recording at each sample, one fit after the other
+(homotopy: Vyasarayani, Uchida & McPhee 2012). Led strongly, no model runs away from the recording, and what is fitted is
+nearly the equation error, which has one optimum; led by nothing it is the output error."""
+DRAWS, BEST, PATIENCE = 24, 4, 60
+"""Random parameters tried where states are hidden, how many of all fits with the strongest gain go on, and the
+evaluations that each may take from there."""
+ALIKE = 1.02
+"""Costs within 2 % are taken for those of the same optimum."""
 
 
 def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarray, list[np.ndarray]] | None:
@@ -30,7 +40,10 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarra
     if len(t.layout.parameter_names) != len(t.model.parameters) or not t.layout.n or t.layout.beside_names or t.layout.own_names:
         return None
     shooting = _Shooting(t)
-    ends = [shooting.fit(z) for z in map(shooting.unknowns, candidates) if shooting.follows(z)]
+    starts = [shooting.unknowns(c) for c in candidates]
+    ends = [shooting.fit(z) for z in starts if shooting.follows(z)]
+    if not agree([end.cost for end in ends], len(starts)) or shooting.hidden:
+        ends += shooting.led(starts)
     if not ends:
         return None
     found = min(ends, key=lambda end: end.cost).x
@@ -40,12 +53,17 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarra
     return (found * shooting.scale)[:len(t.layout.parameter_names)], [run.x for run in runs]
 
 
+def agree(costs: Sequence[float], count: int) -> bool:
+    """Whether all of `count` fits ended, with like costs."""
+    return len(costs) == count and max(costs) <= ALIKE * min(costs)
+
+
 class _Shooting:
     """Output error as a function of z: scaled parameters, then the initial state of each recording."""
 
     def __init__(self, t: Transcription):
-        self.t, self.simulator = t, simulator(t.model)
-        self.weights = root_weights(t) * np.sqrt([[m.step] for m in t.measured])
+        self.t, self.simulator, self.q, self.gain = t, simulator(t.model), len(t.layout.parameter_names), 0.0
+        self.weights = root_weights(t) * np.sqrt([[m.step] for m in t.measured]) / np.sqrt(t.program.objective_scale)
         self.scale = np.concatenate([t.layout.parameter_scale, np.tile(t.layout.state_scale, len(t.measured))])
         free = np.full(t.layout.n * len(t.measured), np.inf)
         self.lower, self.upper = (np.concatenate([b, side]) / self.scale
@@ -53,8 +71,57 @@ class _Shooting:
 
     def unknowns(self, parameters: np.ndarray) -> np.ndarray:
         """z of these parameters (SI) and the recorded initial states, inside the bounds."""
-        z = np.concatenate([parameters, *(m.states[m.first] for m in self.t.measured)]) / self.scale
+        first = [np.where(self.unseen(m), self.size, m.states[m.first]) for m in self.t.measured]
+        z = np.concatenate([parameters, *first]) / self.scale
         return np.clip(z, np.nextafter(self.lower, np.inf), np.nextafter(self.upper, -np.inf))
+
+    @property
+    def size(self) -> np.ndarray:
+        """(n,) a value of each state as large as its motion, within its bounds."""
+        bounds = np.array([s.bounds for s in self.t.model.states.values()], dtype=float).reshape(-1, 2)
+        return np.clip(self.t.layout.state_scale / RANGE, *bounds.T)
+
+    @staticmethod
+    def unseen(m: Measured) -> np.ndarray:
+        """(n,) whether nothing recorded shows a state."""
+        return ~np.any(m.states[m.nodes] != 0, axis=0)
+
+    @property
+    def hidden(self) -> bool:
+        return any(self.unseen(m).any() for m in self.t.measured)
+
+    def led(self, starts: Sequence[np.ndarray]) -> list[OptimizeResult]:
+        """Output-error fits that begin where fits of led simulations end."""
+        draws = [self.drawn(k) for k in range(DRAWS)] if self.hidden else []
+        ends = sorted((self.fit(z, GAINS[0]) for z in (*starts, *draws)), key=lambda end: end.cost)[:BEST]
+        for gain in (*GAINS[1:], 0.0):
+            ends = [self.fit(end.x, gain, PATIENCE) for end in ends]
+        return [end for end in ends if self.follows(end.x)]
+
+    def drawn(self, number: int) -> np.ndarray:
+        """z of random parameters within their bounds, over four decades where these do not change sign."""
+        draw = np.random.default_rng(np.random.SeedSequence(0, spawn_key=(number,)))
+        lower, upper = (b * self.scale[:len(b)] for b in (self.lower[:self.q], self.upper[:self.q]))
+        size = self.scale[:self.q]
+        low, high = np.where(np.isfinite(lower), lower, -size), np.where(np.isfinite(upper), upper, size)
+        even, decades = draw.uniform(low, high), high * 10 ** draw.uniform(np.log10(np.maximum(low, 1e-4 * high) / high), 0) \
+            if np.all(high > 0) else draw.uniform(low, high)
+        return self.unknowns(np.where(low >= 0, decades, even))
+
+    def gains(self, r: int, gain: float) -> np.ndarray | None:
+        """(n, m) corrections at each sample: the states that outputs show by `gain` of the output error, and their rates
+        as a critically damped alpha-beta filter does (Kalata 1984)."""
+        if not gain:
+            return None
+        model, states = self.t.model, list(self.t.model.states)
+        shown = {str(y.expr): j for j, y in enumerate(model.outputs.values()) if str(y.expr) in states}
+        matrix = np.zeros((len(states), len(model.outputs)))
+        for state, j in shown.items():
+            matrix[states.index(state), j] = gain
+        for rate, of in model.rates().items():
+            if rate not in shown and of in shown:
+                matrix[states.index(rate), shown[of]] = gain**2 / (2 - gain) / self.t.measured[r].step
+        return matrix
 
     def _initial(self, r: int) -> slice:
         first = len(self.t.layout.parameter_names) + self.t.layout.n * r
@@ -67,7 +134,8 @@ class _Shooting:
         values = z * self.scale
         return self.simulator.simulate(
             values[:len(names)], values[self._initial(r)], m.time[m.nodes], {k: u[m.nodes] for k, u in m.inputs.items()},
-            noise=noise, history=self._history(m), limit=self.t.diverged, **wanted)
+            noise=noise, history=self._history(m), limit=self.t.diverged, gain=self.gains(r, self.gain),
+            recorded=m.recorded if self.gain else None, **wanted)
 
     def _history(self, m: Measured) -> tuple[np.ndarray, np.ndarray] | None:
         """Recorded states before the window, for delayed signals."""
@@ -94,9 +162,15 @@ class _Shooting:
                   for m, w in zip(self.t.measured, self.weights, strict=True)]
         return bool(np.sum(self.residual(z) ** 2) < np.sum(spread))
 
-    def fit(self, z: np.ndarray) -> OptimizeResult:
-        return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
-                             max_nfev=MAX_EVALUATIONS, ftol=1e-3)
+    def fit(self, z: np.ndarray, gain: float = 0.0, evaluations: int = MAX_EVALUATIONS) -> OptimizeResult:
+        """Least squares from `z`, of simulations that are led back to the recording by `gain`."""
+        self.gain = gain
+        try:
+            z = np.clip(z, np.nextafter(self.lower, np.inf), np.nextafter(self.upper, -np.inf))
+            return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
+                                 max_nfev=evaluations, ftol=1e-3)
+        finally:
+            self.gain = 0.0
 
 
 def root_weights(t: Transcription) -> np.ndarray:

@@ -47,6 +47,14 @@ def smooth_states(
     return recording
 
 
+def smooth_curves(values: FloatArray, step: float) -> FloatArray:
+    """Even samples, shape(N,), smoothed by cross-validation, their rate and its rate, shape(3, N), per second."""
+    if values.size < 5 or not np.ptp(values) > 0:
+        return np.stack([values, np.zeros(values.size), np.zeros(values.size)])
+    size = float(np.std(values))
+    return size * _spline(values / size, _smoothing_weight([values / size], None), step)
+
+
 def _smoothed(recording: Recording, channel: str, noise: float | None) -> Recording:
     values = recording[channel]
     step = recording.even_step("smooth_states")

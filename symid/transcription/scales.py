@@ -92,9 +92,8 @@ def rate_scale(measured: Sequence[Measured], scale: np.ndarray) -> np.ndarray:
 
 
 def natural_size(sizes: Sizes, rates: np.ndarray) -> np.ndarray:
-    """(q,) SI: how large a parameter must be to matter in an equation as much as its rates; 0 if unknown."""
-    content = (sizes.states * rates).max(axis=1, initial=0.0)
-    content = np.where(content > 0, content, sizes.residual)[:, None]
+    """(q,) SI: how large a parameter must be to matter in an equation as much as the rest of it; 0 if unknown."""
+    content = np.maximum((sizes.states * rates).max(axis=1, initial=0.0), sizes.residual)[:, None]
     size = np.divide(content, sizes.parameters, out=np.full(sizes.parameters.shape, np.inf), where=sizes.parameters > 0)
     least = size.min(axis=0, initial=np.inf)
     return np.where(np.isfinite(least), least, 0.0)

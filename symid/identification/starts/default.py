@@ -11,6 +11,7 @@ from symid.errors import SolveError
 from symid.estimation.bounds import guesses, parameter_bounds
 from symid.estimation.shooting import shoot
 from symid.model import nearest
+from symid.recording.smooth import smooth_curves
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
@@ -43,9 +44,28 @@ def default_start(t: Transcription) -> tuple[np.ndarray, bool]:
     Where the loop that the regression finds cannot be simulated, the recorded motion with the
     regressed parameters is the start. Also whether it could.
     """
-    candidates = _equation_error_of_lags(t)
+    candidates = [*_equation_error_of_lags(t), equation_error(t, guesses(t), smooth_motion(t))[0]]
     shot = shoot(t, candidates)
     return (t.start(candidates[0]), False) if shot is None else (t.start(*shot), True)
+
+
+def smooth_motion(t: Transcription) -> list[np.ndarray]:
+    """Per episode (samples, n) recorded states, smoothed by cross-validation, with rates that are theirs.
+
+    Differences of noisy samples make a regression's regressors noisy, and its parameters too small.
+    """
+    states, of = list(t.model.states), t.model.rates()
+    smooth = []
+    for m in t.measured:
+        x = m.states[m.nodes]
+        curves = np.array([smooth_curves(column, m.step) for column in x.T]).reshape(len(states), 3, -1)
+        out = curves[:, 0].T.copy()
+        for rate, state in of.items():
+            i, j = states.index(rate), states.index(state)
+            if np.array_equal(m.states[:, i], np.gradient(m.states[:, j], m.time, edge_order=2)):
+                out[:, i] = curves[j, 1]
+        smooth.append(out)
+    return [smooth[r] for r in t.recording_of]
 
 
 def _equation_error_of_lags(t: Transcription) -> list[np.ndarray]:
@@ -73,7 +93,7 @@ def _equation_error_of_lags(t: Transcription) -> list[np.ndarray]:
     return [regress(lag)[0] for lag in (found.x, lo)]
 
 
-def equation_error(t: Transcription, first: np.ndarray) -> tuple[np.ndarray, float]:
+def equation_error(t: Transcription, first: np.ndarray, states: list[np.ndarray] | None = None) -> tuple[np.ndarray, float]:
     """Parameters (free parameters,) SI with which the recorded motion satisfies the equations best.
 
     With states and their differences taken from the recording, the residuals of the intervals
@@ -82,7 +102,7 @@ def equation_error(t: Transcription, first: np.ndarray) -> tuple[np.ndarray, flo
     """
     at, kernel = t.layout.offsets[-1], t.program.interval
     lower, upper = (b[at:] for b in (t.program.lower, t.program.upper))
-    z = t.start(first)
+    z = t.start(first, states)
     shared = kernel.jacobian_cols >= kernel.n_local
     rows, cols = kernel.jacobian_rows[shared], kernel.jacobian_cols[shared] - kernel.n_local
     used = np.unique(rows)
