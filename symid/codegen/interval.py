@@ -106,7 +106,8 @@ def objective_program(model: Model, gaps: bool = False, robust: Collection[str] 
     """
     observed = model.observed()
     data = used_data(model, observed)
-    recorded, weights, present, width = ([at(y, what) for y in model.outputs] for what in ("recorded", "weight", "present", "width"))
+    recorded, weights, present, width = ([at(y, what) for y in model.outputs]
+                                         for what in ("recorded", "weight", "present", "width"))
     table, error = node_table(model), sm.Integer(0)
     for i, (name, y) in enumerate(zip(model.outputs, observed, strict=True)):
         e = y.xreplace(table) - recorded[i]

@@ -36,7 +36,8 @@ class Stencil:
 
     def __post_init__(self):
         for name in ("abscissae", "state", "rate", "weights", "defects", "inside"):
-            array = np.asarray(getattr(self, name) if getattr(self, name) is not None else np.zeros(self.points), dtype=float)
+            given = getattr(self, name)
+            array = np.asarray(np.zeros(self.points) if given is None else given, dtype=float)
             array.setflags(write=False)
             object.__setattr__(self, name, array)
 

@@ -40,7 +40,8 @@ def refuse_wrong_types(problem: Identification) -> None:
         raise TranscriptionError(f"an Identification begins with a Model, not {_shown(problem.model)}")
     refuse_scheme(problem.scheme)
     if not isinstance(problem.episodes, Episodes):
-        raise TranscriptionError(f"episodes={_shown(problem.episodes)}: give Episodes(count, amplitude), for instance Episodes(3, 0.25)")
+        raise TranscriptionError(
+            f"episodes={_shown(problem.episodes)}: give Episodes(count, amplitude), for instance Episodes(3, 0.25)")
     if isinstance(problem.per_recording, str) or not isinstance(problem.per_recording, Sequence):
         raise TranscriptionError(f"per_recording={_shown(problem.per_recording)}: give a list of names of parameters")
     for name in ("weights", "loss"):
@@ -48,7 +49,8 @@ def refuse_wrong_types(problem: Identification) -> None:
         if table is not None and not isinstance(table, Mapping):
             raise TranscriptionError(f"{name}={_shown(table)}: give a dictionary of output name -> number")
     if problem.window is not None and not _is_window(problem.window):
-        raise TranscriptionError(f"window={_shown(problem.window)}: give (t0, t1) [s], or one such pair for each recording")
+        raise TranscriptionError(
+            f"window={_shown(problem.window)}: give (t0, t1) [s], or one such pair for each recording")
 
 
 def refuse_scheme(scheme) -> None:
@@ -61,7 +63,8 @@ def _is_window(window) -> bool:
     if not isinstance(window, Sequence) or isinstance(window, str) or not len(window):
         return False
     pairs = [window] if isinstance(window[0], (int, float)) else window
-    return all(p is None or (isinstance(p, Sequence) and len(p) == 2 and all(isinstance(t, (int, float)) for t in p)) for p in pairs)
+    return all(p is None or (isinstance(p, Sequence) and len(p) == 2 and all(
+        isinstance(t, (int, float)) for t in p)) for p in pairs)
 
 
 def _shown(thing) -> str:

@@ -177,7 +177,9 @@ def row_of(condition, lower: float | None = None, upper: float | None = None) ->
         raise ModelError(f"the condition {condition} is a comparison already: give no lower and upper besides")
     if isinstance(condition, sm.Ne):
         raise ModelError(f"the condition {condition} cannot be a constraint; use <=, >= or sympy.Eq")
-    small, large = (condition.lhs, condition.rhs) if isinstance(condition, (sm.Eq, sm.Le, sm.Lt)) else (condition.rhs, condition.lhs)
+    small, large = condition.lhs, condition.rhs
+    if not isinstance(condition, (sm.Eq, sm.Le, sm.Lt)):
+        small, large = large, small
     if isinstance(condition, sm.Eq):
         return Row(small, float(large), float(large)) if large.is_number else Row(small - large, 0.0, 0.0)
     if isinstance(small, sm.Abs) and large.is_number:

@@ -200,7 +200,8 @@ class Model:
 
     def with_bounds(self, **bounds: Bounds) -> Model:
         """A new model with other bounds on states, controls or parameters [in their own units]."""
-        return self._with({k: replace(self._part(k, (State, Algebraic, Control, Parameter)), bounds=b) for k, b in bounds.items()})
+        return self._with({k: replace(self._part(k, (State, Algebraic, Control, Parameter)), bounds=b)
+                          for k, b in bounds.items()})
 
     def fixed(self, **values: float) -> Model:
         """A new model in which these parameters are known constants."""
@@ -244,7 +245,8 @@ class Model:
     def _part(self, name: str, kind) -> Component:
         part = self[name]
         if not isinstance(part, kind):
-            raise ModelError(f"model '{self.name}': '{name}' is a {type(part).__name__}, which has no such thing to set")
+            raise ModelError(
+                f"model '{self.name}': '{name}' is a {type(part).__name__}, which has no such thing to set")
         return part
 
     def _with(self, parts: Mapping[str, Component]) -> Model:
@@ -303,7 +305,8 @@ class Model:
         return self
 
     def __repr__(self) -> str:
-        counts = [(len(self._of(k)), k.__name__.lower()) for k in (State, Algebraic, Control, Input, Parameter, Constant, Equation, Output)]
+        counts = [(len(self._of(k)), k.__name__.lower())
+                   for k in (State, Algebraic, Control, Input, Parameter, Constant, Equation, Output)]
         return f"<Model '{self.name}': " + ", ".join(f"{n} {k}{'s' * (n != 1)}" for n, k in counts if n) + ">"
 
     def _repr_html_(self) -> str:

@@ -43,7 +43,8 @@ def with_duration(model: Model, duration) -> tuple[Model, float, str | None]:
             raise TranscriptionError(f"duration: '{duration.name}' is no parameter of model '{model.name}'")
         lower, upper = model[duration.name].bounds
         if not 0 < lower <= upper < float("inf"):
-            raise TranscriptionError(f"duration: the parameter '{duration.name}' needs finite bounds above 0 s, not {lower} to {upper}")
+            raise TranscriptionError(
+                f"duration: the parameter '{duration.name}' needs finite bounds above 0 s, not {lower} to {upper}")
         timed = model.copy()
         timed.components[duration.name] = replace(model[duration.name], role="duration")
         return timed, 1.0, duration.name

@@ -40,7 +40,8 @@ def start_vector(problem: Optimization, given: Mapping | Plan | None) -> np.ndar
 def _parameter(part, value) -> float:
     lo, hi = part.bounds
     if value is None:
-        value = part.guess if part.guess is not None else 0.5 * (lo + hi) if np.isfinite([lo, hi]).all() else np.clip(0.0, lo, hi)
+        middle = 0.5 * (lo + hi) if np.isfinite([lo, hi]).all() else np.clip(0.0, lo, hi)
+        value = middle if part.guess is None else part.guess
     return float(value)
 
 

@@ -110,7 +110,8 @@ class Optimization:
         plans = []
         for k in range(starts):
             z = first if k == 0 else shaken(self, first, seed, k)
-            plans.append(Plan(self, solve_nlp(self.transcription.nonlinear_program(z), on_iteration=on_iteration, **solver)))
+            nlp = self.transcription.nonlinear_program(z)
+            plans.append(Plan(self, solve_nlp(nlp, on_iteration=on_iteration, **solver)))
         return min(plans, key=lambda plan: (not plan.solved, plan.objective))
 
     def __repr__(self) -> str:
@@ -121,7 +122,8 @@ def _shares(nodes) -> np.ndarray:
     """(nodes,) places of the nodes as shares of the duration."""
     if isinstance(nodes, (int, np.integer)) and nodes >= 3:
         return np.linspace(0.0, 1.0, nodes)
-    shares = np.array(nodes if isinstance(nodes, (Sequence, np.ndarray)) and not isinstance(nodes, str) else [], dtype=float)
+    several = isinstance(nodes, (Sequence, np.ndarray)) and not isinstance(nodes, str)
+    shares = np.array(nodes if several else [], dtype=float)
     if shares.ndim != 1 or len(shares) < 3 or shares[0] != 0 or shares[-1] != 1 or not (np.diff(shares) > 0).all():
         raise TranscriptionError(f"nodes={nodes!r}: give a whole number of at least 3, or shares of the duration that increase "
                                  "from 0 to 1")

@@ -133,7 +133,8 @@ def measure(model: Model, recording: Recording, window: tuple[float, float] | No
             raise TranscriptionError(f"the input '{u.name}' is missing in {len(gaps)} samples of {recording.name}, first at "
                                      f"{recording.time[gaps[0]]:g} s: an input must be known throughout; use "
                                      "symid.recording.fill_gaps, or declare it as a Control that is estimated")
-    channels = {name: filled(recording.time, recording.channels[name], name, recording.name) for name in needed_channels(model, recording)}
+    channels = {name: filled(recording.time, recording.channels[name], name, recording.name)
+                for name in needed_channels(model, recording)}
     outputs = [y.channel for y in model.outputs.values()]
     targets = np.column_stack([channels[c] for c in outputs]) if outputs else np.zeros((len(recording.time), 0))
     present = np.column_stack([np.isfinite(recording.channels[c]) for c in outputs]) if outputs else np.ones((0, 0), bool)
@@ -144,7 +145,8 @@ def measure(model: Model, recording: Recording, window: tuple[float, float] | No
 
 def needed_channels(model: Model, recording: Recording) -> list[str]:
     """The channels of outputs, and those that have the name of a state."""
-    return list(dict.fromkeys([*(y.channel for y in model.outputs.values()), *(s for s in model.states if s in recording.channels)]))
+    of_states = [s for s in model.states if s in recording.channels]
+    return list(dict.fromkeys([*(y.channel for y in model.outputs.values()), *of_states]))
 
 
 def filled(time: np.ndarray, values: np.ndarray, channel: str, name: str) -> np.ndarray:

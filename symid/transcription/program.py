@@ -121,7 +121,8 @@ class CollocationProgram:
         return out
 
     def _constraint_blocks(self) -> list[tuple[Block, int]]:
-        return [*zip(self.intervals, self.row_starts, strict=False), *zip(self.demanded, self.demand_starts, strict=False)]
+        return [*zip(self.intervals, self.row_starts, strict=False),
+                *zip(self.demanded, self.demand_starts, strict=False)]
 
     def jacobian(self, z: np.ndarray) -> np.ndarray:
         """(nnz,) values in the order of `jacobian_rows` and `jacobian_cols`."""
