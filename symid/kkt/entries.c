@@ -24,7 +24,8 @@ static void find_touched(Tree *t, const int *front_at, int64_t nz, const int *ir
 
 /* Fills `t->entry`, by front; those of the border alone come last. */
 static int place_entries(Tree *t, int64_t nz, const int *irn, const int *jcn) {
-    int *front_at = malloc(sizeof(int) * (t->n + 1)), *border_place = malloc(sizeof(int) * ((size_t)(t->tasks + 1) * t->border + 1));
+    int *front_at = malloc(sizeof(int) * (t->n + 1));
+    int *border_place = malloc(sizeof(int) * ((size_t)(t->tasks + 1) * t->border + 1));
     int64_t *at = zeros(t->fronts + 2, sizeof(int64_t));
     for (int f = 0; f < t->fronts; f++)
         for (int k = 0; k < t->front[f].own; k++) front_at[t->front[f].first + k] = f;
@@ -46,7 +47,8 @@ static int place_entries(Tree *t, int64_t nz, const int *irn, const int *jcn) {
         const Front *v = &t->front[f];
         int row = high - t->top, column = low - (f < t->fronts ? v->first : t->top);
         if (f < t->fronts)
-            row = high >= t->top ? v->own + v->chain + border_place[(size_t)v->task * t->border + row] : place_in(t, v, high);
+            row = high < t->top ? place_in(t, v, high)
+                                : v->own + v->chain + border_place[(size_t)v->task * t->border + row];
         complete = row >= 0 && row < WIDEST_FRONT && column < WIDEST_FRONT;
         t->entry[at[f]++] = (Entry){(int)k, (unsigned short)row, (unsigned short)column};
     }

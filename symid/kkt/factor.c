@@ -6,7 +6,8 @@
 #define BATCH 32            /* pivots whose traces on the border are subtracted at once */
 #define MANY_DELAYED 16     /* a front with more delayed unknowns takes pivots down to WEAK, */
 #define WEAK 1e-11
-#define MOST_DELAYED 200    /* ... with more than this any */
+#define MOST_DELAYED 200    /* ... with more than this ANY */
+#define ANY 1e-30
 
 typedef struct {
     Arena factors, handed; /* handed: what fronts give to their parents, last in first out */
@@ -94,9 +95,9 @@ static void leave_on_border(Work *w, const Part *p, int chain, int touched, int 
     int stride = padded(touched);
     for (int k = 0; k < p->pivots; k++) {
         if (w->batched == BATCH) subtract_batch(w, touched);
-        memcpy(w->left + (size_t)w->batched * stride, p->panel + (size_t)k * p->stride + p->base + chain, sizeof(double) * touched);
-        memcpy(w->right + (size_t)w->batched * stride, w->columns + (size_t)k * columns_stride + chain, sizeof(double) * touched);
-        w->batched++;
+        size_t at = (size_t)w->batched++ * stride, bytes = sizeof(double) * touched;
+        memcpy(w->left + at, p->panel + (size_t)k * p->stride + p->base + chain, bytes);
+        memcpy(w->right + at, w->columns + (size_t)k * columns_stride + chain, bytes);
     }
 }
 
@@ -112,8 +113,9 @@ static int hand_over(Factor *s, Work *w, int f, int chain, int touched) {
         memcpy(p->rest + (size_t)j * p->rest_stride, x + p->pivots, sizeof(double) * late);
         memcpy(p->rest + (size_t)j * p->rest_stride + late, x + p->base, sizeof(double) * outer);
     }
-    for (int j = 0; j < chain; j++)
-        memcpy(p->rest + (size_t)(late + j) * p->rest_stride + late, w->square + (size_t)j * square_stride, sizeof(double) * outer);
+    double *to = p->rest + (size_t)late * p->rest_stride + late;
+    for (int j = 0; j < chain; j++, to += p->rest_stride)
+        memcpy(to, w->square + (size_t)j * square_stride, sizeof(double) * outer);
     w->counts.delayed += late;
     return 1;
 }
@@ -121,10 +123,12 @@ static int hand_over(Factor *s, Work *w, int f, int chain, int touched) {
 /* Memory of a front with `size` fully summed and `outer` other rows, all zero. */
 static int open_front(Work *w, Part *p, int size, int chain, int outer) {
     p->size = size, p->base = padded(size), p->stride = p->base + padded(outer);
-    size_t head = padded((size + 1) / 2 + 2 * size), area = (size_t)p->stride * size, square = (size_t)padded(outer) * chain;
+    size_t head = padded((size + 1) / 2 + 2 * size), area = (size_t)p->stride * size;
+    size_t square = (size_t)padded(outer) * chain;
+    size_t columns = (size_t)padded(outer) * size + 2 * (size_t)p->stride + size;
     double *block = take(&w->factors, head + area);
     if (!block || !make_room(&w->square, &w->square_room, square)
-        || !make_room(&w->columns, &w->columns_room, (size_t)padded(outer) * size + 2 * (size_t)p->stride + size)) return 0;
+        || !make_room(&w->columns, &w->columns_room, columns)) return 0;
     p->rows = (int *)block, p->inverse = block + (size + 1) / 2, p->panel = block + head;
     w->column = w->columns + (size_t)padded(outer) * size;
     p->initial = w->column + 2 * (size_t)p->stride;
@@ -163,10 +167,11 @@ static int factorise_front(Factor *s, Work *w, int f) {
     }
     if (first >= 0 && t->front[first].task == v->task && v->task < t->tasks) back_to(&w->handed, s->mark[first]);
     mirror(p);
-    int late = delayed - v->own;
-    factorise_panel(p, late > MOST_DELAYED ? 1e-30 : late > MANY_DELAYED ? WEAK : s->threshold, w->column, w->columns, padded(outer), &w->counts);
-    update(w->square, padded(outer), outer, v->chain, p->panel + p->base, p->stride, w->columns, padded(outer), p->pivots);
-    leave_on_border(w, p, v->chain, touched, padded(outer));
+    int late = delayed - v->own, stride = padded(outer);
+    double threshold = late > MOST_DELAYED ? ANY : late > MANY_DELAYED ? WEAK : s->threshold;
+    factorise_panel(p, threshold, w->column, w->columns, stride, &w->counts);
+    update(w->square, stride, outer, v->chain, p->panel + p->base, p->stride, w->columns, stride, p->pivots);
+    leave_on_border(w, p, v->chain, touched, stride);
     if (!hand_over(s, w, f, v->chain, touched)) return 0;
     w->counts.factor += (int64_t)p->pivots * p->stride;
     if (p->pivots < p->size) give_back(&w->factors, p->panel + (size_t)p->pivots * p->stride);
@@ -203,8 +208,10 @@ static int factorise_border(Factor *s) {
     for (int b = 0; b <= t->tasks; b++) {
         const TaskPlan *plan = &t->plan[b];
         for (int j = 0; j < plan->border; j++)
-            for (int i = j; i < plan->border; i++)
-                *place(&target, plan->touched[i], plan->touched[j]) += s->work[b].border[(size_t)j * padded(plan->border) + i];
+            for (int i = j; i < plan->border; i++) {
+                double x = s->work[b].border[(size_t)j * padded(plan->border) + i];
+                *place(&target, plan->touched[i], plan->touched[j]) += x;
+            }
     }
     int delayed = t->border;
     for (int c = t->child[t->fronts]; c >= 0; c = t->sibling[c]) {

@@ -50,8 +50,10 @@ static Slot *slot_for(int n, int64_t nz, uint64_t pattern, int *known) {
         *known = !s->used && s->factor.tree.n == n && s->nz == nz && s->pattern == pattern && s->factor.part;
         if (*known) return s;
     }
-    for (int i = 0; i < SLOTS; i++)
-        if (!oldest || slots[i].used < oldest->used || (slots[i].used == oldest->used && slots[i].last < oldest->last)) oldest = &slots[i];
+    for (int i = 0; i < SLOTS; i++) {
+        Slot *s = &slots[i];
+        if (!oldest || s->used < oldest->used || (s->used == oldest->used && s->last < oldest->last)) oldest = s;
+    }
     *known = oldest->factor.tree.n == n && oldest->nz == nz && oldest->pattern == pattern && oldest->factor.part;
     return oldest;
 }
@@ -91,8 +93,9 @@ void ma27ad_(const int *n, const int *nz, const int *irn, const int *jcn, int *i
     report.seconds_analysis += seconds() - began;
 }
 
-void ma27bd_(const int *n, const int *nz, const int *irn, const int *jcn, double *a, const int *la, int *iw, const int *liw,
-             int *ikeep, const int *nsteps, int *maxfrt, int *iw1, const int *icntl, double *cntl, int *info) {
+void ma27bd_(const int *n, const int *nz, const int *irn, const int *jcn, double *a, const int *la, int *iw,
+             const int *liw, int *ikeep, const int *nsteps, int *maxfrt, int *iw1, const int *icntl, double *cntl,
+             int *info) {
     (void)la, (void)liw, (void)nsteps, (void)iw1, (void)icntl;
     double began = seconds();
     Slot *s = &slots[ikeep[0]];
@@ -114,8 +117,8 @@ void ma27bd_(const int *n, const int *nz, const int *irn, const int *jcn, double
     report.seconds_factor += seconds() - began;
 }
 
-void ma27cd_(const int *n, const double *a, const int *la, int *iw, const int *liw, double *w, const int *maxfrt, double *rhs,
-             int *iw1, const int *nsteps, const int *icntl, const double *cntl) {
+void ma27cd_(const int *n, const double *a, const int *la, int *iw, const int *liw, double *w, const int *maxfrt,
+             double *rhs, int *iw1, const int *nsteps, const int *icntl, const double *cntl) {
     (void)a, (void)la, (void)liw, (void)w, (void)maxfrt, (void)iw1, (void)nsteps, (void)icntl, (void)cntl;
     double began = seconds();
     Slot *s = &slots[iw[0]];
@@ -139,7 +142,8 @@ void symid_kkt_end(double keep_bytes, double *out) {
         Slot *s = &slots[i];
         double bytes = 0;
         s->used = 0;
-        for (int a = 0; s->factor.work && a < s->factor.tree.tasks + 2; a++) bytes += (double)bytes_of(&s->factor.work[a].factors);
+        for (int a = 0; s->factor.work && a < s->factor.tree.tasks + 2; a++)
+            bytes += (double)bytes_of(&s->factor.work[a].factors);
         if (bytes > keep_bytes) free_factor(&s->factor);
     }
 }

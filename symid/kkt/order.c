@@ -91,7 +91,8 @@ static void add_neighbour(Neighbours *v, int a, int size) {
     v->weight += size;
 }
 
-static Neighbours *neighbours_of_groups(const Graph *g, const Groups *s, const Lists *rows, const Lists *of, int *seen) {
+static Neighbours *neighbours_of_groups(const Graph *g, const Groups *s, const Lists *rows, const Lists *of,
+                                        int *seen) {
     Neighbours *v = zeros(s->count, sizeof *v);
     int column = 0;
     for (int a = 0; a < s->count; a++) seen[a] = -1;
@@ -124,8 +125,10 @@ static int64_t absorb(Neighbours *v, int u, int gone, const Neighbours *clique, 
         seen[b] = stamp, own->to[kept++] = b, own->weight += size[b];
     }
     own->count = kept;
-    for (int k = 0; k < clique->count; k++)
-        if (seen[clique->to[k]] != stamp) seen[clique->to[k]] = stamp, add_neighbour(own, clique->to[k], size[clique->to[k]]);
+    for (int k = 0; k < clique->count; k++) {
+        int b = clique->to[k];
+        if (seen[b] != stamp) seen[b] = stamp, add_neighbour(own, b, size[b]);
+    }
     return kept + clique->count + 1;
 }
 
@@ -164,7 +167,8 @@ static int by_deadline(const void *a, const void *b) {
 
 /* Give every row to the first group that has a column left for it (its pivot is a pair of a column
    and a row), those first whose groups end first; `turn_of` (n,) gets the turn of every unknown. */
-static void place_rows(const Graph *g, const Groups *s, const Lists *rows, const Lists *of, const int *turn, int *turn_of) {
+static void place_rows(const Graph *g, const Groups *s, const Lists *rows, const Lists *of, const int *turn,
+                       int *turn_of) {
     int *group_at = malloc(sizeof(int) * (s->count + 1)), *deadline = malloc(sizeof(int) * (g->n + 1));
     char *slack = zeros(g->n, 1);
     int64_t widest = 1;
@@ -192,12 +196,14 @@ static void place_rows(const Graph *g, const Groups *s, const Lists *rows, const
     }
     for (int i = 0; i < g->n; i++) { /* slacks go with their rows; rows without columns join the border */
         int home = s->host[i] >= 0 ? s->host[i] : i;
-        if (!s->border[i] && turn_of[i] < 0) turn_of[i] = home != i && turn_of[home] < 0 ? (s->count ? 0 : -1) : turn_of[home];
+        if (s->border[i] || turn_of[i] >= 0) continue;
+        turn_of[i] = turn_of[home] >= 0 || home == i ? turn_of[home] : s->count ? 0 : -1;
     }
     free(group_at), free(deadline), free(slack), free(c);
 }
 
-/* When each unknown is eliminated: its group's turn, or -1 for the border. Returns the number of turns, -1 on failure. */
+/* When each unknown is eliminated: its group's turn, or -1 for the border. Returns the number of turns, -1 where
+   the pattern is no chain. */
 static int find_turns(const Graph *g, int *turn_of) {
     Groups s;
     find_groups(g, &s);

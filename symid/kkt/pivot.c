@@ -8,14 +8,14 @@
 typedef double Vector __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
 
 #define GOOD 1e-3        /* a pivot whose multipliers are below the inverse of this is taken at once */
-#define NOTHING 2e-15     /* a column that elimination has brought down to this part of itself is zero: rounding is left */
+#define NOTHING 2e-15     /* a column brought down to this part of itself is rounding: zero */
 
 typedef struct {
     double *panel, *inverse; /* inverse: of the pivots, (pivots, 2): diagonal, and beside it for a pair's first */
-    int *rows;               /* positions of the fully summed unknowns, pivots first; the first of a pair as ~position */
+    int *rows;               /* positions of the fully summed, pivots first; the first of a pair as ~position */
     double *initial;         /* largest entry of each fully summed column before elimination */
     int size, base, pivots, stride;
-    double *rest;            /* what the parent gets: columns of delayed and chain unknowns over delayed, chain, border */
+    double *rest;            /* what the parent gets: delayed and chain columns over delayed, chain, border */
     int rest_stride;
 } Part;
 

@@ -27,7 +27,10 @@ static int all_tasks(Factor *s, Step step) {
     Job job = {s, step, 0};
     pthread_t helper[64];
     int helpers = 0, wanted = s->threads < s->tree.tasks ? s->threads : s->tree.tasks, failed = 0;
-    while (helpers + 1 < wanted && helpers < 64 && pthread_create(&helper[helpers], NULL, work_through, &job) == 0) helpers++;
+    while (helpers + 1 < wanted && helpers < 64) {
+        if (pthread_create(&helper[helpers], NULL, work_through, &job)) break;
+        helpers++;
+    }
     work_through(&job);
     for (int i = 0; i < helpers; i++) pthread_join(helper[i], NULL);
     for (int a = 0; a < s->tree.tasks; a++) failed |= s->work[a].failed;

@@ -36,7 +36,8 @@ static double largest_scaled(int64_t nz, const double *a, const float *product) 
 }
 
 /* Improve scale (n,) for the entries a; `most` (n,) is room. */
-static void equilibrate(int n, int64_t nz, const int *irn, const int *jcn, const double *a, double *scale, double *most) {
+static void equilibrate(int n, int64_t nz, const int *irn, const int *jcn, const double *a, double *scale,
+                        double *most) {
     for (int pass = 0, far = 1; far && pass < PASSES; pass++) {
         memset(most, 0, sizeof(double) * n);
         for (int64_t k = 0; k < nz; k++) {

@@ -1,7 +1,9 @@
 /* Substitution with the factors; tasks side by side, always summed in the same order. */
 
 /* Value of a position, where positions behind the tasks' may have another home. */
-static inline double *home(double *x, double *outside, int inner, int p) { return p < inner ? x + p : outside + p - inner; }
+static inline double *home(double *x, double *outside, int inner, int p) {
+    return p < inner ? x + p : outside + p - inner;
+}
 
 static inline int position_of(int row) { return row < 0 ? ~row : row; }
 
@@ -12,7 +14,8 @@ static void forward_front(const Factor *s, int f, double *x, double *outside, do
     int chain = f < t->fronts ? v->chain : 0, border = f < t->fronts ? t->plan[v->task].border : 0;
     memset(y, 0, sizeof(double) * p->stride);
     for (int k = 0; k < p->pivots; k++) y[k] = *home(x, outside, t->inner, position_of(p->rows[k]));
-    for (int k = 0; k < p->pivots; k++) subtract(y, p->panel + (size_t)k * p->stride, y[k], k & ~(LANES - 1), p->stride);
+    for (int k = 0; k < p->pivots; k++)
+        subtract(y, p->panel + (size_t)k * p->stride, y[k], k & ~(LANES - 1), p->stride);
     for (int k = 0; k < p->pivots; k++) *home(x, outside, t->inner, position_of(p->rows[k])) = y[k];
     for (int k = p->pivots; k < p->size; k++) *home(x, outside, t->inner, position_of(p->rows[k])) += y[k];
     const int *c = t->chain + v->chain_at;
@@ -49,7 +52,8 @@ static void backward_front(const Factor *s, int f, double *x, double *y) {
             k++;
         }
     }
-    for (int k = p->pivots - 1; k >= 0; k--) y[k] -= product(p->panel + (size_t)k * p->stride, y, k & ~(LANES - 1), p->stride);
+    for (int k = p->pivots - 1; k >= 0; k--)
+        y[k] -= product(p->panel + (size_t)k * p->stride, y, k & ~(LANES - 1), p->stride);
     for (int k = 0; k < p->pivots; k++) x[position_of(p->rows[k])] = y[k];
 }
 

@@ -26,9 +26,9 @@ typedef struct {
 
 typedef struct {
     int n, fronts, tasks, border; /* the last of the tasks, number `tasks`, is the top of the tree */
-    int inner, top;               /* positions: tasks' unknowns, then the top's from `inner`, then the border's from `top` */
+    int inner, top;               /* positions: tasks' unknowns, the top's from `inner`, the border's from `top` */
     int *position;                /* (n,) */
-    int *child, *sibling;         /* (fronts + 1,) first child and next sibling, -1 at the end; the border's front is last */
+    int *child, *sibling;         /* (fronts + 1,) first child, next sibling, -1; the border's front is last */
     Front *front;                 /* children before parents */
     int *chain, *chain_map;       /* positions, and places in the parent: own unknowns, then its chain */
     Entry *entry;
