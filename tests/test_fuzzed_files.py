@@ -19,8 +19,17 @@ CASES = [json.loads((ROOT / "concealed" / "cases" / name / "case.json").read_tex
 RIG = CASES[0]["parameters"]
 few = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 
-odd = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), st.lists(st.integers(), max_size=3),
-                st.dictionaries(st.text(max_size=4), st.integers(), max_size=2), st.just(10**400), st.just("9" * 500))
+odd = st.one_of(
+    st.none(),
+    st.booleans(),
+    st.integers(),
+    st.floats(),
+    st.text(max_size=8),
+    st.lists(st.integers(), max_size=3),
+    st.dictionaries(st.text(max_size=4), st.integers(), max_size=2),
+    st.just(10**400),
+    st.just("9" * 500),
+)
 
 
 @st.composite
@@ -63,7 +72,9 @@ def test_rigs(content):
 @pytest.mark.parametrize("kind", [0, 1])
 def test_cases(tmp_path, kind):
     rows = "\n".join(f"{0.01 * i:.2f},{np.sin(0.1 * i):.6f},{np.cos(0.1 * i):.6f},{0.1 * (i % 7)}" for i in range(60))
-    names = ("link1_angle_rad,link2_angle_rad,other_m", "ankle_angle_rad,hip_angle_rad,platform_acceleration_m_s2")[kind]
+    names = ("link1_angle_rad,link2_angle_rad,other_m", "ankle_angle_rad,hip_angle_rad,platform_acceleration_m_s2")[
+        kind
+    ]
     (tmp_path / "recording.csv").write_text(f"time_s,{names}\n{rows}\n")
 
     @few
@@ -75,8 +86,18 @@ def test_cases(tmp_path, kind):
     check()
 
 
-@pytest.mark.parametrize("text", [b"\xff", b"[" * 100_000, b'{"system": NaN}', b'{"system": ' + b"9" * 5000 + b"}", b"", b"[]",
-                                  b'{"system": "standing", "body": [1], "baseline": [2], "id": 3}'])
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"\xff",
+        b"[" * 100_000,
+        b'{"system": NaN}',
+        b'{"system": ' + b"9" * 5000 + b"}",
+        b"",
+        b"[]",
+        b'{"system": "standing", "body": [1], "baseline": [2], "id": 3}',
+    ],
+)
 def test_spoiled_json_ends_in_one_sentence(tmp_path, text):
     (tmp_path / "case.json").write_bytes(text)
     (tmp_path / "recording.csv").write_text("time_s,a_m\n0,1\n1,2\n")
@@ -89,7 +110,10 @@ def test_spoiled_json_ends_in_one_sentence(tmp_path, text):
 def test_all_violations_of_a_case_are_told_at_once_with_their_places(tmp_path):
     body = CASES[1]["body"] | {"l_L_m": "long", "m_T_kg": -3}
     (tmp_path / "case.json").write_text(json.dumps(CASES[1] | {"body": body, "baseline": {"controller": 4}}))
-    with pytest.raises(SymidError, match=r"baseline.controller: must be a string, found 4; body.l_L_m: .*; body.m_T_kg: must be above 0"):
+    with pytest.raises(
+        SymidError,
+        match=r"baseline.controller: must be a string, found 4; body.l_L_m: .*; body.m_T_kg: must be above 0",
+    ):
         read_case(tmp_path)
 
 

@@ -13,7 +13,9 @@ from symid.recording import joint_angles, read_recording
 TIME = 0.01 * np.arange(120)
 ANKLE, HIP = 5 * np.sin(3 * TIME), 8 * np.cos(2 * TIME)
 """[deg]"""
-FRAME = pd.DataFrame({"time_s": TIME, "ankle_angle_deg": ANKLE, "hip_angle_deg": HIP, "platform_position_mm": 40 * TIME})
+FRAME = pd.DataFrame(
+    {"time_s": TIME, "ankle_angle_deg": ANKLE, "hip_angle_deg": HIP, "platform_position_mm": 40 * TIME}
+)
 
 
 def right(recording):
@@ -101,9 +103,14 @@ def test_markers_and_analog_channels_of_a_c3d_file_with_a_gap(tmp_path):
 
 
 def trc(rows) -> str:
-    head = ["PathFileType\t4\t(X/Y/Z)\twalk.trc",
-            "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames",
-            "100\t100\t5\t2\tmm\t100\t1\t5", "Frame#\tTime\tANK\t\t\tHIP\t\t\t", "\t\tX1\tY1\tZ1\tX2\tY2\tZ2", ""]
+    head = [
+        "PathFileType\t4\t(X/Y/Z)\twalk.trc",
+        "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames",
+        "100\t100\t5\t2\tmm\t100\t1\t5",
+        "Frame#\tTime\tANK\t\t\tHIP\t\t\t",
+        "\t\tX1\tY1\tZ1\tX2\tY2\tZ2",
+        "",
+    ]
     return "\n".join([*head, *rows]) + "\n"
 
 
@@ -132,7 +139,12 @@ def test_a_motion_file_keeps_its_units(tmp_path, flag, angle):
 def test_own_names_are_mapped_from_python_and_from_the_command_line(tmp_path):
     other = pd.DataFrame({"t": TIME, "Ankle Flexion": ANKLE, "Hip": -HIP, "what": 1.0, "Slide": 40 * TIME})
     other.to_csv(tmp_path / "own.csv", index=False, sep=";")
-    mapping = {"time_s": "t", "ankle_angle_deg": "Ankle Flexion", "hip_angle_deg": "-Hip", "platform_position_mm": "Slide"}
+    mapping = {
+        "time_s": "t",
+        "ankle_angle_deg": "Ankle Flexion",
+        "hip_angle_deg": "-Hip",
+        "platform_position_mm": "Slide",
+    }
     recording = read_recording(tmp_path / "own.csv", columns=mapping)
     right(recording)
     assert "what" not in recording.channels
@@ -140,12 +152,17 @@ def test_own_names_are_mapped_from_python_and_from_the_command_line(tmp_path):
     right(read_recording(tmp_path / "own.csv", columns=tmp_path / "map.toml"))
 
 
-@pytest.mark.parametrize(("mapping", "message"), [
-    ({"time_s": "t", "ankle_angle_deg": "Ankel"}, "there is no column 'Ankel'.*Ankle"),
-    ({"ankle_angle_deg": "Ankle"}, "there is no time column"),
-    ({"time_s": "t", "ankle_angle_m": "Ankle"}, "is in m, but angle is measured in rad"),
-    ({"time_s": "t", "ankle": "Ankle"}, "does not end in a known unit"),
-    ({"time_s": "t", "ankle_angle_deg": 3}, "must be the name of a column"), ({}, "are expected")])
+@pytest.mark.parametrize(
+    ("mapping", "message"),
+    [
+        ({"time_s": "t", "ankle_angle_deg": "Ankel"}, "there is no column 'Ankel'.*Ankle"),
+        ({"ankle_angle_deg": "Ankle"}, "there is no time column"),
+        ({"time_s": "t", "ankle_angle_m": "Ankle"}, "is in m, but angle is measured in rad"),
+        ({"time_s": "t", "ankle": "Ankle"}, "does not end in a known unit"),
+        ({"time_s": "t", "ankle_angle_deg": 3}, "must be the name of a column"),
+        ({}, "are expected"),
+    ],
+)
 def test_a_mapping_that_does_not_fit_is_refused(tmp_path, mapping, message):
     pd.DataFrame({"t": TIME, "Ankle": ANKLE}).to_csv(tmp_path / "own.csv", index=False)
     with pytest.raises(RecordingError, match=message):
@@ -173,8 +190,16 @@ def test_the_command_line_reads_gaps_and_own_names(tmp_path, capsys):
     names = {"time_s": "t", "ankle_angle_rad": "A", "hip_angle_rad": "H", "platform_acceleration_m_s2": "P"}
     data[list(names)].rename(columns=names).drop(index=[50, 51]).to_csv(tmp_path / "own.csv", index=False)
     (tmp_path / "map.toml").write_text("".join(f'{k} = "{v}"\n' for k, v in names.items()))
-    command = ["identify", str(tmp_path / "own.csv"), "--columns", str(tmp_path / "map.toml"), "--body",
-               "data/standing_synthetic/body.json", "--max-iterations", "60"]
+    command = [
+        "identify",
+        str(tmp_path / "own.csv"),
+        "--columns",
+        str(tmp_path / "map.toml"),
+        "--body",
+        "data/standing_synthetic/body.json",
+        "--max-iterations",
+        "60",
+    ]
     assert main(command) == 2
     assert "--allow-gaps" in capsys.readouterr().err
     assert main([*command, "--allow-gaps"]) == 0

@@ -15,12 +15,16 @@ SCHEMA = {
     "properties": {
         "id": {"type": "string", "maxLength": 200},
         "system": {"type": "string"},
-        "body": {"type": "object", "properties": {
-            key: {"type": "number", "exclusiveMinimum": 0, "maximum": 1e6} for key in _BODY}},
+        "body": {
+            "type": "object",
+            "properties": {key: {"type": "number", "exclusiveMinimum": 0, "maximum": 1e6} for key in _BODY},
+        },
         "parameters": _NUMBERS,
         "gravity_m_s2": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e3},
-        "baseline": {"type": "object", "properties": {
-            "controller": {"type": "string"}, "terms": {"type": "array", "items": {"type": "string"}}}},
+        "baseline": {
+            "type": "object",
+            "properties": {"controller": {"type": "string"}, "terms": {"type": "array", "items": {"type": "string"}}},
+        },
     },
 }
 """Keys that it does not name are for people. Windows and noise have checks of their own (`symid.cases.case`)."""
@@ -42,8 +46,12 @@ def refuse_violations(facts: object, path: Path) -> None:
 def _reason(error) -> str:
     text = json.dumps(error.instance, default=str)
     text = text if len(text) <= 40 else text[:37] + "..."
-    kinds = {"type": "must be a {}", "exclusiveMinimum": "must be above {}", "maximum": "must be at most {:g}",
-             "maxLength": "must have at most {} letters"}
+    kinds = {
+        "type": "must be a {}",
+        "exclusiveMinimum": "must be above {}",
+        "maximum": "must be at most {:g}",
+        "maxLength": "must have at most {} letters",
+    }
     if error.validator == "required":
         return error.message
     wanted = error.validator_value

@@ -1,4 +1,4 @@
-"""From the columns of a file to channels: by a mapping that a user gives, by units in the file, or by names with units."""
+"""From the columns of a file to channels: by a user's mapping, by units in the file, or by names with units."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ def load_columns(source: Mapping[str, str] | str | os.PathLike) -> dict[str, str
 
     Parameters
     ----------
-    source : the mapping, or a TOML file that holds it, at its top or in a table ``[columns]``. A minus before the file's
-        name turns the sign: ``hip_angle_deg = "-Hip Flexion"``.
+    source : the mapping, or a TOML file that holds it, at its top or in a table ``[columns]``. A minus before the
+        file's name turns the sign: ``hip_angle_deg = "-Hip Flexion"``.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def mapped(path: Path, raw: list[RawColumn], mapping: Mapping[str, str]) -> tupl
 
 
 def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str, np.ndarray]]:
-    """All columns: those with a unit in the file under their own name, the others by the unit at the end of their names."""
+    """All columns: those with a unit in the file under their own name, the others by the unit that ends their names."""
     columns, table, problems = [], {}, []
     for c in raw:
         try:
@@ -81,10 +81,13 @@ def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str,
         columns.append(column)
         table[column.name] = c.values
     if problems and not any(c.unit for c in raw):
-        problems = [*problems[:3], *([f"and {len(problems) - 3} more columns"] if problems[3:] else []),
-                    "or map the columns: read_recording(columns=...), --columns MAP.toml"]
+        problems = [
+            *problems[:3],
+            *([f"and {len(problems) - 3} more columns"] if problems[3:] else []),
+            "or map the columns: read_recording(columns=...), --columns MAP.toml",
+        ]
     elif problems:
-        problems = []    # a file that states units may hold columns of other kinds, which are left out
+        problems = []  # a file that states units may hold columns of other kinds, which are left out
     return _checked(path, columns, problems), table
 
 

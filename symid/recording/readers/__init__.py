@@ -1,4 +1,4 @@
-"""One reader for each format: a path gives the columns that are in the file, as numbers with what is known of their units."""
+"""One reader for each format: a path gives the columns of the file, as numbers with what is known of their units."""
 
 from __future__ import annotations
 

@@ -11,12 +11,12 @@ from symid.recording.readers.raw import RawColumn, cannot_be_read, library
 
 
 def read_mat(path: Path) -> list[RawColumn]:
-    """Every vector, and every column of a matrix (``name_1``, ``name_2`` ...), as long as the longest; fields of structures
-    are called ``structure_field``."""
+    """Every vector, and every column of a matrix (``name_1``, ``name_2`` ...), as long as the longest; fields of
+    structures are called ``structure_field``."""
     pymatreader = library("pymatreader", path)
     try:
         content = pymatreader.read_mat(str(path))
-    except Exception as error:    # of a damaged file it raises whatever it stumbles over
+    except Exception as error:  # of a damaged file it raises whatever it stumbles over
         raise cannot_be_read(path, error) from error
     return longest_of(_vectors(content))
 

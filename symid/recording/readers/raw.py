@@ -25,9 +25,7 @@ def library(name: str, path: Path) -> ModuleType:
     try:
         return import_module(name)
     except ImportError:
-        raise RecordingError(
-            f"{path}: reading {path.suffix} files needs {name}: pip install 'symid[files]'"
-        ) from None
+        raise RecordingError(f"{path}: reading {path.suffix} files needs {name}: pip install 'symid[files]'") from None
 
 
 def cannot_be_read(path: Path, error: Exception) -> RecordingError:

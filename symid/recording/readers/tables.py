@@ -34,7 +34,10 @@ def read_delimited(path: Path) -> list[RawColumn]:
         if len(cells) != len(names):
             raise RecordingError(f"{path}: row {row} (line {line}) has {len(cells)} cells, the header has {len(names)}")
     columns = zip(*(cells for _, cells in samples), strict=True)
-    return [_text_column(path, name, cells, [line for line, _ in samples]) for name, cells in zip(names, columns, strict=True)]
+    return [
+        _text_column(path, name, cells, [line for line, _ in samples])
+        for name, cells in zip(names, columns, strict=True)
+    ]
 
 
 def _text_column(path: Path, name: str, cells: tuple[str, ...], lines: list[int]) -> RawColumn:
