@@ -124,7 +124,8 @@ def _integrate(solution: Solution, loop, e: int) -> np.ndarray:
     for halvings in range(HALVINGS):
         run = loop.simulate(parameters[t.layout.parameter_index[e]], t.layout.states(solution.result.z, e)[0], time, inputs,
                             noise=noise, history=history, substeps=2**halvings, limit=1e200, keep="outputs").y[::PIECES]
-        if last is not None and np.nanmax(np.abs(run - last) / np.maximum(size, np.abs(run)), initial=0.0) < AGREES:
+        large = np.maximum(np.maximum(size, np.abs(run)), np.finfo(float).tiny)      # a recording of zeros has no size
+        if last is not None and np.nanmax(np.abs(run - last) / large, initial=0.0) < AGREES:
             break
         last = run
     return run

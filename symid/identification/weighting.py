@@ -30,6 +30,8 @@ RESOLUTION = 1e-6
 SETTLED = 1e-4
 """Relative change of the estimated noise at which the turns end: of no weight beside a standard error."""
 TURNS = 20
+TIGHT = 1e-9
+"""Ipopt's tolerance: a channel of much noise has a small share of an objective that a clear one makes steep."""
 UNKNOWN = 0.01
 """Noise of an ordinary sensor as a share of the motion, from which the turns start."""
 LEAST = 1e-150
@@ -135,7 +137,8 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
             break
         tables = [dict(zip(p.model.outputs, map(float, row), strict=True)) for row in noise]
         problem = replace(p, noise=tables)
-        result = problem.solve_from(problem.start(solution.result.z), **solver)
+        options = {"tol": TIGHT} | (solver.get("options") or {})
+        result = problem.solve_from(problem.start(solution.result.z), **solver | {"options": options})
         if not result.solved:
             break
         solution, old = replace(solution, problem=problem, result=result), noise
