@@ -11,6 +11,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp, deadline
+
 from symid.errors import MachineError, SymidError
 from symid.identification.solution import StartRow
 from symid.ipopt_solver import Iteration, SolverResult
@@ -43,6 +44,24 @@ class Outcome:
         return self.finished and not out_of_time
 
 
+NEAR = {"mu_strategy": "monotone", "mu_init": 1e-4, "bound_push": 1e-6, "bound_frac": 1e-6}
+"""Options of Ipopt for a start close to an optimum: no barrier drives it from bounds that are near, such as a level of zero."""
+LOST, TRACE = 1.2, 1e-9
+"""An end whose objective is so much larger than that of a start by simulation has lost it; a start with no more than that part
+of the objective's scale is the recorded motion itself, whose objective says nothing."""
+
+
+def _kept_near(solve: Solve, z: np.ndarray, result: SolverResult, on_iteration) -> SolverResult:
+    """`result`, or a better one by small steps from `z` where the solver left a default start that was better."""
+    nlp = solve.problem.nonlinear_program(z)
+    before = nlp.objective(z) if isinstance(solve.start, str) and solve.start == "default" else 0.0
+    if before <= TRACE * nlp.objective_scale or (result.solved and result.objective <= LOST * before):
+        return result
+    options = dict(solve.options) | {"options": NEAR | (solve.options.get("options") or {})}
+    again = solve.problem.solve_from(z, on_iteration=on_iteration, **options)
+    return again if again.solved and (not result.solved or again.objective < result.objective) else result
+
+
 def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | None = None) -> Outcome:
     """Solve in this process. A start or problem that symid refuses is an outcome, with its sentence.
 
@@ -55,7 +74,7 @@ def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | 
         with deadline(limit):
             z = solve.problem.start(solve.start, solve.seed, solve.number)
             at_start = time.perf_counter() - began
-            result = solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options)
+            result = _kept_near(solve, z, solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options), on_iteration)
     except TimeUp as late:
         made = _without_result(OUT_OF_TIME, solve, f"no start was found within {limit:g} s: {late}")
         return replace(made, row=replace(made.row, seconds=limit))
