@@ -58,6 +58,9 @@ def smooth_motion(t: Transcription) -> list[np.ndarray]:
     smooth = []
     for m in t.measured:
         x = m.states[m.nodes]
+        if not states:
+            smooth.append(x)
+            continue
         curves = np.array([smooth_curves(column, m.step) for column in x.T]).reshape(len(states), 3, -1)
         out = curves[:, 0].T.copy()
         for rate, state in of.items():
