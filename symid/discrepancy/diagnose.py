@@ -10,6 +10,7 @@ from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.model.suspects import suspects as suspects_of
+from symid.discrepancy.name.error_model import with_error_model
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.certain import honest, weakest
@@ -21,8 +22,9 @@ from symid.discrepancy.say.diagnosis import Diagnosis
 from symid.discrepancy.say.judge import judge, rivals
 from symid.discrepancy.say.words import Story, words
 from symid.errors import DiagnosisError
-from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data, segments_of
+from symid.estimation.fit import Fit
+from symid.estimation.measurement import fits_of
 from symid.identification import Solution
 from symid.model import Model
 from symid.recording import Recording
@@ -66,19 +68,22 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     segment_length = episode_length if segment_length is None else segment_length
     segments = segments_of(model, recording, fit_window, segment_length)
     checked = audit(model, recording, segments, sensor_noise)
-    data = Data(segments, checked.noise, driven, checked.rounding, checked.weight(segments[0].step)).thinned()
-    base = fit_model(model, data, dict(start or {}))
-    progress(f"the model as given is fitted ({base.iterations} iterations)")
+    plain = Data(segments, checked.noise, driven, checked.rounding).thinned()
+    possible = fits_of(model, recording, fit_window, segment_length, plain, checked.filter, checked.inputs, dict(start or {}))
+    progress(f"the model as given is fitted ({possible[0][1].iterations} iterations)")
 
-    flexible = cache(lambda: flexible_fits(base, data, flexible_terms(base, data))[0])
-    search = Search(base, data, list(suspects_of(model) if suspects is None else suspects), flexible, threads, progress)
-    found, ranking = search.run()
+    def searched(base: Fit, data: Data) -> Search:
+        return Search(base, data, list(suspects_of(model) if suspects is None else suspects),
+                      cache(lambda: flexible_fits(base, data, flexible_terms(base, data))[0]), threads, progress)
+
+    search, found, ranking = with_error_model(possible, searched, progress)
+    base, data, flexible = search.base, search.data, search.flexible
     if _doubtful(found, search) and search.beaten(found):
         found = flexible()
     left = search.remainder(found)
     progress("tested for a remainder")
 
-    white = not checked.filtered and all(t.locates or t.minus_log10_p <= POLICY.remainder for t in left)
+    white = all(t.locates or t.minus_log10_p <= POLICY.remainder for t in left)
     before, found = found.suspects, honest(found, white, threads)
     left = left if found.suspects == before else search.remainder(found)
     chance = false_alarm_probability(weakest(found) if found.suspects else _largest(ranking), null_maxima(search.projection, found.fit))
@@ -88,14 +93,14 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
              *(collocated(base, recording, fit_window) if found.suspects and held_out is not None else [])]
     better = [found.fit, *(collocated(found.fit, recording, fit_window) if found.suspects and held_out is not None else [])]
     # Segments that were set apart are judged whole, and so are those that were fitted.
-    windows = {key: data.with_segments(segments_of(model, recording, w, None if isinstance(w, str) else segment_length))
+    windows = {key: plain.with_segments(segments_of(model, recording, w, None if isinstance(w, str) else segment_length))
                for key, w in (("train", fit_window), ("heldout", held_out)) if w is not None}
     runs = free_runs(given, better, windows, settling)
     proof = compare(runs["baseline_heldout"], runs["augmented_heldout"]) if "heldout" in windows and found.suspects else None
 
     verdict, effects, equivalent = judge(found, search.equivalents(found), left, flexible)
     text = words(Story(verdict, effects, equivalent, ranking, left, runs, checked, survived, halves, white,
-                       base.kalman_gain is not None, data.weight, model, proof, chance))
+                       base.kalman_gain is not None, data.filter, model, proof, chance))
     return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text, checked, survived, halves,
                      proof, chance)
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.data import Data, Segment
+from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.kalman import HOLD
 
@@ -56,18 +56,19 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str], threads: int = 2) -> Fi
 
 def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
     """Parameters fitted to one simulation of `fit` with noise of its sizes; None where that fails."""
-    rng, sim, segments = np.random.default_rng(seed), fit.simulator, []
+    rng, sim, segments, data = np.random.default_rng(seed), fit.simulator, [], data.remembering(data.memory)
     fitter = Fitter(fit.model, data)
     for e, x0 in zip(data.segments, fit.initial, strict=True):
         holds = max(1, round(e.step / HOLD))
         time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)
-        noise = {k: s * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process, strict=True)}
-        run = sim.simulate(fit.values, x0, time, {k: np.interp(time, e.time, u) for k, u in e.inputs.items()}, noise=noise,
+        fine = np.interp(np.arange((len(e.time) - 1) * e.ratio + 1) / e.ratio, np.arange(len(e.time)), e.time)
+        noise = {k: s * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process)}
+        run = sim.simulate(fit.values, x0, time, {k: np.interp(time, fine, u) for k, u in e.inputs.items()}, noise=noise,
                            substeps=-(-fitter.substeps // holds), keep="outputs")
         if run.diverged:
             return None
         shown = run.y[::holds]
-        segments.append(Segment(e.time, shown + data.sensor_noise * rng.standard_normal(shown.shape), e.inputs))
+        segments.append(replace(e, recorded=shown + data.sensor_noise * rng.standard_normal(shown.shape)))
     try:
         again = Fitter(fit.model, data.with_segments(segments)).fit(fit.values, fit.initial, fit.process, ITERATIONS,
                                                                      errors=False, kalman_gain=fit.kalman_gain)

@@ -14,10 +14,11 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.data import Data, swing
+from symid.estimation.data import Data, Segment, swing
 from symid.estimation.growth import growth, growth_normal, runs_away
 from symid.estimation.kalman import kalman_gain, linearised_along
 from symid.estimation.step import damped_step
+from symid.estimation.whitening import Whitening, whitening_of
 from symid.model import Model
 from symid.simulation import Simulator, simulator
 
@@ -41,9 +42,10 @@ class Fit:
     ----------
     model : what was fitted. values : parameter -> SI.
     initial : (E, n) state at the start of each segment.
-    process : (w,) standard deviations of the model's noises that the gain was made for.
+    process : (w,) standard deviations of the model's noises that the gain was made for; one more where a filter's
+        cutoff was estimated, the sharpness of `Data.sharpened`.
     kalman_gain : (n, m) or None. innovations : per segment (N, m), recorded minus predicted.
-    covariance : (m, m) of the innovations. loglik2 : twice the log-likelihood.
+    whitening : makes the innovations white. loglik2 : twice the log-likelihood.
     errors : parameter -> standard error, zero for what was held; empty where not asked for.
     """
 
@@ -53,7 +55,7 @@ class Fit:
     process: np.ndarray
     kalman_gain: np.ndarray | None
     innovations: tuple[np.ndarray, ...]
-    covariance: np.ndarray
+    whitening: Whitening
     loglik2: float
     errors: dict[str, float] = field(default_factory=dict)
     iterations: int = 0
@@ -62,6 +64,16 @@ class Fit:
     @property
     def simulator(self) -> Simulator:
         return simulator(self.model)
+
+    @property
+    def covariance(self) -> np.ndarray:
+        """(m, m) of the innovations, whitened by their own past where they have a memory."""
+        return self.whitening.covariance
+
+    @property
+    def remaining(self) -> tuple[np.ndarray, ...]:
+        """Per segment (N, m), the innovations made white and of unit covariance."""
+        return tuple(self.whitening(s[:, :, None]).reshape(s.shape) for s in self.innovations)
 
 
 @dataclass(eq=False)
@@ -91,6 +103,9 @@ class Fitter:
         self.bounds = np.array([model.parameters[p].bounds for p in self.sim.parameters], dtype=float).reshape(-1, 2)
         self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
         self.driven = data.driven and bool(model.noises)
+        self.noises = len(model.noises)
+        self.tuned = [*range(self.noises)] if self.driven and not data.memory else []
+        self.tuned += [self.noises] if data.cutoff_free else []
         self.bounded = False
         self.step = data.segments[0].step
         longest = LONGEST_STEP[self.driven]
@@ -98,14 +113,13 @@ class Fitter:
         self.substeps = max(1, int(np.ceil(self.step / (1.01 * longest))))
 
     # ---- one evaluation --------------------------------------------------------------
-    def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs"):
+    def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs", process=()):
         """Trajectories of all segments, or None if one diverged."""
         out = []
-        for e, start in zip(self.data.segments, x0, strict=True):
-            t = self.sim.simulate(p, start, e.time, e.inputs, substeps=self.substeps, gain=gain, recorded=e.recorded,
-                                  sensitivity=self.free if sensitivities else (), keep=keep,
-                                  initial_sensitivity=self.sim.states if sensitivities else (),
-                                  history=self._history(p, start, e))
+        for e, start in zip(self.segments(process), x0, strict=True):
+            t = e.simulate(self.sim, p, start, gain, substeps=self.substeps, keep=keep,
+                           sensitivity=self.free if sensitivities else (),
+                           initial_sensitivity=self.sim.states if sensitivities else (), history=self._history(p, start, e))
             if t.diverged:
                 return None
             out.append(t)
@@ -115,36 +129,44 @@ class Fitter:
         """States just before an segment of a motion without random forces, where something reads them late."""
         if self.driven or not self.model.delays:
             return None
-        head = segment.head(3)
-        x = self.sim.simulate(p, start, head.time, head.inputs, substeps=self.substeps, keep="states").x
+        x = segment.head(3).simulate(self.sim, p, start, substeps=self.substeps, keep="states").x
         if not np.isfinite(x).all():
             return None
         ago = np.linspace(-REACH, 0.0, 7)[:, None]
         slope, bend = (4 * x[1] - 3 * x[0] - x[2]) / (2 * self.step), (x[2] - 2 * x[1] + x[0]) / self.step**2
         return segment.time[0] + ago[:, 0], x[0] + ago * slope + ago**2 / 2 * bend
 
-    def innovations(self, runs) -> list[np.ndarray]:
-        return [e.recorded - t.y for e, t in zip(self.data.segments, runs, strict=True)]
+    def segments(self, process) -> tuple[Segment, ...]:
+        """The segments at the sharpness that stands behind the noises in `process`."""
+        sharpness = self.sharpness(process)
+        return self.data.segments if sharpness == 1.0 else tuple(e.sharpened(sharpness) for e in self.data.segments)
 
-    def score(self, innovations) -> tuple[float, np.ndarray]:
-        """Twice the log-likelihood and the covariance of the innovations."""
-        every = np.vstack(innovations)
-        cov = every.T @ every / len(every)
+    def sharpness(self, process) -> float:
+        return float(process[self.noises]) if len(process) > self.noises else 1.0
+
+    def innovations(self, runs, process=()) -> list[np.ndarray]:
+        return [e.recorded - t.y for e, t in zip(self.segments(process), runs, strict=True)]
+
+    def score(self, innovations, process=()) -> tuple[float, Whitening]:
+        """Twice the log-likelihood, and what whitens the innovations."""
+        whitening = whitening_of(innovations, self.data.memory)
         if not self.driven:
             # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
-            cov = np.diag(np.diag(cov) + (1e-6 * self.data.sensor_noise) ** 2)
-        sign, logdet = np.linalg.slogdet(cov / np.outer(self.data.sensor_noise, self.data.sensor_noise))
-        return (-self.data.weight * len(every) * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), cov
+            whitening = whitening.apart((1e-6 * self.data.sensor_noise) ** 2)
+        sign, logdet = np.linalg.slogdet(whitening.covariance / np.outer(self.data.sensor_noise, self.data.sensor_noise))
+        if self.data.filter is not None:
+            logdet -= 2 * len(whitening.covariance) * self.data.filter.log_volume(self.step, self.sharpness(process))[0]
+        return (-self.data.samples * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), whitening
 
-    def evaluate(self, p, x0, gain) -> float:
-        runs = self.run(p, x0, gain, sensitivities=False)
-        return -np.inf if runs is None else self.score(self.innovations(runs))[0]
+    def evaluate(self, p, x0, gain, process=()) -> float:
+        runs = self.run(p, x0, gain, sensitivities=False, process=process)
+        return -np.inf if runs is None else self.score(self.innovations(runs, process), process)[0]
 
     def kalman_gain(self, p, process, path):
         """Kalman gain at these values, linearised along a path of states; None without random forces."""
         if not self.driven:
             return None
-        return kalman_gain(linearised_along(self.sim, p, path), self.step, process, self.data.sensor_noise)
+        return kalman_gain(linearised_along(self.sim, p, path), self.step, process[:self.noises], self.data.sensor_noise)
 
     def path(self, p, x0, gain) -> np.ndarray:
         """States along the trajectories, or the initial states if those diverge."""
@@ -188,17 +210,19 @@ class Fitter:
         return k, converged
 
     def again(self, fit: Fit, iterations: int = 40) -> Fit:
-        """A fit that goes on from where `fit` of the same model ended."""
+        """A fit that goes on from where `fit` of the same model ended, perhaps with another error model."""
         return self.fit(fit.values, fit.initial, fit.process, iterations, kalman_gain=fit.kalman_gain)
 
     def _begin(self, start, initial, process, known) -> _Point:
         p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
         x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
+        process = np.append(process[:self.noises], process[self.noises:] if self.data.cutoff_free and len(process) > self.noises
+                            else [1.0] * self.data.cutoff_free)
         path = self.path(p, x0, self.kalman_gain(p, process, x0) if known is None else known)
         gain = self.kalman_gain(p, process, path)
-        value = self.evaluate(p, x0, gain)
+        value = self.evaluate(p, x0, gain, process)
         if not np.isfinite(value) and known is not None:
-            gain, value = known, self.evaluate(p, x0, known)
+            gain, value = known, self.evaluate(p, x0, known, process)
         if not np.isfinite(value):
             raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
         return _Point(p, x0, process, gain, path, value)
@@ -218,41 +242,46 @@ class Fitter:
         """The gain and twice the log-likelihood at a trial point, -inf where it cannot be simulated."""
         try:
             gain = self.kalman_gain(p, process, path)
-            return gain, self.evaluate(p, x0, gain) - self._growth_penalty(p, path)
+            return gain, self.evaluate(p, x0, gain, process) - self._growth_penalty(p, path)
         except SymidError:
             return None, -np.inf
 
     def _growth_penalty(self, p, path) -> float:
         """What growth costs of twice the log-likelihood."""
-        return self.data.weight * growth(self, p, path) ** 2 if self.bounded else 0.0
+        return growth(self, p, path) ** 2 if self.bounded else 0.0
 
     def _moved(self, p, x0, process, step):
         q, (E, n) = len(self.free), x0.shape
         p1 = p.copy()
         p1[self.index] += step[:q]
         p1 = np.clip(p1, *self.bounds.T)
-        process1 = process * np.exp(np.clip(step[q:q + len(process)], -1.5, 1.5)) if self.driven else process
+        process1 = process.copy()
+        process1[self.tuned] *= np.exp(np.clip(step[q:q + len(self.tuned)], -1.5, 1.5))
         return p1, x0 + step[-E * n:].reshape(E, n), process1
 
     def normal(self, p, x0, gain, process, path):
         """Normal equations of shared unknowns (parameters, log noise) and initial states."""
-        runs = self.run(p, x0, gain, sensitivities=True)
+        runs = self.run(p, x0, gain, sensitivities=True, process=process)
         if runs is None:
             return None
-        innovations = self.innovations(runs)
-        _, cov = self.score(innovations)
-        white = np.linalg.inv(np.linalg.cholesky(cov))
-        noise = self._noise_columns(p, x0, process, path, innovations)
+        innovations = self.innovations(runs, process)
+        _, whitening = self.score(innovations, process)
+        noise = self.tuned_columns(p, x0, gain, process, path, innovations)
         q, n, w, E = len(self.free), x0.shape[1], noise[0].shape[2], len(runs)
         size = q + w + E * n
         H, g = np.zeros((size, size)), np.zeros(size)
         with np.errstate(over="ignore", invalid="ignore"):
             for i, (t, s, extra) in enumerate(zip(runs, innovations, noise, strict=True)):
-                J = whitened(white, np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2))
-                r = (s @ white.T).reshape(-1)
+                J = whitening(np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2))
+                r = whitening(s[:, :, None])[:, 0]
                 where = np.r_[0:q + w, q + w + i * n:q + w + (i + 1) * n]
                 H[np.ix_(where, where)] += J.T @ J
                 g[where] += J.T @ r
+            if self.data.cutoff_free:
+                _, slope, bend = self.data.filter.log_volume(self.step, self.sharpness(process))
+                samples = sum(s.size for s in innovations)
+                H[q + w - 1, q + w - 1] += samples * (slope - bend)
+                g[q + w - 1] += samples * slope
             if self.bounded:
                 own, pull = growth_normal(self, p, path)
                 H[:q, :q] += own
@@ -260,38 +289,32 @@ class Fitter:
         # Sensitivities of an unstable predictor overflow before the run itself does.
         return (H, g, q) if np.isfinite(H).all() and np.isfinite(g).all() else None
 
-    def _noise_columns(self, p, x0, process, path, innovations):
-        """Change of the innovations per unit of log noise, by differences through the gain."""
-        if not self.driven:
+    def tuned_columns(self, p, x0, gain, process, path, innovations):
+        """Change of the innovations per unit of the logarithm of what is tuned, by differences."""
+        if not self.tuned:
             return [np.zeros((*s.shape, 0)) for s in innovations]
-        linear, columns = linearised_along(self.sim, p, path), []
-        for j in range(len(process)):
+        linear, columns = linearised_along(self.sim, p, path) if self.driven else None, []
+        for j in self.tuned:
             more = process.copy()
             more[j] *= np.exp(0.1)
-            other = self.run(p, x0, kalman_gain(linear, self.step, more, self.data.sensor_noise), False)
+            moved = gain if j == self.noises else kalman_gain(linear, self.step, more[:self.noises], self.data.sensor_noise)
+            other = self.run(p, x0, moved, False, process=more)
             columns.append([np.zeros_like(s) for s in innovations] if other is None else
-                           [(a - b) / 0.1 for a, b in zip(self.innovations(other), innovations, strict=True)])
+                           [(a - b) / 0.1 for a, b in zip(self.innovations(other, more), innovations, strict=True)])
         return [np.stack([c[i] for c in columns], axis=2) for i in range(len(innovations))]
 
     def _result(self, at: _Point, iterations: int, converged: bool, errors_too: bool) -> Fit:
         system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path) if errors_too else None
-        innovations = self.innovations(self.run(at.p, at.x0, at.kalman_gain, sensitivities=False))
-        loglik2, cov = self.score(innovations)
+        innovations = self.innovations(self.run(at.p, at.x0, at.kalman_gain, sensitivities=False, process=at.process), at.process)
+        loglik2, whitening = self.score(innovations, at.process)
         errors = {}
         if system is not None:
             H, _, _ = system
             d = np.sqrt(np.maximum(np.diag(H), 1e-300))
             inverse = np.linalg.pinv(H / np.outer(d, d), rcond=1e-13) / np.outer(d, d)
             errors = dict.fromkeys(self.sim.parameters, 0.0)
-            errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0) / self.data.weight)) for i, k in enumerate(self.free)}
+            errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0))) for i, k in enumerate(self.free)}
         values = dict(zip(self.sim.parameters, map(float, at.p), strict=True))
-        return Fit(self.model, values, at.x0, at.process, at.kalman_gain, tuple(innovations), cov, float(loglik2), errors,
+        return Fit(self.model, values, at.x0, at.process, at.kalman_gain, tuple(innovations), whitening, float(loglik2), errors,
                    iterations, converged)
 
-
-def whitened(white: np.ndarray, a: np.ndarray) -> np.ndarray:
-    """(N, m, q) times the (m, m) matrix `white` along m, as (N m, q)."""
-    out = np.empty_like(a)
-    for i, row in enumerate(white):
-        out[:, i] = sum(f * a[:, j] for j, f in enumerate(row) if f != 0)
-    return out.reshape(-1, a.shape[2])

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from symid.estimation.data import Data
-from symid.estimation.fit import Fit, Fitter, whitened
+from symid.estimation.fit import Fit, Fitter
 
 BLOCK = 3.0
 """Seconds of a block of one long segment: longer than what innovations remember of earlier ones."""
@@ -26,11 +26,11 @@ def with_robust_errors(fit: Fit, data: Data) -> Fit:
     runs = fitter.run(p, fit.initial, fit.kalman_gain, sensitivities=True)
     if runs is None or not fitter.free or not fit.errors:
         return fit
-    white, q, m = np.linalg.inv(np.linalg.cholesky(fit.covariance)), len(fitter.free), fit.covariance.shape[0]
+    whiten, q, m = fit.whitening, len(fitter.free), len(fit.whitening.covariance)
     columns, rests = [], []
     for t, s in zip(runs, fit.innovations, strict=True):
-        own, _ = np.linalg.qr(whitened(white, t.dy[:, :, q:]))
-        shared, rest = whitened(white, t.dy[:, :, :q]), (s @ white.T).reshape(-1)
+        own, _ = np.linalg.qr(whiten(t.dy[:, :, q:]))
+        shared, rest = whiten(t.dy[:, :, :q]), whiten(s[:, :, None])[:, 0]
         columns.append(shared - own @ (own.T @ shared))
         rests.append(rest - own @ (own.T @ rest))
     scale = np.sqrt(sum((c**2).sum(0) for c in columns)) + 1e-300

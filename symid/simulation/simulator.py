@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -55,6 +55,11 @@ class Trajectory:
     @property
     def outputs(self) -> dict[str, np.ndarray]:
         return dict(zip(self.output_names, self.y.T, strict=True))
+
+    def every(self, n: int) -> Trajectory:
+        """The same run at every n-th sample."""
+        kept = {k: None if a is None else a[::n] for k, a in (("x", self.x), ("y", self.y), ("dx", self.dx), ("dy", self.dy))}
+        return replace(self, time=self.time[::n], reached=-(-self.reached // n), **kept)
 
     def sensitivity(self, output: str, unknown: str) -> np.ndarray:
         """(N,) derivative of one output by one unknown."""

@@ -9,7 +9,9 @@ from math import comb
 import numpy as np
 from scipy.signal import welch
 
+from symid.estimation.cutoff import estimated_filter
 from symid.estimation.data import Segment
+from symid.estimation.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
 
@@ -23,8 +25,6 @@ NOTHING = 1e-3
 """Above the cutoff lies less than this part of the motion."""
 MOST_LEVELS = 0.5
 """More different values than this part of the samples are no steps of an encoder."""
-UNKNOWN = 1e-3
-"""Noise of a sensor of which nothing can be known; the fit finds what matters, its ratio to the process noise."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +35,8 @@ class Audit:
     ----------
     noise : (m,) standard deviation of the sensor [SI]. stated : whether that was given.
     cutoff : (m,) above this frequency the signal is empty, so it was low-pass filtered [Hz]; NaN where not.
+    filter : the zero-phase filter that did it, as the spectra show it; None where none of the outputs was filtered.
+    inputs : whether the inputs may have been filtered, too.
     rounding : (m,) step of the encoder [SI], 0 where values are not rounded visibly.
     """
 
@@ -42,14 +44,8 @@ class Audit:
     stated: bool
     cutoff: np.ndarray
     rounding: np.ndarray
-
-    def weight(self, step: float) -> float:
-        """Independent samples in each sample: a filtered signal has about as many a second as its cutoff.
-
-        The signal is empty from about twice the filter's bandwidth on, and a bandwidth carries two
-        independent samples a second for each Hz (Shannon 1949).
-        """
-        return min(1.0, step * float(np.nanmin(self.cutoff))) if self.filtered else 1.0
+    filter: ZeroPhase | None = None
+    inputs: bool = False
 
     @property
     def filtered(self) -> bool:
@@ -62,11 +58,26 @@ def audit(model: Model, recording: Recording, segments: tuple[Segment, ...], giv
     names = [y.channel for y in model.outputs.values()]
     cutoff = np.array([_cutoff([e.recorded[:, i] for e in segments], segments[0].step) for i in range(len(names))])
     rounding = np.array([_step(np.concatenate([e.recorded[:, i] for e in segments])) for i in range(len(names))])
+    filter = _filter(model, segments) if np.isfinite(cutoff).any() else None
+    inputs = filter is not None and any(np.isfinite(_cutoff([e.inputs[u] for e in segments], segments[0].step)) for u in model.inputs)
     if isinstance(given, (int, float)):
-        return Audit(np.full(len(names), float(given)), True, cutoff, rounding)
-    noise = [float(table[c]) if c in table else white_noise([e.recorded[:, i] for e in segments]) if np.isnan(cutoff[i]) else UNKNOWN
+        return Audit(np.full(len(names), float(given)), True, cutoff, rounding, filter, inputs)
+    noise = [float(table[c]) if c in table else _noise([e.recorded[:, i] for e in segments], segments[0].step, filter)
              for i, c in enumerate(names)]
-    return Audit(np.array(noise), all(c in table for c in names), cutoff, rounding)
+    return Audit(np.array(noise), all(c in table for c in names), cutoff, rounding, filter, inputs)
+
+
+def _filter(model: Model, segments: tuple[Segment, ...]) -> ZeroPhase:
+    longest = max(segments, key=lambda e: len(e.time))
+    return estimated_filter(list(longest.recorded.T), [longest.inputs[u] for u in model.inputs], longest.step)
+
+
+def _noise(pieces: list[np.ndarray], step: float, filter: ZeroPhase | None) -> float:
+    """Rms of a sensor's white noise, before a filter where there was one."""
+    if filter is None:
+        return white_noise(pieces)
+    ratio = filter.ratio(step)
+    return white_noise([filter.undone(x, step, ratio)[0][::ratio] for x in pieces]) * np.sqrt(ratio)
 
 
 def white_noise(pieces: list[np.ndarray]) -> float:

@@ -49,7 +49,7 @@ def _size(x: np.ndarray) -> float:
 def fitted_path(fit: Fit, data: Data) -> np.ndarray:
     """(N, n) states of the fit, all segments one below the other."""
     sim = simulator(fit.model)
-    return np.vstack([sim.simulate(fit.values, x0, e.time, e.inputs, gain=fit.kalman_gain, recorded=e.recorded).x
+    return np.vstack([e.simulate(sim, fit.values, x0, fit.kalman_gain).x
                       for e, x0 in zip(data.segments, fit.initial, strict=True)])
 
 

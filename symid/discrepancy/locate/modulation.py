@@ -55,7 +55,7 @@ def _answer(projection: Projection, port: Port) -> np.ndarray | None:
     start = len(segment.time) // 2
     column = projection.response(suspect, simulator(projection.fit.model.with_term(suspect.term)),
                              {"impulse_Nms": 0.0, "time_s": float(segment.time[start])})
-    return None if column is None else column.reshape(-1, len(projection.white))[start:start + int(LASTS / segment.step)]
+    return None if column is None else column.reshape(-1, projection.outputs)[start:start + int(LASTS / segment.step)]
 
 
 def _to_force(answer: np.ndarray, force: np.ndarray) -> np.ndarray:

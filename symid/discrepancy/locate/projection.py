@@ -9,7 +9,7 @@ import numpy as np
 from symid.discrepancy.model.hypothesis import extended, padded
 from symid.discrepancy.model.suspects import Suspect
 from symid.estimation.data import Data
-from symid.estimation.fit import Fit, Fitter, whitened
+from symid.estimation.fit import Fit, Fitter
 from symid.simulation import Simulator
 
 
@@ -21,7 +21,7 @@ class Projection:
         fitter = Fitter(fit.model, data)
         self.substeps = fitter.substeps
         runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.kalman_gain, sensitivities=True)
-        self.white = np.sqrt(data.weight) * np.linalg.inv(np.linalg.cholesky(fit.covariance))
+        self.outputs = len(data.sensor_noise)
         q, n = len(fitter.free), fit.initial.shape[1]
         columns = []
         for i, t in enumerate(runs):
@@ -37,7 +37,7 @@ class Projection:
 
     def whiten(self, a: np.ndarray) -> np.ndarray:
         """(N, m, q) -> (N m, q) with unit covariance."""
-        return whitened(self.white, a)
+        return self.fit.whitening(a)
 
     def project(self, a: np.ndarray) -> np.ndarray:
         return a - self.own @ (self.own.T @ a)
@@ -71,8 +71,7 @@ class Projection:
                 out.append(np.zeros((e.recorded.size, len(names))))
                 continue
             p = self.fit.values | suspect.named(values | own)
-            t = sim.simulate(p, x0, e.time, e.inputs, substeps=self.substeps, gain=padded(self.fit.kalman_gain, sim),
-                             recorded=e.recorded, sensitivity=names, keep="outputs")
+            t = e.simulate(sim, p, x0, padded(self.fit.kalman_gain, sim), substeps=self.substeps, sensitivity=names, keep="outputs")
             if t.diverged:
                 return None
             out.append(self.whiten(t.dy))

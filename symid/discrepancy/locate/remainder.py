@@ -82,8 +82,8 @@ def _columns(projection: Projection, sim: Simulator, term: Term) -> np.ndarray |
     names = [term.parameter_name(q.key) for q in term.law.parameters]
     values, out = projection.fit.values | dict.fromkeys(names, 0.0), []
     for e, x0 in zip(projection.data.segments, extended(projection.fit.initial, sim), strict=True):
-        t = sim.simulate(values, x0, e.time, e.inputs, substeps=projection.substeps, gain=padded(projection.fit.kalman_gain, sim),
-                         recorded=e.recorded, sensitivity=names, keep="outputs")
+        t = e.simulate(sim, values, x0, padded(projection.fit.kalman_gain, sim), substeps=projection.substeps,
+                       sensitivity=names, keep="outputs")
         if t.diverged:
             return None
         out.append(projection.whiten(t.dy))
@@ -91,11 +91,11 @@ def _columns(projection: Projection, sim: Simulator, term: Term) -> np.ndarray |
 
 
 def _ljung_box(projection: Projection, innovations: Sequence[np.ndarray], output: int) -> float:
-    """Ljung-Box (1978) statistic of one output's innovations over all segments, of those that can be independent."""
+    """Ljung-Box (1978) statistic of one output's innovations over all segments."""
     total, count = np.zeros(WHITENESS_LAGS), 0
-    power, every = 0.0, round(1 / projection.data.weight)
+    power = 0.0
     for s in innovations:
-        e = (s[::every] @ projection.white.T)[:, output]
+        e = projection.whiten(s[:, :, None]).reshape(s.shape)[:, output]
         count += len(e)
         power += e @ e
         total += [e[k:] @ e[:-k] for k in range(1, WHITENESS_LAGS + 1)]
@@ -113,7 +113,7 @@ def _rounded(fit: Fit, data: Data) -> list[list[np.ndarray]]:
     step = data.rounding
     if fit.kalman_gain is not None or not np.any(step):
         return []
-    jitter = np.sqrt(np.maximum(np.diag(fit.covariance) - step**2 / 12, 0.0))
+    jitter = np.sqrt(np.maximum(np.diag(fit.whitening.covariance) - step**2 / 12, 0.0))
     if np.all(jitter > WHITENING * step):
         return []
     found = []

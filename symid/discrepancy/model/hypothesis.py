@@ -52,7 +52,7 @@ class Hypothesis:
     @cached_property
     def share(self) -> float:
         """Part of the samples that what is left lets count as independent."""
-        return min(1.0, independent_share(self.fit.innovations) / self.data.weight)
+        return independent_share(self.fit.remaining)
 
     @property
     def score(self) -> float:
@@ -90,7 +90,7 @@ def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, sh
     """What suspects cost: log N for each parameter, twice for one that was scanned for, and for each new initial value."""
     states = after.initial.size - before.initial.size
     count = states + sum(s.size + (s.scanned is not None) for s in suspects)
-    return log(max(share * data.weight * data.samples, 2.0)) * count
+    return log(max(share * data.samples, 2.0)) * count
 
 
 def _surprise(suspect: Suspect, fit: Fit) -> float:

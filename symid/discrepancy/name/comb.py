@@ -37,8 +37,8 @@ def comb(projection: Projection, suspect: Suspect, sim: Simulator, highest: floa
                                     [{suspect.phase: turn - a} for a in turned]) for turn in (np.pi / 2, 0.0))
         if cos is None or sin is None:
             return []
-        answers.append((cos + 1j * sin)[:, 0].reshape(-1, len(projection.white))[rows].reshape(-1))
-    outputs = len(projection.white)
+        answers.append((cos + 1j * sin)[:, 0].reshape(-1, projection.outputs)[rows].reshape(-1))
+    outputs = projection.outputs
     middle = np.repeat(np.repeat(middles, [len(e.time) for e in segments])[rows], outputs)
     take = (rows[:, None] * outputs + np.arange(outputs)).reshape(-1)
     own, _ = np.linalg.qr(projection.own[take])

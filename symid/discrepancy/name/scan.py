@@ -48,7 +48,7 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
     """
     (t0, t1), found = projection.data.span, []
     step = projection.data.segments[0].step
-    rest = projection.rest.reshape(-1, len(projection.white))
+    rest = projection.rest.reshape(-1, projection.outputs)
     for values in suspect.shapes():
         middle = 0.5 * (t0 + t1)
         column = projection.response(suspect, sim, values | {suspect.scanned.key: middle})
@@ -65,7 +65,7 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
 
 def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 6) -> list[dict[str, float]]:
     """The best frequencies: the response is known from a few and interpolated, innovations by FFT."""
-    rest = projection.rest.reshape(-1, len(projection.white))
+    rest = projection.rest.reshape(-1, projection.outputs)
     n, step = len(rest), projection.data.segments[0].step
     time = np.arange(n) * step
     known = np.geomspace(0.05, HIGHEST_FREQUENCY, 24)

@@ -6,7 +6,7 @@ import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.policy import POLICY
-from symid.estimation.fit import Fit, whitened
+from symid.estimation.fit import Fit
 
 _EULER = 0.5772156649
 
@@ -23,8 +23,7 @@ def null_maxima(projection: Projection, fit: Fit) -> np.ndarray:
     fit : the final fit, which leaves nothing but noise.
     """
     rng = np.random.default_rng(0)
-    white = np.linalg.inv(np.linalg.cholesky(fit.covariance))
-    rest = np.concatenate([whitened(white, s[:, :, None])[:, 0] for s in fit.innovations])
+    rest = np.concatenate([s.reshape(-1) for s in fit.remaining])
     signs = np.concatenate([_signs(rng, s) for s in projection.data.segments])
     signs = np.repeat(signs, fit.covariance.shape[0], axis=0)
     if len(signs) != len(rest):
@@ -33,7 +32,7 @@ def null_maxima(projection: Projection, fit: Fit) -> np.ndarray:
     best = np.zeros(POLICY.nulls)
     for basis in projection.bases:
         best = np.maximum(best, ((basis.T @ noise) ** 2).sum(0))
-    return best * projection.data.weight
+    return best
 
 
 def _signs(rng: np.random.Generator, segment) -> np.ndarray:

@@ -15,6 +15,7 @@ from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import law_name, place_name
 from symid.estimation.free_run import FreeRun
+from symid.estimation.zero_phase import ZeroPhase
 from symid.identification.fit import common_unit, rms_text
 from symid.model import Model
 from symid.units import quantity
@@ -50,7 +51,7 @@ class Story:
     halves: tuple[HalfVerdict, ...]
     white: bool
     driven: bool
-    weight: float
+    filter: ZeroPhase | None
     model: Model
     proof: Proof | None
     chance: float | None
@@ -201,10 +202,9 @@ def _rest(s: Story) -> list[str]:
 
 def _caveats(s: Story) -> list[str]:
     out = []
-    if s.audit.filtered:
-        cutoff = float(np.nanmax(s.audit.cutoff))
-        out.append(f"The recording holds nothing above about {cutoff:.2g} Hz: it was low-pass filtered. Only one sample in "
-                   f"{round(1 / s.weight)} is counted as independent; tests for a remainder may still be too strict.")
+    if s.filter is not None:
+        out.append(f"The recording was low-pass filtered: about as a Butterworth filter of order {s.filter.order}, forwards and "
+                   f"backwards, does at {s.filter.cutoff:.2g} Hz. That was undone before anything was compared.")
     elif not s.audit.stated:
         out.append(f"The sensors' noise was not stated; the highest frequencies of the recording show {s.channels(s.audit.noise)}.")
     if not s.white and any(e.parameters for e in s.effects):

@@ -1,0 +1,73 @@
+"""What was measured, before it was filtered: the filter undone, and its cutoff estimated with the model."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, segments_of
+from symid.estimation.fit import Fit
+from symid.estimation.zero_phase import ZeroPhase
+from symid.model import Model
+from symid.recording import Recording
+
+MOVED = 1.1
+"""A cutoff that the model moves by more than this factor makes the filter be undone anew, over another band."""
+
+
+def fits_of(model: Model, recording: Recording, part, length: float | None, plain: Data, filter: ZeroPhase | None,
+            inputs: bool, start: Mapping[str, float]) -> list[tuple[Data, Fit]]:
+    """What may have been measured, and the fit of `model` to each: `plain` data, or those with a filter undone.
+
+    The cutoff is estimated with the model, which the outputs' answer to the inputs shows. Where the inputs went
+    through the same filter it shows nothing there, and the cutoff keeps its value.
+
+    Parameters
+    ----------
+    part, length : as for `segments_of`.
+    inputs : whether the inputs may have gone through the filter, too; that is then a second possibility, whose
+        log-likelihood compares with that of the first.
+
+    Raises
+    ------
+    DiagnosisError : the model cannot be fitted.
+    """
+    if filter is None:
+        return [(plain, fit_model(model, plain, dict(start)))]
+    ratio = filter.ratio(plain.segments[0].step)
+    data = _undone(model, recording, part, length, plain, filter, ratio, inputs=False)
+    fit = fit_model(model, data, dict(start))
+    moved = data.filter.sharpened(float(fit.process[-1]))
+    if not 1 / MOVED < moved.cutoff / filter.cutoff < MOVED:
+        ratio = moved.ratio(plain.segments[0].step)
+        data = _undone(model, recording, part, length, plain, moved, ratio, inputs=False)
+        fit = fit_model(model, data, fit.values)
+    found = [(data.sharpened(float(fit.process[-1])), replace(fit, process=np.append(fit.process[:-1], 1.0)))]
+    if inputs:
+        both = _undone(model, recording, part, length, plain, filter, ratio, inputs=True)
+        found.append((both, fit_model(model, both, fit.values)))
+    return found
+
+
+def _undone(model: Model, recording: Recording, part, length, plain: Data, filter: ZeroPhase, ratio: int,
+            inputs: bool) -> Data:
+    outputs = [y.channel for y in model.outputs.values()]
+    whole, added = _restored(recording, outputs + [u.channel for u in model.inputs.values()] * inputs, filter, ratio)
+    pieces = segments_of(model, whole, part, length)
+    if not inputs:
+        pieces = [replace(e, undone=a.recorded) for e, a in zip(pieces, segments_of(model, added, part, length), strict=True)]
+    return replace(plain, segments=tuple(e.sparser(ratio) for e in pieces), filter=filter,
+                   sensor_noise=plain.sensor_noise / np.sqrt(ratio))
+
+
+def _restored(recording: Recording, names: list[str], filter: ZeroPhase, ratio: int) -> tuple[Recording, Recording]:
+    """The recording with these channels as before the filter, and what undoing it added to each."""
+    whole, added = ({c: np.array(x) for c, x in recording.channels.items()} for _ in range(2))
+    for c in names:
+        for run in recording.runs:
+            step = float(np.median(np.diff(recording.time[run])))
+            whole[c][run], added[c][run] = filter.undone(recording[c][run], step, ratio)
+    return replace(recording, channels=whole), replace(recording, channels=added)

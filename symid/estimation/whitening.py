@@ -1,0 +1,93 @@
+"""Make innovations white: an autoregression of their own, fitted with whatever model they belong to.
+
+A model of the motion need not be one of the sensors. Where their noise remembers earlier samples, or a
+filter made it, the innovations follow from earlier ones although the motion is right; a likelihood that
+takes them for white finds physics in that. They are whitened by e(t) - A_1 e(t-1) - ... - A_k e(t-k),
+the matrices fitted by least squares at each trial of the parameters (concentrated out, as their
+covariance is): the noise model of Box & Jenkins (Ljung 1999, 4.2 and 10.3).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+LONGEST = 10
+"""Samples that noise may remember."""
+SHORTEST = 20
+"""A segment has at least so many samples for each that noise may remember."""
+CLEARLY = 10.0
+"""Noise counts as white unless a memory is better by this much of BIC: very strong evidence (Kass & Raftery 1995)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Whitening:
+    """What makes innovations white and of unit covariance.
+
+    Attributes
+    ----------
+    lags : (k, m, m) matrices of the autoregression. covariance : (m, m) of what it leaves.
+    """
+
+    lags: np.ndarray
+    covariance: np.ndarray
+
+    @cached_property
+    def root(self) -> np.ndarray:
+        """(m, m) that gives what is left unit covariance."""
+        return np.linalg.inv(np.linalg.cholesky(self.covariance))
+
+    def __call__(self, a: np.ndarray) -> np.ndarray:
+        """(N, m, q) columns of one segment as (N m, q) whitened ones; before the segment they were zero."""
+        left = a if not len(self.lags) else _less_memory(self.lags, a)
+        out = np.empty(left.shape)
+        for i, row in enumerate(self.root):
+            out[:, i] = sum(f * left[:, j] for j, f in enumerate(row) if f != 0)
+        return out.reshape(-1, a.shape[2])
+
+    def apart(self, least: np.ndarray) -> Whitening:
+        """Each channel by itself, with no smaller variance than (m,) `least`."""
+        return replace(self, covariance=np.diag(np.diag(self.covariance) + least))
+
+
+def whitening_of(innovations: Sequence[np.ndarray], memory: int) -> Whitening:
+    """The whitening of (N, m) innovations of each segment by an autoregression of order `memory`."""
+    m = innovations[0].shape[1]
+    lags = np.zeros((memory, m, m))
+    if memory:
+        past = np.vstack([_past(s, memory) for s in innovations])
+        now = np.vstack([s[memory:] for s in innovations])
+        lags = np.linalg.lstsq(past, now, rcond=1e-12)[0].reshape(memory, m, m).transpose(0, 2, 1)
+    left = np.vstack([_less_memory(lags, s[:, :, None])[:, :, 0] for s in innovations])
+    return Whitening(lags, left.T @ left / len(left))
+
+
+def remembered(innovations: Sequence[np.ndarray]) -> int:
+    """How many samples the innovations remember: the order of the autoregression with the best BIC (Schwarz 1978)."""
+    m, samples = innovations[0].shape[1], sum(len(s) for s in innovations)
+    longest = min(LONGEST, min(len(s) for s in innovations) // SHORTEST)
+
+    def bic(memory: int) -> float:
+        return samples * np.linalg.slogdet(whitening_of(innovations, memory).covariance)[1] + memory * m**2 * np.log(samples)
+
+    scores = [bic(k) for k in range(longest + 1)]
+    best = int(np.argmin(scores))
+    return best if scores[best] < scores[0] - CLEARLY else 0
+
+
+def _past(s: np.ndarray, memory: int) -> np.ndarray:
+    """(N - k, k m): the k samples before each."""
+    return np.hstack([s[memory - j:len(s) - j] for j in range(1, memory + 1)])
+
+
+def _less_memory(lags: np.ndarray, a: np.ndarray) -> np.ndarray:
+    """(N, m, q) less what its own earlier samples foretell."""
+    out = np.array(a)
+    for j, A in enumerate(lags, 1):
+        for i in range(a.shape[1]):
+            for o in range(a.shape[1]):
+                out[j:, i] -= A[i, o] * a[:-j, o]
+    return out

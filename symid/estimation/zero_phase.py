@@ -1,0 +1,71 @@
+"""A low-pass filter without phase shift that was run over a recording, and its undoing below a band edge.
+
+Motion capture is low-pass filtered forwards and backwards. Each sample then depends on later ones, and
+a predictor takes that smoothness for physics. Below about twice its cutoff the filter left enough to
+be multiplied back: signal and sensor noise are again what was measured, and one model holds for both.
+With x the (prewarped) frequency over the cutoff, the gain of a Butterworth filter of order n in both
+directions is 1 / (1 + x^2n) (Butterworth 1930; Oppenheim & Schafer 2010, 7.3): its inverse is linear in
+cutoff^-2n, which is how the cutoff is estimated together with a model.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+SMALLEST_GAIN = 0.03
+"""The filter is undone where it left at least this part of a signal; what was rounded stays far below the sensors' noise."""
+PADDING = 5.0
+"""Seconds of odd reflection at both ends, so that the undoing meets no step there."""
+
+
+@dataclass(frozen=True)
+class ZeroPhase:
+    """A Butterworth filter that was run forwards and backwards.
+
+    Attributes
+    ----------
+    order : in each direction. cutoff : of each direction, at -3 dB [Hz]. rate : samples per second that it saw [Hz].
+    """
+
+    order: int
+    cutoff: float
+    rate: float
+
+    def excess(self, frequency: np.ndarray) -> np.ndarray:
+        """x^2n, so that the gain is 1 / (1 + excess), with the digital filter's warped frequency."""
+        warped = np.tan(np.pi * np.minimum(frequency / self.rate, 0.499))
+        return (warped / np.tan(np.pi * self.cutoff / self.rate)) ** (2 * self.order)
+
+    def gain(self, frequency: np.ndarray) -> np.ndarray:
+        """What it left of each frequency [Hz]."""
+        return 1 / (1 + self.excess(frequency))
+
+    def ratio(self, step: float) -> int:
+        """One sample in so many holds all frequencies that can be undone."""
+        frequency = np.linspace(0, 0.5 / step, 2000)
+        band = frequency[np.argmax(self.gain(frequency) < SMALLEST_GAIN)] or frequency[-1]
+        return max(1, round(0.5 / step / band))
+
+    def undone(self, x: np.ndarray, step: float, ratio: int) -> tuple[np.ndarray, np.ndarray]:
+        """A channel (N,) with the filter undone as far as one sample in `ratio` holds it, and the part that undoing added."""
+        pad = min(len(x) - 1, round(PADDING / step))
+        long = np.concatenate([2 * x[0] - x[pad:0:-1], x, 2 * x[-1] - x[-2:-pad - 2:-1]])
+        line = np.linspace(long[0], long[-1], len(long))
+        frequency = np.fft.rfftfreq(len(long), step)
+        spectrum = np.fft.rfft(long - line) * (frequency <= 0.5 / step / ratio * (1 + 1e-9))
+        kept, added = (np.fft.irfft(spectrum * a, len(long))[pad:pad + len(x)] for a in (1.0, self.excess(frequency)))
+        return kept + added + line[pad:pad + len(x)], added
+
+    def log_volume(self, step: float, sharpness: float = 1.0) -> tuple[float, float, float]:
+        """Mean of log(1 / gain) over the band of samples `step` apart, `sharpness` times the excess, and its first and
+        second derivative by the logarithm of that: what undoing adds to the log-likelihood of each sample."""
+        frequency = np.linspace(0, 0.5 / step, 1001)
+        x = sharpness * self.excess(0.5 * (frequency[1:] + frequency[:-1]))
+        return float(np.mean(np.log1p(x))), float(np.mean(x / (1 + x))), float(np.mean(x / (1 + x) ** 2))
+
+    def sharpened(self, sharpness: float) -> ZeroPhase:
+        """The filter whose excess is `sharpness` times as large."""
+        tangent = np.tan(np.pi * self.cutoff / self.rate) * sharpness ** (-0.5 / self.order)
+        return ZeroPhase(self.order, float(np.arctan(tangent) * self.rate / np.pi), self.rate)
