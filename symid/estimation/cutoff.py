@@ -1,8 +1,8 @@
 """Which zero-phase filter a recording went through, told from its spectra.
 
 Beyond the motion lies the noise of sensors, flat or falling, and what random forces do, which falls with
-the fourth power of the frequency or so: a + b / f^2 + c / f^4, times the square of the filter's gain, and
-the rounding of a file that came after it. The filter is the one of greatest likelihood (Whittle 1953)
+the fourth power of the frequency, faster above a resonance: a + b / f^2 + c / f^4 + d / f^6, times the square of
+the filter's gain, and the rounding of a file that came after it. The filter is the one of greatest likelihood (Whittle 1953)
 for what no input explains linearly (Bendat & Piersol 2010, 6.2).
 """
 
@@ -73,7 +73,7 @@ def _end_of_motion(frequency: np.ndarray, power: np.ndarray) -> float:
 
 def _misfit(f: np.ndarray, power: np.ndarray, gain: np.ndarray) -> float:
     """Whittle's -log-likelihood for each look, at the best noise."""
-    shapes = np.array([gain, gain * (f[-1] / f) ** 2, gain * (f[-1] / f) ** 4, np.ones_like(f)])
+    shapes = np.array([*(gain * (f[-1] / f) ** k for k in (0, 2, 4, 6)), np.ones_like(f)])
 
     def cost(log_sizes):
         parts = np.exp(np.clip(log_sizes, -100, 50))[:, None] * shapes
@@ -82,5 +82,5 @@ def _misfit(f: np.ndarray, power: np.ndarray, gain: np.ndarray) -> float:
 
     floor = np.log(np.median(power / gain))
     rounding = np.log(max(power.min(), 1e-300))
-    starts = ([floor, floor - 2, floor - 2, rounding], [floor - 6, floor - 2, floor - 1, rounding])
+    starts = ([floor, floor - 2, floor - 2, floor - 6, rounding], [floor - 6, floor - 2, floor - 1, floor - 6, rounding])
     return min(minimize(cost, np.array(s), jac=True, method="L-BFGS-B").fun for s in starts)

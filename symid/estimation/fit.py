@@ -30,6 +30,8 @@ STEPS_A_SWING = 300
 """Free motion that is slower than that takes longer steps: so many of Runge and Kutta's a swing err by 1e-9 of it."""
 PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
+SHARPEST = 4.0
+"""The sharpness of a filter is within this factor of what the spectra show: its cutoff of order 2 within a factor of 1.4."""
 REACH = 0.03
 """The motion at the start of an segment is continued backwards for so long [s], for signals that are late."""
 
@@ -257,6 +259,7 @@ class Fitter:
         p1 = np.clip(p1, *self.bounds.T)
         process1 = process.copy()
         process1[self.tuned] *= np.exp(np.clip(step[q:q + len(self.tuned)], -1.5, 1.5))
+        process1[self.noises:] = np.clip(process1[self.noises:], 1 / SHARPEST, SHARPEST)
         return p1, x0 + step[-E * n:].reshape(E, n), process1
 
     def normal(self, p, x0, gain, process, path):

@@ -9,13 +9,11 @@ import numpy as np
 
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data, segments_of
-from symid.estimation.fit import Fit
+from symid.estimation.fit import Fit, Fitter
+from symid.estimation.whitening import remembered
 from symid.estimation.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
-
-MOVED = 1.1
-"""A cutoff that the model moves by more than this factor makes the filter be undone anew, over another band."""
 
 
 def fits_of(model: Model, recording: Recording, part, length: float | None, plain: Data, filter: ZeroPhase | None,
@@ -40,16 +38,25 @@ def fits_of(model: Model, recording: Recording, part, length: float | None, plai
     ratio = filter.ratio(plain.segments[0].step)
     data = _undone(model, recording, part, length, plain, filter, ratio, inputs=False)
     fit = fit_model(model, data, dict(start))
-    moved = data.filter.sharpened(float(fit.process[-1]))
-    if not 1 / MOVED < moved.cutoff / filter.cutoff < MOVED:
-        ratio = moved.ratio(plain.segments[0].step)
-        data = _undone(model, recording, part, length, plain, moved, ratio, inputs=False)
-        fit = fit_model(model, data, fit.values)
-    found = [(data.sharpened(float(fit.process[-1])), replace(fit, process=np.append(fit.process[:-1], 1.0)))]
+    found = [(data, fit)]
     if inputs:
         both = _undone(model, recording, part, length, plain, filter, ratio, inputs=True)
         found.append((both, fit_model(model, both, fit.values)))
     return found
+
+
+def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
+    """The data with noise that remembers as much as leaves white innovations, and the fit to them.
+
+    The same data and fit where the innovations are white already, or nothing random drives.
+    """
+    memory = remembered(fit.innovations) if fit.kalman_gain is not None else 0
+    if memory <= data.memory:
+        return data, fit
+    sharpness = float(fit.process[-1]) if data.cutoff_free else 1.0
+    more = data.sharpened(sharpness).remembering(memory)
+    # The fit that took its innovations for white leaves the model something to correct, and then more to remember.
+    return with_memory(Fitter(fit.model, more).again(fit), more)
 
 
 def _undone(model: Model, recording: Recording, part, length, plain: Data, filter: ZeroPhase, ratio: int,

@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
 from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.name.explore import explore
 from symid.discrepancy.name.search import Search
+from symid.errors import SymidError
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
-from symid.estimation.whitening import remembered
+from symid.estimation.measurement import with_memory
 
 
 def with_error_model(possible: list[tuple[Data, Fit]], searched: Callable[[Fit, Data], Search],
@@ -28,17 +28,27 @@ def with_error_model(possible: list[tuple[Data, Fit]], searched: Callable[[Fit, 
     possible : what may have been measured, and the fit of the model as given to it.
     searched : makes a search.
     """
-    searches = [searched(base, data) for data, base in possible]
-    search, found, ranking = max(((s, *s.run()) for s in searches), key=lambda done: done[1].fit.loglik2)
-    fit = found.fit
-    memory = remembered(fit.innovations) if fit.kalman_gain is not None else 0
-    if memory == 0:
+    search = _likeliest([searched(base, data) for data, base in possible])
+    found, ranking = search.run()
+    data, explained = with_memory(found.fit, search.data)
+    if data is search.data:
         return search, found, ranking
-    progress(f"the noise remembers {memory} samples; looking again")
-    sharpness = float(fit.process[-1]) if search.data.cutoff_free else 1.0
-    data = search.data.sharpened(sharpness).remembering(memory)
-    search = searched(_refitted(search.base, fit, data), data)
+    progress(f"the noise remembers {data.memory} samples; looking again")
+    search = searched(_refitted(search.base, explained, data), data)
     return search, *search.run()
+
+
+def _likeliest(searches: list[Search]) -> Search:
+    """The one whose data the model fits best, with whatever single suspect it lacks."""
+    if len(searches) == 1:
+        return searches[0]
+
+    def best(search: Search) -> float:
+        pool = [s for s in search.pool if s.kind != "clock"]
+        tried = explore(search.base, search.data, pool, later=True, threads=search.threads)
+        return max([search.base.loglik2, *(h.fit.loglik2 for h in tried)])
+
+    return max(searches, key=best)
 
 
 def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
@@ -47,10 +57,9 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
     kept = [explained.simulator.states.index(s) for s in fitter.sim.states]
     near = replace(base, values={k: explained.values[k] for k in base.values}, initial=explained.initial[:, kept],
                    process=explained.process, kalman_gain=None)
-    return max((fitter.again(start) for start in _usable(fitter, (base, near))), key=lambda fit: fit.loglik2)
-
-
-def _usable(fitter: Fitter, starts) -> list[Fit]:
-    """Those from which the model can be simulated; the first one can."""
-    return [s for i, s in enumerate(starts) if i == 0 or np.isfinite(fitter.evaluate(
-        np.array([s.values[k] for k in fitter.sim.parameters]), s.initial, None))]
+    fits = [fitter.again(base)]
+    try:
+        fits.append(fitter.again(near))
+    except SymidError:
+        pass    # without what was found these values need not hold the model together
+    return max(fits, key=lambda fit: fit.loglik2)
