@@ -17,7 +17,7 @@ import numpy as np
 SMALLEST_GAIN = 0.03
 """The filter is undone where it left at least this part of a signal; what was rounded stays far below the sensors' noise."""
 PADDING = 5.0
-"""Seconds of odd reflection at both ends, so that the undoing meets no step there."""
+"""Seconds of odd reflection at both ends that fade away, so that the undoing meets no step and no kink there."""
 
 
 @dataclass(frozen=True)
@@ -51,12 +51,14 @@ class ZeroPhase:
     def undone(self, x: np.ndarray, step: float, ratio: int) -> tuple[np.ndarray, np.ndarray]:
         """A channel (N,) with the filter undone as far as one sample in `ratio` holds it, and the part that undoing added."""
         pad = min(len(x) - 1, round(PADDING / step))
-        long = np.concatenate([2 * x[0] - x[pad:0:-1], x, 2 * x[-1] - x[-2:-pad - 2:-1]])
-        line = np.linspace(long[0], long[-1], len(long))
+        middle = 0.5 * (x[0] + x[-1])
+        fade = 0.5 - 0.5 * np.cos(np.pi * np.arange(pad) / max(pad, 1))
+        long = np.concatenate([fade * (2 * x[0] - x[pad:0:-1] - middle), x - middle,
+                               fade[::-1] * (2 * x[-1] - x[-2:-pad - 2:-1] - middle)])
         frequency = np.fft.rfftfreq(len(long), step)
-        spectrum = np.fft.rfft(long - line) * (frequency <= 0.5 / step / ratio * (1 + 1e-9))
+        spectrum = np.fft.rfft(long) * (frequency <= 0.5 / step / ratio * (1 + 1e-9))
         kept, added = (np.fft.irfft(spectrum * a, len(long))[pad:pad + len(x)] for a in (1.0, self.excess(frequency)))
-        return kept + added + line[pad:pad + len(x)], added
+        return kept + added + middle, added
 
     def log_volume(self, step: float, sharpness: float = 1.0) -> tuple[float, float, float]:
         """Mean of log(1 / gain) over the band of samples `step` apart, `sharpness` times the excess, and its first and
