@@ -1,7 +1,8 @@
 """Every number that decides something in a diagnosis, with its reason.
 
-Evidence is counted in units of twice the log-likelihood. `symid conceal` makes recordings with known
-answers on which these numbers can be measured again; where a study set one, it is named.
+Evidence is counted in units of twice the log-likelihood. Where no source is named a number is a judgement, looked
+at on the practice cases and on real machines: no study has set it yet. `symid conceal` makes recordings with known
+answers on which these numbers can be measured.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ class Policy:
     most_effects : a search ends here.
     quiet : -log10 of the probability by chance of the most suspicious test, below which no search goes on:
         of about ten tests one reaches it in a tenth of the recordings with nothing left.
-    remainder : likewise, above which a rest counts as systematic: 30 nulls of `symid conceal` stayed below 4.
+    remainder : likewise, above which a rest counts as systematic.
     located : likewise, above which a test tells the place of a rest.
     far : errors so many times the sensors' noise are not explained by whatever acts at one place alone.
     sure : an effect not so many honest standard errors from nothing is left out.
@@ -58,7 +59,7 @@ class Policy:
     fewest_blocks: int = 6
     nulls: int = 19
 
-    # ---- how much work a search does: more changes no answer of the practice cases ------------------
+    # ---- how much work a search does; not studied: more of it costs time ------------------------------
     worth_refitting: float = 8.0
     always_refitted: int = 6
     refitted: int = 20

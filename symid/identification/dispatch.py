@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from symid.identification.study import Solve
 
 ATTEMPTS = 2  # a worker may be killed by chance once
+LOOK_S = 1.0
+"""Time [s] between two looks at whether a cluster is still connected."""
 
 
 def in_turn(todo: Mapping[str, Solve], on_iteration) -> Iterator[tuple[str, Outcome]]:
@@ -54,6 +56,7 @@ def on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple
     packed: dict[int, object] = {}
     running: dict[Future, str] = {}
     attempts = dict.fromkeys(todo, 0)
+    connection = _connection(executor)
 
     def send(key: str) -> None:
         solve = todo[key]
@@ -72,7 +75,13 @@ def on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple
                 except BrokenExecutor as broken:
                     yield key, _lost(todo[key], broken)
             with alive(lambda: f"{len(running)} solves are at work or wait for their turn"):
-                ended, _ = wait(running, return_when=FIRST_COMPLETED)
+                ended, _ = wait(running, LOOK_S, FIRST_COMPLETED)
+                while not ended and _connection(executor) is connection:
+                    ended, _ = wait(running, LOOK_S, FIRST_COMPLETED)
+            if not ended:
+                for key in running.values():
+                    yield key, _lost(todo[key], CancelledError("the connection to the scheduler was lost"))
+                return
             for future in ended:
                 key, error = running.pop(future), _error(future)
                 if error is None:
@@ -86,6 +95,14 @@ def on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple
     finally:
         for future in running:
             future.cancel()
+
+
+def _connection(executor: Executor):
+    """What connects a dask client with its scheduler, None for other executors and where the scheduler was lost.
+
+    With the connection all futures are lost, though a client reports only those that it was not just fetching.
+    """
+    return getattr(getattr(executor, "_client", None), "scheduler_comm", None)
 
 
 def _error(future: Future) -> BaseException | None:

@@ -21,9 +21,8 @@ MOSTLY = 0.1
 BETTER = 1.5
 """A mistake is named where undoing it leaves so many times less unexplained ...
 
-Over the 34 practice cases with concealed physics and the recorded person, no change of what was right left less than
-0.97 of what the equations as given left; of planted mistakes, undoing the least visible one (one joint's sign, where a
-full-state feedback absorbs it) left 1.8 times less. `tests/test_plausibility.py` measures both again.
+Chosen on 24 recordings of standing: none that was right is blamed, 215 of 240 planted mistakes are named. The others are in
+recordings in which process noise or missing physics dominates. `tests/test_plausibility.py` asks for remarks on such recordings.
 """
 CLEAR = 0.5
 """... and no more than this: where nothing explains the motion, nothing is blamed."""
