@@ -212,7 +212,7 @@ def test_effects_are_written_as_name_place_values(text, expected):
     (["--effect", "end_range_stiffness@hip"], "give a value of torque_Nm"),
     (["--effect", "feedback_delay@global", "--random"], "--effect or --random, not both"),
     (["--count", "0"], "give at least one case"),
-    (["--seed", "-1"], "a seed that is not negative"),
+    (["--seed", "-1"], "give a whole number from 0 to"),
     (["--system", "unicycle"], "no system 'unicycle' and no such file"),
 ])
 def test_bad_input_ends_in_one_sentence_and_writes_nothing(tmp_path, capsys, arguments, message):

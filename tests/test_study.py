@@ -108,6 +108,7 @@ def test_solve_is_a_study(undisturbed, pool, tmp_path, solved):
 
 def test_a_problem_pickles_small_and_without_its_transcription():
     big = problem()
+    assert big.model.fingerprint    # which the model remembers from here on
     before = len(pickle.dumps(big))
     assert big.transcription.layout.size > 0
     assert len(pickle.dumps(big)) == before < 20_000

@@ -62,7 +62,7 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
         holds = max(1, round(e.step / HOLD))
         time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)
         fine = np.interp(np.arange((len(e.time) - 1) * e.ratio + 1) / e.ratio, np.arange(len(e.time)), e.time)
-        noise = {k: s * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process)}
+        noise = {k: s * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process, strict=True)}
         run = sim.simulate(fit.values, x0, time, {k: np.interp(time, fine, u) for k, u in e.inputs.items()}, noise=noise,
                            substeps=-(-fitter.substeps // holds), keep="outputs")
         if run.diverged:

@@ -11,7 +11,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp, deadline
-
 from symid.errors import MachineError, SymidError
 from symid.identification.solution import StartRow
 from symid.ipopt_solver import Iteration, SolverResult
@@ -19,6 +18,8 @@ from symid.ipopt_solver.bounded import LEAVE
 from symid.ipopt_solver.status import STATUS, WALL_TIME
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from symid.identification.problem import Identification
     from symid.identification.study import Solve
 
