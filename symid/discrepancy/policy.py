@@ -38,6 +38,7 @@ class Policy:
     confirm : probability that the held-out data must give to the improvement.
     block : seconds of a block of held-out data: longer than errors remember (seconds, in all recordings at hand).
     fewest_blocks : with fewer the scatter of their differences is not known (a t with 5 degrees of freedom).
+    chance : a finding that chance alone would make in this recording with more than this probability is none.
     nulls : simulated recordings without the finding, from which its probability by chance is read.
     """
 
@@ -57,6 +58,7 @@ class Policy:
     confirm: float = 0.95
     block: float = 3.0
     fewest_blocks: int = 6
+    chance: float = 0.5
     nulls: int = 19
 
     # ---- how much work a search does; not studied: more of it costs time ------------------------------

@@ -199,11 +199,11 @@ class Solution:
 
     @cached_property
     def trajectories(self) -> tuple[pd.DataFrame, ...]:
-        """One table per episode: states, outputs and "<output> recorded" over time_s, SI."""
+        """One table per episode: states, controls, algebraic variables, outputs and "<output> recorded" over time_s, SI."""
         t, frames = self.transcription, []
         for e, (y, d) in enumerate(outputs_and_targets(t, self.result.z)):
             m = t.measured[t.recording_of[e]]
-            columns = dict(zip(t.model.states, (t.layout.sample_view(self.result.z, e) * t.layout.state_scale).T, strict=True))
+            columns = dict(zip(t.layout.node_names, (t.layout.sample_view(self.result.z, e) * t.layout.node_scale).T, strict=True))
             for i, name in enumerate(t.model.outputs):
                 columns |= {name: y[:, i], f"{name} recorded": d[:, i]}
             frame = pd.DataFrame(columns, index=pd.Index(m.time[m.nodes], name="time_s"))

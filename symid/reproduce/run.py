@@ -25,7 +25,7 @@ NETWORK_RIDGE = 4e-4
 """Weight of the network's squared weights: w/20 have a standard deviation of a few tenths, and Ipopt a Hessian."""
 START_RIDGE = 0.1
 """Weight of their squared distance from the start where there is process noise: keeps them near a loop that survives."""
-SOLVER = {kind: {"max_iterations": 200, "dual_limit": 1e4, "time_limit_s": 3600.0} for kind in ("search", "relaxed", "stable")} | {
+SOLVER = {kind: {"max_iterations": 200, "dual_limit": 1e6, "time_limit_s": 3600.0} for kind in ("search", "relaxed", "stable")} | {
     "random": {"max_iterations": 500}}
 DRAWS = 1000
 """Draws of process noise that belong to one seed: start k has number seed * DRAWS + k."""
