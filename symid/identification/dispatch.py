@@ -76,7 +76,7 @@ def on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple
                     yield key, _lost(todo[key], broken)
             with alive(lambda: f"{len(running)} solves are at work or wait for their turn"):
                 ended, _ = wait(running, LOOK_S, FIRST_COMPLETED)
-                while not ended and _connection(executor) is connection:
+                while running and not ended and _connection(executor) is connection:
                     ended, _ = wait(running, LOOK_S, FIRST_COMPLETED)
             if not ended:
                 for key in running.values():
