@@ -87,7 +87,7 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     before, found = found.suspects, honest(found, white, threads)
     left = left if found.suspects == before else search.remainder(found)
     chance = false_alarm_probability(weakest(found) if found.suspects else _largest(ranking), null_maxima(search.projection, found.fit))
-    if found.suspects and chance > POLICY.chance:
+    if found.suspects and chance is not None and chance > POLICY.chance:
         found = Hypothesis((), base, 0.0)
         left = search.remainder(found)
     survived = survivals(found.suspects, found.fit, base, data, white)
