@@ -21,6 +21,7 @@ test-slow: $(READY)
 
 lint: $(READY)
 	$(PY) -m ruff check symid tests
+	$(PY) -m ruff format --check --quiet .
 
 bench: $(READY)
 	$(PY) -m symid.cli bench

@@ -10,7 +10,9 @@ _FORMULA = re.compile(r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</\1
 
 def on_page_content(html: str, **_) -> str:
     """Called by MkDocs for each page: every formula that arithmatex marked becomes MathML."""
+
     def mathml(found: re.Match) -> str:
         tag, opening, formula = found.groups()
         return f"<{tag}>{convert(unescape(formula), display='block' if opening == '[' else 'inline')}</{tag}>"
+
     return _FORMULA.sub(mathml, html)

@@ -16,4 +16,4 @@ class DescriptionsAfterColon(griffe.Extension):
                     if isinstance(item.annotation, str):
                         item.description = f"{item.annotation} {item.description}".strip()
                         item.annotation = None
-        vars(obj.docstring)["parsed"] = sections    # the cached property that the page is made from
+        vars(obj.docstring)["parsed"] = sections  # the cached property that the page is made from

@@ -7,14 +7,51 @@ command line starts at once.
 from importlib import import_module
 
 _WHERE = {
-    "symid.errors": ("CodegenError", "DiagnosisError", "ModelError", "RecordingError", "SolveError", "SymidError",
-                     "TranscriptionError"),
-    "symid.model": ("Algebraic", "Boundary", "Constant", "Constraint", "Control", "Equation", "Expression", "Input", "Law", "LawParameter", "LogNormal", "Model", "Noise", "Normal",
-                    "Objective", "Output",
-                    "Parameter", "Port", "Process", "State", "Term"),
+    "symid.errors": (
+        "CodegenError",
+        "DiagnosisError",
+        "ModelError",
+        "RecordingError",
+        "SolveError",
+        "SymidError",
+        "TranscriptionError",
+    ),
+    "symid.model": (
+        "Algebraic",
+        "Boundary",
+        "Constant",
+        "Constraint",
+        "Control",
+        "Equation",
+        "Expression",
+        "Input",
+        "Law",
+        "LawParameter",
+        "LogNormal",
+        "Model",
+        "Noise",
+        "Normal",
+        "Objective",
+        "Output",
+        "Parameter",
+        "Port",
+        "Process",
+        "State",
+        "Term",
+    ),
     "symid.recording": ("Recording", "read_recording"),
     "symid.transcription": ("BackwardEuler", "Episodes", "HermiteSimpson", "Midpoint", "Trapezoid"),
-    "symid.analysis": ("Stability", "Uncertainty", "bootstrap", "compare", "identifiability", "profile", "stability", "stability_of", "uncertainty"),
+    "symid.analysis": (
+        "Stability",
+        "Uncertainty",
+        "bootstrap",
+        "compare",
+        "identifiability",
+        "profile",
+        "stability",
+        "stability_of",
+        "uncertainty",
+    ),
     "symid.discrepancy": ("Diagnosis", "Suspect", "diagnose", "suspects"),
     "symid.cases": ("diagnose_case", "read_case", "rig_case"),
     "symid.optimization": ("Free", "Optimization", "Plan"),
@@ -29,6 +66,7 @@ def __getattr__(name: str):
         return import_module("symid.mechanics")
     if name == "__version__":
         from importlib.metadata import version
+
         return version("symid")
     if name not in _MODULE_OF:
         raise AttributeError(f"module 'symid' has no attribute '{name}'")

@@ -19,6 +19,8 @@ def said() -> None:
     """Note that something has just been printed."""
     global _last
     _last = time.monotonic()
+
+
 _speakers: list[object] = []  # blocks inside each other: the innermost speaks
 
 

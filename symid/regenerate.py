@@ -17,8 +17,9 @@ from symid.model import Model
 from symid.transcription.schemes import SCHEMES
 
 # The values do not matter: they are arguments of the generated functions.
-_BODY = DoubleLinkPendulum(leg_length=0.9, leg_com=0.5, trunk_com=0.3, leg_mass=20.0, trunk_mass=50.0,
-                           leg_inertia=1.0, trunk_inertia=3.0)
+_BODY = DoubleLinkPendulum(
+    leg_length=0.9, leg_com=0.5, trunk_com=0.3, leg_mass=20.0, trunk_mass=50.0, leg_inertia=1.0, trunk_inertia=3.0
+)
 _BENCH = BenchDoublePendulum(m1=0.2, m2=0.1, a1=0.1, a2=0.1, L1=0.2, I1=1e-3, I2=1e-3)
 
 # Shipped model -> how it is made, and the schemes for which its source is kept. The network has
@@ -69,12 +70,21 @@ def main(argv: list[str] | None = None) -> int:
     try:
         stale = regenerate(check)
     except OSError as problem:
-        print(f"symid regenerate: cannot write {problem.filename} ({problem.strerror}); "
-              "run it in a checkout that you own", file=sys.stderr)
+        print(
+            f"symid regenerate: cannot write {problem.filename} ({problem.strerror}); "
+            "run it in a checkout that you own",
+            file=sys.stderr,
+        )
         return 2
     for name in stale:
-        print(f"{name}: " + (f"the source in {FOLDER} is not what the equations give; run `symid regenerate`" if check
-                             else "rewritten"))
+        print(
+            f"{name}: "
+            + (
+                f"the source in {FOLDER} is not what the equations give; run `symid regenerate`"
+                if check
+                else "rewritten"
+            )
+        )
     if not stale:
         print("all generated sources are current")
     return 1 if check and stale else 0

@@ -80,7 +80,10 @@ def build_cyipopt() -> None:
         Path(folder, "ipopt.pc").write_text(description)
         # No cache: a cached wheel would carry the library path of another environment.
         pip_install(
-            "--no-cache-dir", "--no-binary", "cyipopt", "cyipopt",
+            "--no-cache-dir",
+            "--no-binary",
+            "cyipopt",
+            "cyipopt",
             PKG_CONFIG_PATH=folder,
             LDFLAGS=f"{os.environ.get('LDFLAGS', '')} -Wl,-rpath,{casadi}",
             PATH=f"{folder}{os.pathsep}{os.environ['PATH']}",

@@ -40,10 +40,17 @@ def pendulum_model() -> si.Model:
     return pendulum()
 
 
-def pendulum_recording(damping: float = 0.4, duration: float = 6.0, step: float = 0.02, noise: float = 0.0,
-                       seed: int = 0, strength: float = 1.0) -> Recording:
+def pendulum_recording(
+    damping: float = 0.4,
+    duration: float = 6.0,
+    step: float = 0.02,
+    noise: float = 0.0,
+    seed: int = 0,
+    strength: float = 1.0,
+) -> Recording:
     """The pendulum's motion under a smooth drive, from SciPy's integrator, which symid does not use."""
     from scipy.integrate import solve_ivp
+
     time = np.arange(0, duration + step / 2, step)
 
     def drive(t):
@@ -54,5 +61,9 @@ def pendulum_recording(damping: float = 0.4, duration: float = 6.0, step: float 
 
     x = solve_ivp(f, (0, time[-1]), [0.3, 0.0], t_eval=time, rtol=1e-12, atol=1e-13, method="DOP853").y
     angle = x[0] + noise * np.random.default_rng(seed).standard_normal(len(time))
-    return Recording("pendulum", time, {"angle": angle, "rate": x[1], "drive": drive(time)},
-                     {"angle": "rad", "rate": "rad/s", "drive": "rad/s^2"})
+    return Recording(
+        "pendulum",
+        time,
+        {"angle": angle, "rate": x[1], "drive": drive(time)},
+        {"angle": "rad", "rate": "rad/s", "drive": "rad/s^2"},
+    )

@@ -12,24 +12,29 @@ def of(make, **options):
     def problem(seed):
         model, recording, truth, _ = make(seed=seed, **options)
         return si.Identification(model, recording), truth
+
     return problem
 
 
 def vyasarayani(seed):
     """theta'' + p sin theta = 0 with p = 10 over 50 s (Vyasarayani et al. 2011), from SciPy's integrator."""
     from scipy.integrate import solve_ivp
+
     m = si.Model("pendulum of Vyasarayani")
     m.angle = si.State(unit="rad")
     m.rate = si.State(unit="rad/s")
     m.p = si.Parameter(unit="1/s^2", bounds=(1, 30))
     m.kinematics = si.Equation(m.angle.dot - m.rate)
     import sympy as sm
+
     m.balance = si.Equation(m.rate.dot + m.p * sm.sin(m.angle))
     m.y = si.Output(m.angle)
     time = np.linspace(0, 50, 1001)
     x = solve_ivp(lambda t, x: [x[1], -10 * np.sin(x[0])], (0, 50), [1.0, 0.0], t_eval=time, rtol=1e-9, atol=1e-10).y[0]
     x = x + 0.05 * np.random.default_rng(seed).standard_normal(len(time))
-    return si.Identification(m, si.Recording("pendulum", time, {"angle": x}, {"angle": "rad"}), scheme=si.HermiteSimpson()), {"p": 10.0}
+    return si.Identification(
+        m, si.Recording("pendulum", time, {"angle": x}, {"angle": "rad"}), scheme=si.HermiteSimpson()
+    ), {"p": 10.0}
 
 
 def two_rates(seed):
@@ -53,8 +58,12 @@ def algebraic(seed):
     m.z = si.Output(m.b * m.u**2 + m.c + m.rest, unit="1", channel="z")
     u = np.sin(time)
     both = rng.multivariate_normal([0, 0], [[1e6, 3.0], [3.0, 1e-4]], len(time))
-    recording = si.Recording("static", time, {"y": 2e5 * u + 1 + both[:, 0], "z": 3e-3 * u**2 + 1.5 + both[:, 1], "u": u},
-                             dict.fromkeys(("y", "z", "u"), "1"))
+    recording = si.Recording(
+        "static",
+        time,
+        {"y": 2e5 * u + 1 + both[:, 0], "z": 3e-3 * u**2 + 1.5 + both[:, 1], "u": u},
+        dict.fromkeys(("y", "z", "u"), "1"),
+    )
     return si.Identification(m, recording), {"a": 2e5, "b": 3e-3}
 
 
@@ -78,22 +87,30 @@ def standing(duration: float, **noise):
     def problem(seed):
         recording = standing_recording(model, GAINS, seed=seed, duration=duration, **noise)
         return si.Identification(model, recording), GAINS
+
     return problem
 
 
 def fine(make, **options):
     """With Hermite-Simpson: the midpoint rule's own error is no matter of noise."""
+
     def problem(seed):
         model, recording, truth, _ = make(seed=seed, **options)
         return si.Identification(model, recording, scheme=si.HermiteSimpson()), truth
+
     return problem
 
 
 SYSTEMS = {
-    "integrator": of(integrator), "integrator, 5001 samples": of(integrator, samples=5001),
-    "oscillator": fine(oscillator), "oscillator, 5001 samples": of(oscillator, samples=5001), "Vyasarayani": vyasarayani,
-    "offset and gain of sensors": fine(spring_with_sensor), "two rates and noises": two_rates,
-    "algebraic, channels together": algebraic, "segments, coloured noise": segments,
+    "integrator": of(integrator),
+    "integrator, 5001 samples": of(integrator, samples=5001),
+    "oscillator": fine(oscillator),
+    "oscillator, 5001 samples": of(oscillator, samples=5001),
+    "Vyasarayani": vyasarayani,
+    "offset and gain of sensors": fine(spring_with_sensor),
+    "two rates and noises": two_rates,
+    "algebraic, channels together": algebraic,
+    "segments, coloured noise": segments,
     "standing, sensor noise": standing(30, torque_noise=0.0, sensor_noise=3e-3),
     "standing, process noise": standing(60),
 }

@@ -23,10 +23,13 @@ def integrator(seed: int = 0, samples: int = 201, noise: float = NOISE, known: f
     m.y = si.Output(m.x)
     time = np.linspace(0, 10, samples)
     u = np.sin(1.3 * time) + 0.5
-    area = np.concatenate([[0], np.cumsum((u[1:] + u[:-1]) / 2 * np.diff(time))])    # exact for an input linear between samples
+    area = np.concatenate(
+        [[0], np.cumsum((u[1:] + u[:-1]) / 2 * np.diff(time))]
+    )  # exact for an input linear between samples
     x = 0.3 + 2 * area + noise * np.random.default_rng(seed).standard_normal(samples)
-    recording = si.Recording("integrator", time, {"x": x, "u": u}, {"x": "m", "u": "m/s"},
-                             noise={} if known is None else {"x": known})
+    recording = si.Recording(
+        "integrator", time, {"x": x, "u": u}, {"x": "m", "u": "m/s"}, noise={} if known is None else {"x": known}
+    )
     return m, recording, {"b": 2.0}, {"b": least_squares_errors(np.column_stack([area, np.ones(samples)]), noise)[0]}
 
 
@@ -89,7 +92,12 @@ def spring_with_sensor(seed: int = 0, samples: int = 801, noise: float = NOISE):
     errors = least_squares_errors(slopes_of(shown, point), sigma)
     recording = si.Recording("sensor", time, {"x": y[:samples], "v": y[samples:]}, {"x": "m", "v": "m/s"})
     names = ("k", "c", "offset", "gain")
-    return m, recording, dict(zip(names, point[[0, 1, 4, 5]], strict=True)), dict(zip(names, errors[[0, 1, 4, 5]], strict=True))
+    return (
+        m,
+        recording,
+        dict(zip(names, point[[0, 1, 4, 5]], strict=True)),
+        dict(zip(names, errors[[0, 1, 4, 5]], strict=True)),
+    )
 
 
 def two_dampings(seed: int = 0):
@@ -109,6 +117,9 @@ def two_dampings(seed: int = 0):
     time = np.linspace(0, 20, 401)
     drive = 3 * np.sin(1.7 * time)
     from scipy.integrate import solve_ivp
-    x = solve_ivp(lambda t, s: [s[1], -4 * s[0] - 0.5 * s[1] + 3 * np.sin(1.7 * t)], (0, 20), [0.5, 0], t_eval=time, rtol=1e-9).y[0]
+
+    x = solve_ivp(
+        lambda t, s: [s[1], -4 * s[0] - 0.5 * s[1] + 3 * np.sin(1.7 * t)], (0, 20), [0.5, 0], t_eval=time, rtol=1e-9
+    ).y[0]
     x = x + NOISE * np.random.default_rng(seed).standard_normal(len(time))
     return m, si.Recording("driven", time, {"x": x, "f": drive}, {"x": "m", "f": "m/s^2"})

@@ -23,23 +23,62 @@ class Solver:
         self.iw, self.ikeep = np.zeros(16, np.int32), np.zeros(3 * n, np.int32)
         self.one, self.steps, self.widest, self.ops = c_int(16), c_int(), c_int(), c_double()
         self.library.ma27id_(_at(self.icntl), _at(self.cntl))
-        self.library.ma27ad_(byref(self.n), byref(self.nz), _at(self.rows), _at(self.cols), _at(self.iw), byref(self.one),
-                             _at(self.ikeep), None, byref(self.steps), byref(c_int(0)), _at(self.icntl), _at(self.cntl),
-                             _at(self.info), byref(self.ops))
+        self.library.ma27ad_(
+            byref(self.n),
+            byref(self.nz),
+            _at(self.rows),
+            _at(self.cols),
+            _at(self.iw),
+            byref(self.one),
+            _at(self.ikeep),
+            None,
+            byref(self.steps),
+            byref(c_int(0)),
+            _at(self.icntl),
+            _at(self.cntl),
+            _at(self.info),
+            byref(self.ops),
+        )
 
     def factorise(self, matrix: np.ndarray) -> tuple[int, int]:
         """(INFO(1), number of negative eigenvalues)."""
         self.values = np.append(matrix[self.places], np.zeros(self.n.value))
         self.cntl[0] = 1e-8
-        self.library.ma27bd_(byref(self.n), byref(self.nz), _at(self.rows), _at(self.cols), _at(self.values), byref(self.one),
-                             _at(self.iw), byref(self.one), _at(self.ikeep), byref(self.steps), byref(self.widest), None,
-                             _at(self.icntl), _at(self.cntl), _at(self.info))
+        self.library.ma27bd_(
+            byref(self.n),
+            byref(self.nz),
+            _at(self.rows),
+            _at(self.cols),
+            _at(self.values),
+            byref(self.one),
+            _at(self.iw),
+            byref(self.one),
+            _at(self.ikeep),
+            byref(self.steps),
+            byref(self.widest),
+            None,
+            _at(self.icntl),
+            _at(self.cntl),
+            _at(self.info),
+        )
         return int(self.info[0]), int(self.info[14])
 
     def solve(self, right: np.ndarray) -> np.ndarray:
         x = right.copy()
-        self.library.ma27cd_(byref(self.n), _at(self.values), byref(self.one), _at(self.iw), byref(self.one), None,
-                             byref(self.widest), _at(x), None, byref(self.steps), _at(self.icntl), _at(self.cntl))
+        self.library.ma27cd_(
+            byref(self.n),
+            _at(self.values),
+            byref(self.one),
+            _at(self.iw),
+            byref(self.one),
+            None,
+            byref(self.widest),
+            _at(x),
+            None,
+            byref(self.steps),
+            _at(self.icntl),
+            _at(self.cntl),
+        )
         return x
 
 
@@ -47,8 +86,18 @@ def _at(array: np.ndarray):
     return array.ctypes.data_as(ctypes.c_void_p)
 
 
-def chain(rng: np.random.Generator, nodes: int, states: int, border: int = 0, episodes: int = 1, *, linked: bool = False,
-          window: int = 1, step: np.ndarray | None = None, curvature: float = 1.0) -> np.ndarray:
+def chain(
+    rng: np.random.Generator,
+    nodes: int,
+    states: int,
+    border: int = 0,
+    episodes: int = 1,
+    *,
+    linked: bool = False,
+    window: int = 1,
+    step: np.ndarray | None = None,
+    curvature: float = 1.0,
+) -> np.ndarray:
     """[[H, A'], [A, 0]] of episodes of `nodes` with `states` each and `border` parameters.
 
     window : nodes that an equation reaches ahead. step : (states, states) from node to node instead of random ones.
@@ -63,7 +112,7 @@ def chain(rng: np.random.Generator, nodes: int, states: int, border: int = 0, ep
             hessian[np.ix_(at[k], shared)] = rng.normal(size=(states, border))
             if k + 1 < nodes:
                 row = np.zeros((states, size))
-                for ahead in at[k + 2:k + 1 + window]:
+                for ahead in at[k + 2 : k + 1 + window]:
                     row[:, ahead] = rng.normal(size=(states, states))
                 row[:, at[k]] = rng.normal(size=(states, states)) if step is None else -step
                 row[:, at[k + 1]] = rng.normal(size=(states, states)) if step is None else np.eye(states)

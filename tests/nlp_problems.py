@@ -11,12 +11,8 @@ def hs071(**changes) -> NonlinearProgram:
 
     def hessian(z, lam, factor):
         a, b, c, d = z
-        h = factor * np.array(
-            [[2 * d, 0, 0, 0], [d, 0, 0, 0], [d, 0, 0, 0], [2 * a + b + c, a, a, 0]]
-        )
-        h += lam[0] * np.array(
-            [[0, 0, 0, 0], [c * d, 0, 0, 0], [b * d, a * d, 0, 0], [b * c, a * c, a * b, 0]]
-        )
+        h = factor * np.array([[2 * d, 0, 0, 0], [d, 0, 0, 0], [d, 0, 0, 0], [2 * a + b + c, a, a, 0]])
+        h += lam[0] * np.array([[0, 0, 0, 0], [c * d, 0, 0, 0], [b * d, a * d, 0, 0], [b * c, a * c, a * b, 0]])
         return (h + 2 * lam[1] * np.eye(4))[rows, cols]
 
     fields = dict(

@@ -33,12 +33,22 @@ class System:
         """Why `solution` is not the one that follows the recordings within the noise; "" if it is."""
         if not solution.solved:
             return solution.result.status_name
-        errors = {y.channel: solution.fit["rms"][name] / self.sigma[y.channel] for name, y in self.model.outputs.items()}
+        errors = {
+            y.channel: solution.fit["rms"][name] / self.sigma[y.channel] for name, y in self.model.outputs.items()
+        }
         return "; ".join(f"{c} errs by {e:.2f} times its noise" for c, e in errors.items() if e > allowed)
 
 
-def record(model: si.Model, truth: dict, initial: list[float], time: np.ndarray, inputs: dict[str, np.ndarray],
-           noise: float, rng: np.random.Generator, name: str) -> tuple[Recording, dict[str, float]]:
+def record(
+    model: si.Model,
+    truth: dict,
+    initial: list[float],
+    time: np.ndarray,
+    inputs: dict[str, np.ndarray],
+    noise: float,
+    rng: np.random.Generator,
+    name: str,
+) -> tuple[Recording, dict[str, float]]:
     """The motion of the truth with sensor noise of `noise` times each channel's standard deviation."""
     run = simulator(model).simulate(truth, initial, time, inputs, substeps=20, limit=1e12)
     assert not run.diverged, f"{name}: the truth itself diverges"
@@ -50,7 +60,9 @@ def record(model: si.Model, truth: dict, initial: list[float], time: np.ndarray,
     return Recording(name, time, channels, units), sigma
 
 
-def system(model: si.Model, truth: dict, runs: list[tuple], noise: float, rng: np.random.Generator, **options) -> System:
+def system(
+    model: si.Model, truth: dict, runs: list[tuple], noise: float, rng: np.random.Generator, **options
+) -> System:
     """runs : (initial state, time, inputs) of each recording."""
     made = [record(model, truth, x0, t, u, noise, rng, f"{model.name} {k + 1}") for k, (x0, t, u) in enumerate(runs)]
     sigma = {c: float(np.sqrt(np.mean([s[c] ** 2 for _, s in made]))) for c in made[0][1]}
@@ -103,8 +115,14 @@ def any_pendulum(rng) -> System:
     top = 2 * np.sqrt(k)
     initial = [rng.uniform(-3.1, 3.1), rng.uniform(-1.5, 1.5) * top]
     t = np.arange(0, rng.uniform(5, 20), 0.02)
-    return system(m, {"k": k, "c": log_uniform(rng, 0.02, 0.5)}, [(initial, t, {})], rng.uniform(0.003, 0.05), rng,
-                  scheme=si.HermiteSimpson())
+    return system(
+        m,
+        {"k": k, "c": log_uniform(rng, 0.02, 0.5)},
+        [(initial, t, {})],
+        rng.uniform(0.003, 0.05),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 def cart_pole(rng) -> System:
@@ -123,17 +141,31 @@ def cart_pole(rng) -> System:
     s, c = sm.sin(m.angle), sm.cos(m.angle)
     m.moves = si.Equation(m.x.dot - m.v)
     m.turns = si.Equation(m.angle.dot - m.rate)
-    m.push = si.Equation((m.cart + m.bob) * m.v.dot + m.bob * m.length * (c * m.rate.dot - s * m.rate**2) + m.c * m.v - m.force)
-    m.swing = si.Equation(m.bob * m.length**2 * m.rate.dot + m.bob * m.length * c * m.v.dot
-                          + m.bob * m.g * m.length * s + m.d * m.rate)
+    m.push = si.Equation(
+        (m.cart + m.bob) * m.v.dot + m.bob * m.length * (c * m.rate.dot - s * m.rate**2) + m.c * m.v - m.force
+    )
+    m.swing = si.Equation(
+        m.bob * m.length**2 * m.rate.dot + m.bob * m.length * c * m.v.dot + m.bob * m.g * m.length * s + m.d * m.rate
+    )
     m.y = si.Output(m.x)
     m.z = si.Output(m.angle)
-    truth = {"cart": log_uniform(rng, 0.5, 2), "bob": log_uniform(rng, 0.1, 0.6), "length": log_uniform(rng, 0.2, 1),
-             "c": log_uniform(rng, 0.1, 2), "d": log_uniform(rng, 1e-3, 1e-2)}
+    truth = {
+        "cart": log_uniform(rng, 0.5, 2),
+        "bob": log_uniform(rng, 0.1, 0.6),
+        "length": log_uniform(rng, 0.2, 1),
+        "c": log_uniform(rng, 0.1, 2),
+        "d": log_uniform(rng, 1e-3, 1e-2),
+    }
     t = np.arange(0, 8, 0.02)
     initial = [0.0, rng.uniform(-2, 2), 0.0, 0.0]
-    return system(m, truth, [(initial, t, {"force": smooth(rng, t, 1.5, rng.uniform(1, 6))})], rng.uniform(0.002, 0.03), rng,
-                  scheme=si.HermiteSimpson())
+    return system(
+        m,
+        truth,
+        [(initial, t, {"force": smooth(rng, t, 1.5, rng.uniform(1, 6))})],
+        rng.uniform(0.002, 0.03),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 def van_der_pol(rng) -> System:
@@ -147,8 +179,14 @@ def van_der_pol(rng) -> System:
     m.y = si.Output(m.x)
     truth = {"mu": log_uniform(rng, 0.1, 4), "w2": log_uniform(rng, 0.5, 4)}
     t = np.arange(0, 25, 0.04)
-    return system(m, truth, [([rng.uniform(-2, 2), rng.uniform(-1, 1)], t, {})], rng.uniform(0.01, 0.1), rng,
-                  scheme=si.HermiteSimpson())
+    return system(
+        m,
+        truth,
+        [([rng.uniform(-2, 2), rng.uniform(-1, 1)], t, {})],
+        rng.uniform(0.01, 0.1),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 def logistic_growth(rng) -> System:
@@ -160,8 +198,14 @@ def logistic_growth(rng) -> System:
     m.y = si.Output(m.n)
     r, capacity = log_uniform(rng, 0.1, 3), log_uniform(rng, 10, 1e5)
     t = np.linspace(0, rng.uniform(8, 16) / r, int(rng.integers(20, 200)))
-    return system(m, {"r": r, "capacity": capacity}, [([capacity * log_uniform(rng, 0.003, 0.2)], t, {})],
-                  rng.uniform(0.01, 0.1), rng, scheme=si.HermiteSimpson())
+    return system(
+        m,
+        {"r": r, "capacity": capacity},
+        [([capacity * log_uniform(rng, 0.003, 0.2)], t, {})],
+        rng.uniform(0.01, 0.1),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 def two_tanks(rng) -> System:
@@ -196,11 +240,17 @@ def dc_motor(rng) -> System:
     m.electric = si.Equation(m.inductance * m.current.dot + m.resistance * m.current + m.constant * m.speed - m.voltage)
     m.mechanic = si.Equation(m.inertia * m.speed.dot - m.constant * m.current + m.friction * m.speed)
     m.y = si.Output(m.speed)
-    truth = {"resistance": log_uniform(rng, 0.5, 4), "inductance": log_uniform(rng, 2e-3, 2e-2),
-             "constant": log_uniform(rng, 0.02, 0.1), "friction": log_uniform(rng, 1e-5, 3e-4)}
+    truth = {
+        "resistance": log_uniform(rng, 0.5, 4),
+        "inductance": log_uniform(rng, 2e-3, 2e-2),
+        "constant": log_uniform(rng, 0.02, 0.1),
+        "friction": log_uniform(rng, 1e-5, 3e-4),
+    }
     t = np.arange(0, 2, 0.002)
     u = 12 * np.sign(np.repeat(rng.standard_normal(40), 25))
-    return system(m, truth, [([0.0, 0.0], t, {"voltage": u})], rng.uniform(0.002, 0.02), rng, scheme=si.HermiteSimpson())
+    return system(
+        m, truth, [([0.0, 0.0], t, {"voltage": u})], rng.uniform(0.002, 0.02), rng, scheme=si.HermiteSimpson()
+    )
 
 
 def _standing(rng, law, truth) -> System:
@@ -214,28 +264,49 @@ def _standing(rng, law, truth) -> System:
 
 
 def pd_standing(rng) -> System:
-    truth = {"kp_ankle": rng.uniform(700, 1200), "kd_ankle": rng.uniform(50, 250), "kp_hip": rng.uniform(220, 500),
-             "kd_hip": rng.uniform(15, 60)}
+    truth = {
+        "kp_ankle": rng.uniform(700, 1200),
+        "kd_ankle": rng.uniform(50, 250),
+        "kp_hip": rng.uniform(220, 500),
+        "kd_hip": rng.uniform(15, 60),
+    }
     return _standing(rng, si.mechanics.PD(), truth)
 
 
 def fpd_standing(rng) -> System:
-    truth = {"kp_aa": rng.uniform(750, 1100), "kp_ah": rng.uniform(100, 300), "kd_aa": rng.uniform(120, 250),
-             "kd_ah": rng.uniform(30, 60), "kp_ha": rng.uniform(0, 60), "kp_hh": rng.uniform(280, 450),
-             "kd_ha": rng.uniform(10, 30), "kd_hh": rng.uniform(25, 60)}
+    truth = {
+        "kp_aa": rng.uniform(750, 1100),
+        "kp_ah": rng.uniform(100, 300),
+        "kd_aa": rng.uniform(120, 250),
+        "kd_ah": rng.uniform(30, 60),
+        "kp_ha": rng.uniform(0, 60),
+        "kp_hh": rng.uniform(280, 450),
+        "kd_ha": rng.uniform(10, 30),
+        "kd_hh": rng.uniform(25, 60),
+    }
     return _standing(rng, si.mechanics.FullStatePD(), truth)
 
 
 def three_links(rng) -> System:
     """A hanging chain; the three angles are measured."""
-    body = {f"{q}{i}_{u}": v * rng.uniform(0.8, 1.25) for i in (1, 2, 3)
-            for q, u, v in (("m", "kg", 0.2), ("a", "m", 0.1), ("I", "kg_m2", 1e-3), ("L", "m", 0.2)) if (q, i) != ("L", 3)}
+    body = {
+        f"{q}{i}_{u}": v * rng.uniform(0.8, 1.25)
+        for i in (1, 2, 3)
+        for q, u, v in (("m", "kg", 0.2), ("a", "m", 0.1), ("I", "kg_m2", 1e-3), ("L", "m", 0.2))
+        if (q, i) != ("L", 3)
+    }
     channels = [f"link{i}_angle" for i in (1, 2, 3)]
     model = si.mechanics.rig_model(body, channels, ["joint1", "joint2", "joint3"])
     t = np.arange(0, rng.uniform(3, 8), 0.01)
     truth = {k: log_uniform(rng, 3e-4, 5e-3) for k in model.parameters}
-    return system(model, truth, [([*rng.uniform(-1.2, 1.2, 3), 0.0, 0.0, 0.0], t, {})], rng.uniform(0.002, 0.03), rng,
-                  scheme=si.HermiteSimpson())
+    return system(
+        model,
+        truth,
+        [([*rng.uniform(-1.2, 1.2, 3), 0.0, 0.0, 0.0], t, {})],
+        rng.uniform(0.002, 0.03),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 # ---- others --------------------------------------------------------------------------------------
@@ -251,8 +322,14 @@ def lorenz(rng) -> System:
     for name in "xyz":
         setattr(m, f"seen_{name}", si.Output(m[name]))
     truth = {"s": rng.uniform(8, 12), "r": rng.uniform(24, 32), "b": rng.uniform(2, 3.5)}
-    return system(m, truth, [(rng.normal(size=3) * 5 + [0, 0, 25], np.arange(0, 8, 0.01), {})], rng.uniform(0.005, 0.1), rng,
-                  scheme=si.HermiteSimpson())
+    return system(
+        m,
+        truth,
+        [(rng.normal(size=3) * 5 + [0, 0, 25], np.arange(0, 8, 0.01), {})],
+        rng.uniform(0.005, 0.1),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 def fitzhugh_nagumo(rng) -> System:
@@ -266,8 +343,14 @@ def fitzhugh_nagumo(rng) -> System:
     m.two = si.Equation(m.w.dot + (m.v - m.a + m.b * m.w) / m.c)
     m.y = si.Output(m.v)
     truth = {"a": rng.uniform(0.1, 0.4), "b": rng.uniform(0.1, 0.4), "c": rng.uniform(2, 4)}
-    return system(m, truth, [(rng.normal(size=2), np.arange(0, 20, 0.05), {})], rng.uniform(0.01, 0.1), rng,
-                  scheme=si.HermiteSimpson())
+    return system(
+        m,
+        truth,
+        [(rng.normal(size=2), np.arange(0, 20, 0.05), {})],
+        rng.uniform(0.01, 0.1),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 def lotka_volterra(rng) -> System:
@@ -280,10 +363,19 @@ def lotka_volterra(rng) -> System:
     m.two = si.Equation(m.hunters.dot + m.c * m.hunters - m.d * m.prey * m.hunters)
     m.y = si.Output(m.prey)
     m.z = si.Output(m.hunters)
-    truth = {k: log_uniform(rng, lo, hi) for k, lo, hi in (("a", 0.5, 2), ("b", 0.01, 0.05), ("c", 0.5, 2), ("d", 0.01, 0.05))}
+    truth = {
+        k: log_uniform(rng, lo, hi)
+        for k, lo, hi in (("a", 0.5, 2), ("b", 0.01, 0.05), ("c", 0.5, 2), ("d", 0.01, 0.05))
+    }
     size = [truth["c"] / truth["d"], truth["a"] / truth["b"]]
-    return system(m, truth, [(np.array(size) * rng.uniform(0.4, 1.8, 2), np.arange(0, 20, 0.1), {})], rng.uniform(0.01, 0.1), rng,
-                  scheme=si.HermiteSimpson())
+    return system(
+        m,
+        truth,
+        [(np.array(size) * rng.uniform(0.4, 1.8, 2), np.arange(0, 20, 0.1), {})],
+        rng.uniform(0.01, 0.1),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 def duffing(rng) -> System:
@@ -300,8 +392,14 @@ def duffing(rng) -> System:
     m.y = si.Output(m.x)
     t = np.arange(0, 40, 0.05)
     truth = {"d": log_uniform(rng, 0.05, 0.5), "a": -log_uniform(rng, 0.5, 2), "b": log_uniform(rng, 0.5, 2)}
-    return system(m, truth, [([rng.normal(), 0.0], t, {"drive": rng.uniform(0.3, 0.6) * np.cos(1.2 * t)})],
-                  rng.uniform(0.005, 0.1), rng, scheme=si.HermiteSimpson())
+    return system(
+        m,
+        truth,
+        [([rng.normal(), 0.0], t, {"drive": rng.uniform(0.3, 0.6) * np.cos(1.2 * t)})],
+        rng.uniform(0.005, 0.1),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 def michaelis_menten(rng) -> System:
@@ -320,11 +418,26 @@ def michaelis_menten(rng) -> System:
     truth = {"fastest": log_uniform(rng, 0.5, 3), "half": log_uniform(rng, 0.2, 3), "decay": log_uniform(rng, 0.1, 0.5)}
     t = np.arange(0, 40, 0.2)
     feed = 0.4 * truth["fastest"] * (1 + np.sign(np.sin(2 * np.pi * t / rng.uniform(8, 15))))
-    return system(m, truth, [([rng.uniform(0.5, 5), rng.uniform(0, 1)], t, {"feed": feed})], rng.uniform(0.005, 0.03), rng,
-                  scheme=si.HermiteSimpson())
+    return system(
+        m,
+        truth,
+        [([rng.uniform(0.5, 5), rng.uniform(0, 1)], t, {"feed": feed})],
+        rng.uniform(0.005, 0.03),
+        rng,
+        scheme=si.HermiteSimpson(),
+    )
 
 
 PRACTISED: tuple[Callable[[np.random.Generator], System], ...] = (
-    mass_spring_damper, any_pendulum, cart_pole, van_der_pol, logistic_growth, two_tanks, dc_motor, pd_standing,
-    fpd_standing, three_links)
+    mass_spring_damper,
+    any_pendulum,
+    cart_pole,
+    van_der_pol,
+    logistic_growth,
+    two_tanks,
+    dc_motor,
+    pd_standing,
+    fpd_standing,
+    three_links,
+)
 UNSEEN = (lorenz, fitzhugh_nagumo, lotka_volterra, duffing, michaelis_menten)

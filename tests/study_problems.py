@@ -17,8 +17,13 @@ def problem(damping: float = 0.4, **changes) -> Identification:
 
 def study(store=None, starts: int = STARTS, **changes) -> Study:
     """Two problems from `starts` random starts each."""
-    return Study.product({("light", 1): problem(0.2, **changes), ("heavy", 1): problem(0.8, **changes)}, starts,
-                         seed=3, labels=("damping", "episodes"), store=store)
+    return Study.product(
+        {("light", 1): problem(0.2, **changes), ("heavy", 1): problem(0.8, **changes)},
+        starts,
+        seed=3,
+        labels=("damping", "episodes"),
+        store=store,
+    )
 
 
 class Poison:

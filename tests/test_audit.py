@@ -10,14 +10,7 @@ from scipy.signal import butter, filtfilt
 
 from symid.discrepancy.locate.audit import audit, white_noise
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.prove.halves import (
-    Half,
-    HalfVerdict,
-    _reason,
-    _said,
-    survivals,
-    verdicts,
-)
+from symid.discrepancy.prove.halves import Half, HalfVerdict, _reason, _said, survivals, verdicts
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import law_name, place_name, sentence
 from symid.discrepancy.say.words import _finding, _verdicts_of_halves
@@ -89,7 +82,7 @@ def fits(colour: float, seeds=range(24)):
 def test_errors_from_blocks_hold_where_noise_has_a_memory():
     value, plain, robust = fits(0.9)
     spread = 1.48 * np.median(np.abs(value - np.median(value)))
-    assert np.median(plain) < 0.5 * spread                   # what white noise would promise
+    assert np.median(plain) < 0.5 * spread  # what white noise would promise
     assert 0.5 * spread < np.median(robust) < 1.6 * spread
 
 
@@ -107,7 +100,9 @@ def swings(torque_of_half, segments=6, named="coulomb_friction"):
     time = np.arange(0, 4, 0.01)
     for k in range(segments):
         torque = torque_of_half[2 * k // segments]
-        y = sim.simulate({term.parameter_name("torque_Nm"): torque}, np.array([0.9 - 0.05 * k, 0.0]), time, substeps=2).y
+        y = sim.simulate(
+            {term.parameter_name("torque_Nm"): torque}, np.array([0.9 - 0.05 * k, 0.0]), time, substeps=2
+        ).y
         found.append(Segment(time + 4 * k, y + 5e-4 * rng.standard_normal(y.shape), {}))
     data = Data(tuple(found), np.array([5e-4]), driven=False)
     said = LIBRARY[named].at("joint1")
@@ -116,7 +111,10 @@ def swings(torque_of_half, segments=6, named="coulomb_friction"):
 
 def test_an_effect_that_acts_all_the_time_survives_on_both_halves():
     (found,) = survivals(*swings((1e-3, 1e-3)), white=True)
-    assert found.reason == "" and [h.span for h in found.halves] == [pytest.approx((0.0, 11.99)), pytest.approx((12.0, 23.99))]
+    assert found.reason == "" and [h.span for h in found.halves] == [
+        pytest.approx((0.0, 11.99)),
+        pytest.approx((12.0, 23.99)),
+    ]
     for half in found.halves:
         value, error = half.parameters["torque_Nm"]
         assert abs(value - 1e-3) < 4 * error and half.score > 100
@@ -144,10 +142,13 @@ def test_a_suspect_that_explains_a_half_better_is_seen():
 def test_the_words_say_whether_the_halves_agree():
     wet = Suspect(LIBRARY["viscous_friction"].at("joint1"))
     agree, differ = HalfVerdict((0, 1), "unexplained"), HalfVerdict((1, 2), "missing_physics", wet)
-    assert _verdicts_of_halves(SimpleNamespace(verdict="unexplained", halves=(agree, agree))) == ["Either half alone leads to the same verdict."]
+    assert _verdicts_of_halves(SimpleNamespace(verdict="unexplained", halves=(agree, agree))) == [
+        "Either half alone leads to the same verdict."
+    ]
     assert _verdicts_of_halves(SimpleNamespace(verdict="unexplained", halves=(agree, differ))) == [
         "Taken alone, the second half leads to 'missing physics': another verdict than on the whole.",
-        "On the second half alone viscous friction at joint 1 explains more than what was found."]
+        "On the second half alone viscous friction at joint 1 explains more than what was found.",
+    ]
 
 
 def test_one_recording_is_cut_in_its_middle():
@@ -164,19 +165,44 @@ def test_reasons_name_the_quantity_without_its_unit():
 
 
 # ---- words -----------------------------------------------------------------------------------
-@pytest.mark.parametrize(("location", "said"), [
-    ("joint1", "joint 1"), ("sensor:link2", "the sensor of link 2"), ("ankle", "the ankle"), ("sensor:hip", "the sensor of the hip"),
-    ("global", "the whole system"), ("base", "the base"),
-])
+@pytest.mark.parametrize(
+    ("location", "said"),
+    [
+        ("joint1", "joint 1"),
+        ("sensor:link2", "the sensor of link 2"),
+        ("ankle", "the ankle"),
+        ("sensor:hip", "the sensor of the hip"),
+        ("global", "the whole system"),
+        ("base", "the base"),
+    ],
+)
 def test_places_are_said_as_a_person_would(location, said):
     assert place_name(location) == said
 
 
-@pytest.mark.parametrize(("law", "place", "values", "said"), [
-    ("coulomb_friction", "joint2", {"torque_Nm": (5.2e-4, 1e-5)}, "Joint 2 is held back by a dry friction of 520 ± 10 µN m whatever its speed"),
-    ("sensor_offset", "sensor:link1", {"offset_rad": (0.01, 0.001)}, "The sensor of link 1 is off by 0.573 ± 0.057 deg"),
-    ("integral_feedback", "ankle", {"gain_Nm_rad_s": (20.0, 2.0)}, "The feedback at the ankle also acts on the accumulated error, 20.0 ± 2.0 N m/(rad s)"),
-])
+@pytest.mark.parametrize(
+    ("law", "place", "values", "said"),
+    [
+        (
+            "coulomb_friction",
+            "joint2",
+            {"torque_Nm": (5.2e-4, 1e-5)},
+            "Joint 2 is held back by a dry friction of 520 ± 10 µN m whatever its speed",
+        ),
+        (
+            "sensor_offset",
+            "sensor:link1",
+            {"offset_rad": (0.01, 0.001)},
+            "The sensor of link 1 is off by 0.573 ± 0.057 deg",
+        ),
+        (
+            "integral_feedback",
+            "ankle",
+            {"gain_Nm_rad_s": (20.0, 2.0)},
+            "The feedback at the ankle also acts on the accumulated error, 20.0 ± 2.0 N m/(rad s)",
+        ),
+    ],
+)
 def test_sentences(law, place, values, said):
     assert sentence(Suspect(LIBRARY[law].at(place)), values) == said
 
@@ -186,21 +212,29 @@ def test_every_sentence_reads_well_at_every_kind_of_place(name):
     law = LIBRARY[name]
     for place in ("joint1", "ankle", "sensor:link1"):
         text = sentence(Suspect(law.at(place)), {q.key: (0.5, 0.01) for q in law.parameters})
-        assert text[:1].isupper() and "{" not in text and "he joint 1" not in text and "the the" not in text.lower(), text
+        assert text[:1].isupper() and "{" not in text and "he joint 1" not in text and "the the" not in text.lower(), (
+            text
+        )
 
 
 def test_a_value_that_is_not_determined_says_so():
-    assert law_name("gravity_tilt", "global") == "gravity tilt" and law_name("viscous_friction", "hip") == "viscous friction at the hip"
+    assert (
+        law_name("gravity_tilt", "global") == "gravity tilt"
+        and law_name("viscous_friction", "hip") == "viscous friction at the hip"
+    )
 
 
 def test_a_hypothesis_beside_an_unknown_rest_is_not_asserted():
     unknown = Effect("unknown", "joint1", {}, None, 50.0, "a force that depends on time", established=False)
     guess = Effect("vertical_base_motion", "base", {}, None, 50.0, "The base moves up and down", established=False)
     sure = Effect("sensor_offset", "sensor:link1", {}, None, 50.0, "The first sensor is off")
+
     def said(*effects):
         return " ".join(_finding(SimpleNamespace(verdict="unexplained", effects=effects)))
+
     assert said(unknown, guess) == (
         "Something systematic acts at joint 1 that no established effect explains. It looks like this: a force that depends on "
-        "time. In part it looks like this: the base moves up and down.")
+        "time. In part it looks like this: the base moves up and down."
+    )
     assert said(unknown, guess, sure).startswith("The first sensor is off. That is not all")
     assert said(unknown, guess, sure).endswith("In part it looks like this: the base moves up and down.")

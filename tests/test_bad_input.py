@@ -14,7 +14,7 @@ from symid.cli import main
 from symid.errors import ModelError, RecordingError, SolveError, SymidError, TranscriptionError
 
 DATA = Path(__file__).parents[1] / "data" / "standing_synthetic"
-LINES = (DATA / "recording.csv").read_text().splitlines()[:202]    # header and 4 s
+LINES = (DATA / "recording.csv").read_text().splitlines()[:202]  # header and 4 s
 BODY = json.loads((DATA / "body.json").read_text())
 TRUTH = json.loads((DATA / "truth.json").read_text())["parameters"]
 
@@ -33,7 +33,7 @@ def run(folder, *arguments, capsys) -> tuple[int, str]:
     """Exit code and what was said on stderr as an error."""
     try:
         code = main([str(a) for a in arguments])
-    except SystemExit as stopped:    # argparse
+    except SystemExit as stopped:  # argparse
         code = stopped.code
     said = [line for line in capsys.readouterr().err.splitlines() if "error:" in line]
     return code, "\n".join(said)
@@ -41,8 +41,19 @@ def run(folder, *arguments, capsys) -> tuple[int, str]:
 
 def identify(folder, *options, capsys):
     out = folder / "out"
-    return run(folder, "identify", folder / "recording.csv", "--body", folder / "body.json", "--json", out / "a.json",
-               "--report", out / "a.html", *options, capsys=capsys)
+    return run(
+        folder,
+        "identify",
+        folder / "recording.csv",
+        "--body",
+        folder / "body.json",
+        "--json",
+        out / "a.json",
+        "--report",
+        out / "a.html",
+        *options,
+        capsys=capsys,
+    )
 
 
 def check(folder, code: int, said: str, words: str) -> None:
@@ -56,7 +67,7 @@ def edited(row: int, column: int, text: str) -> list[str]:
     """The recording's lines with another text in one cell; row 0 is the header."""
     cells = LINES[row].split(",")
     cells[column] = text
-    return [*LINES[:row], ",".join(cells), *LINES[row + 1:]]
+    return [*LINES[:row], ",".join(cells), *LINES[row + 1 :]]
 
 
 RECORDINGS = {
@@ -106,8 +117,10 @@ BODIES = {
     "key missing": (json.dumps({k: v for k, v in BODY.items() if k != "leg_mass_kg"}), "'leg_mass' [kg] is missing"),
     "unknown key": (json.dumps(BODY | {"leg_color_m": 1.0}), "'leg_color_m' is not expected"),
     "key without a unit": (json.dumps(BODY | {"leg_mass": 20.0}), "'leg_mass' has no unit"),
-    "wrong dimension": (json.dumps({("leg_mass_m" if k == "leg_mass_kg" else k): v for k, v in BODY.items()}),
-                        "leg_mass is measured in kg"),
+    "wrong dimension": (
+        json.dumps({("leg_mass_m" if k == "leg_mass_kg" else k): v for k, v in BODY.items()}),
+        "leg_mass is measured in kg",
+    ),
     "negative mass": (json.dumps(BODY | {"leg_mass_kg": -20.0}), "must be greater than zero, found -20"),
     "text for a number": (json.dumps(BODY | {"leg_mass_kg": "20 kg"}), "must be a number"),
     "NaN": (json.dumps(BODY | {"leg_mass_kg": math.nan}), "must be finite"),
@@ -169,18 +182,42 @@ SIMULATIONS = {
 def test_bad_simulation(folder, values, options, words, capsys):
     (folder / "values.json").write_text(json.dumps(values))
     options = [folder / o if o.endswith(".json") else o for o in options]
-    check(folder, *run(folder, "simulate", folder / "out" / "new.csv", "--body", folder / "body.json",
-                       "--parameters", folder / "values.json", *options, capsys=capsys), words)
+    check(
+        folder,
+        *run(
+            folder,
+            "simulate",
+            folder / "out" / "new.csv",
+            "--body",
+            folder / "body.json",
+            "--parameters",
+            folder / "values.json",
+            *options,
+            capsys=capsys,
+        ),
+        words,
+    )
 
 
 def test_results_that_cannot_be_written(folder, capsys):
-    blocked = folder / "body.json" / "a.json"    # a file stands where a folder should
-    code, said = run(folder, "simulate", blocked, "--body", folder / "body.json", "--parameters", folder / "values.json",
-                     "--duration", "1", capsys=capsys)
+    blocked = folder / "body.json" / "a.json"  # a file stands where a folder should
+    code, said = run(
+        folder,
+        "simulate",
+        blocked,
+        "--body",
+        folder / "body.json",
+        "--parameters",
+        folder / "values.json",
+        "--duration",
+        "1",
+        capsys=capsys,
+    )
     assert code == 2 and "body.json" in said and len(said.splitlines()) == 1
 
 
 # ---- through Python: typed exceptions ----------------------------------------------------
+
 
 def problem(model=None, **options):
     return si.Identification(model or pendulum(), pendulum_recording(), **options)
@@ -194,12 +231,15 @@ def not_a_number(argument) -> si.Model:
     return model
 
 
-@pytest.mark.parametrize(("given", "words"), [
-    ({"damping": 99.0}, "damping=99 is outside its bounds 0 to 5"),
-    ({"damping": -1.0}, "damping=-1 is outside its bounds 0 to 5"),
-    ({"dampin": 1.0}, "no parameter 'dampin'; did you mean 'damping'"),
-    ({"damping": math.nan}, "damping=nan is outside its bounds 0 to 5"),
-])
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"damping": 99.0}, "damping=99 is outside its bounds 0 to 5"),
+        ({"damping": -1.0}, "damping=-1 is outside its bounds 0 to 5"),
+        ({"dampin": 1.0}, "no parameter 'dampin'; did you mean 'damping'"),
+        ({"damping": math.nan}, "damping=nan is outside its bounds 0 to 5"),
+    ],
+)
 def test_bad_initial_guess(given, words):
     with pytest.raises(SolveError, match=words):
         problem().solve(start=given)
@@ -225,13 +265,16 @@ def test_nan_from_an_expression_names_equation_and_time():
     assert len(str(caught.value).splitlines()) == 1
 
 
-@pytest.mark.parametrize(("options", "error", "words"), [
-    ({"window": [(0, 1), (1, 2)]}, TranscriptionError, "2 windows were given for 1 recording"),
-    ({"weights": {"mesured": 2.0}}, TranscriptionError, "mesured"),
-    ({"weights": {"measured": -1.0}}, TranscriptionError, "weight"),
-    ({"per_recording": ["dampin"]}, SymidError, "dampin"),
-    ({"backend": "fortran"}, SymidError, "fortran"),
-])
+@pytest.mark.parametrize(
+    ("options", "error", "words"),
+    [
+        ({"window": [(0, 1), (1, 2)]}, TranscriptionError, "2 windows were given for 1 recording"),
+        ({"weights": {"mesured": 2.0}}, TranscriptionError, "mesured"),
+        ({"weights": {"measured": -1.0}}, TranscriptionError, "weight"),
+        ({"per_recording": ["dampin"]}, SymidError, "dampin"),
+        ({"backend": "fortran"}, SymidError, "fortran"),
+    ],
+)
 def test_bad_problem(options, error, words):
     with pytest.raises(error, match=words):
         problem(**options).transcription  # noqa: B018

@@ -31,9 +31,11 @@ def tiny(tmp_path_factory) -> Task:
 @pytest.fixture
 def run_here(monkeypatch):
     """Measurements in this process: fresh ones import for a second each."""
+
     def run(call, task, *arguments, cache=None):
         module, function = call.split(".")
         return getattr(import_module(f"symid.bench.{module}"), function)(task, *arguments)
+
     monkeypatch.setattr("symid.bench.measure.run_fresh", run)
 
 
@@ -61,7 +63,7 @@ def test_peers_solve_the_same_program(tiny):
     acceleration = (peer.acceleration[1:] + peer.acceleration[:-1]) / 2
     for e, noise in enumerate(peer.noises):
         values = peer.function({"sin": np.sin, "cos": np.cos})(*middle.T, *rate.T, *peer.start, acceleration, *noise.T)
-        equations = t.program.constants[e][-len(peer.row_scale):]
+        equations = t.program.constants[e][-len(peer.row_scale) :]
         own = t.program.interval.residual(*t.program.interval_arguments(z, e)) * equations
         np.testing.assert_allclose(np.column_stack(values) * peer.row_scale, own, rtol=1e-9, atol=1e-9)
     assert peer.row_scale.tolist() == [1, 1, TORQUE, TORQUE]
@@ -72,6 +74,7 @@ def test_peers_solve_the_same_program(tiny):
 def test_casadi_finds_the_same_optimum(tiny, setup):
     pytest.importorskip("casadi", reason="casadi is not installed")
     from symid.bench import casadi_side, symid_side
+
     task = replace(tiny, controller="pd", window=(0.0, 10.0))
     peer, own = casadi_side.identification(task, setup), symid_side.identification(task, "random")
     assert peer["status"] == own["status"] == "Solve_Succeeded"
@@ -84,7 +87,12 @@ def test_growth_of_the_cost_is_measured_and_drawn(monkeypatch, tmp_path, capsys,
     monkeypatch.setattr("symid.bench.growth.run_fresh", import_module("symid.bench.measure").run_fresh)
     assert main(["bench", "--growth", str(tmp_path / "growth.png"), "--json", str(tmp_path / "growth.json")]) == 0
     found = json.loads((tmp_path / "growth.json").read_text())
-    assert [(r["nodes"], r["episodes"]) for by in ("nodes", "episodes") for r in found[by]] == [(201, 1), (401, 1), (201, 1), (402, 2)]
+    assert [(r["nodes"], r["episodes"]) for by in ("nodes", "episodes") for r in found[by]] == [
+        (201, 1),
+        (401, 1),
+        (201, 1),
+        (402, 2),
+    ]
     assert (tmp_path / "growth.png").read_bytes().startswith(b"\x89PNG")
     assert capsys.readouterr().out.count("n log n would be") == 2
 
@@ -141,15 +149,31 @@ def test_ratio_is_the_median_over_starts_of_the_best_peer():
 
 
 def test_a_missed_target_is_said():
-    one = {"build": 1.0, "solve": 1.0, "total": 2.0, "iterations": 5, "rms": 0.01, "functions_share": 0.5,
-           "memory_mb": 900.0, "import": 1.0, "status": "Solve_Succeeded"}
+    one = {
+        "build": 1.0,
+        "solve": 1.0,
+        "total": 2.0,
+        "iterations": 5,
+        "rms": 0.01,
+        "functions_share": 0.5,
+        "memory_mb": 900.0,
+        "import": 1.0,
+        "status": "Solve_Succeeded",
+    }
     rates = {"residual_ms": 1.0, "jacobian_ms": 1.0, "hessian_ms": 1.0, "intervals": 10}
-    found = {"absent": ["casadi", "opty"], "evaluations": {"symid, C": rates, "symid, NumPy": rates},
-             "first_use": [{"seconds": 0.2}], "linear": {"chain": {"ms": 10.0}, "mumps": {"ms": 25.0}},
-             "first_identification": one,
-             "solves": {"FPD": {"symid, random start": [one], "symid, default start": [one]}}}
+    found = {
+        "absent": ["casadi", "opty"],
+        "evaluations": {"symid, C": rates, "symid, NumPy": rates},
+        "first_use": [{"seconds": 0.2}],
+        "linear": {"chain": {"ms": 10.0}, "mumps": {"ms": 25.0}},
+        "first_identification": one,
+        "solves": {"FPD": {"symid, random start": [one], "symid, default start": [one]}},
+    }
     lines = table(found).splitlines()
     missed = [line for line in lines if "NOT MET" in line]
     assert [line.split("  ")[0] for line in missed] == [
-        "slowest evaluation, symid, C", "generated functions' share of the solve", "memory above the interpreter's start"]
+        "slowest evaluation, symid, C",
+        "generated functions' share of the solve",
+        "memory above the interpreter's start",
+    ]
     assert sum("is not installed" in line for line in lines) == 2

@@ -23,8 +23,11 @@ def with_repeats(monkeypatch, shift, spread):
     errors = np.array([fit.errors[k] for k in fit.values])
     scatter = np.random.default_rng(0).standard_normal((REPEATS, len(errors)))
     scatter = (scatter - scatter.mean(0)) / scatter.std(0, ddof=1)
-    monkeypatch.setattr(bias, "_repeat", lambda fit, data, seed: np.array(list(fit.values.values()))
-                        + errors * (shift + spread * scatter[seed]))
+    monkeypatch.setattr(
+        bias,
+        "_repeat",
+        lambda fit, data, seed: np.array(list(fit.values.values())) + errors * (shift + spread * scatter[seed]),
+    )
     return fit, unbiased(fit, data, ["damping"])
 
 

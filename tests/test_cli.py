@@ -21,7 +21,9 @@ IDENTIFY = ["identify", str(DATA / "recording.csv"), "--body", str(DATA / "body.
 @pytest.mark.elsewhere
 def test_identify_writes_summary_json_and_report(tmp_path, capsys):
     out, report = tmp_path / "a.json", tmp_path / "a.html"
-    code = main([*IDENTIFY, "--window", "0", "60", "--held-out", "60", "100", "--json", str(out), "--report", str(report)])
+    code = main(
+        [*IDENTIFY, "--window", "0", "60", "--held-out", "60", "100", "--json", str(out), "--report", str(report)]
+    )
     printed = capsys.readouterr()
     assert code == SOLVED
     assert "Solved" in printed.out and "kp_aa" in printed.out and "Held-out 60 to 100 s" in printed.out
@@ -41,8 +43,24 @@ def test_identify_writes_summary_json_and_report(tmp_path, capsys):
 
 def test_identify_by_random_starts_on_two_processes(tmp_path, capsys):
     out = tmp_path / "a.json"
-    code = main([*IDENTIFY, "--controller", "pd", "--window", "0", "20", "--starts", "3", "--jobs", "2", "--seed", "4",
-                 "--json", str(out)])
+    code = main(
+        [
+            *IDENTIFY,
+            "--controller",
+            "pd",
+            "--window",
+            "0",
+            "20",
+            "--starts",
+            "3",
+            "--jobs",
+            "2",
+            "--seed",
+            "4",
+            "--json",
+            str(out),
+        ]
+    )
     printed = capsys.readouterr()
     starts = json.loads(out.read_text())["starts"]
     assert code == (SOLVED if any(s["solved"] for s in starts) else NOT_SOLVED)
@@ -57,8 +75,27 @@ def test_identify_with_episodes_and_another_scheme(capsys):
 
 def test_a_solve_that_gives_up_is_told_and_still_written(tmp_path, capsys):
     out, report = tmp_path / "a.json", tmp_path / "a.html"
-    code = main([*IDENTIFY, "--window", "0", "10", "--controller", "pd", "--starts", "2", "--max-iterations", "2",
-                 "--held-out", "10", "20", "--json", str(out), "--report", str(report)])
+    code = main(
+        [
+            *IDENTIFY,
+            "--window",
+            "0",
+            "10",
+            "--controller",
+            "pd",
+            "--starts",
+            "2",
+            "--max-iterations",
+            "2",
+            "--held-out",
+            "10",
+            "20",
+            "--json",
+            str(out),
+            "--report",
+            str(report),
+        ]
+    )
     assert code == NOT_SOLVED
     assert "NOT SOLVED" in capsys.readouterr().out and "NOT SOLVED" in report.read_text()
     content = json.loads(out.read_text())
@@ -69,8 +106,18 @@ def test_a_solve_that_gives_up_is_told_and_still_written(tmp_path, capsys):
 @pytest.mark.elsewhere
 def test_simulate_makes_the_recording_that_ships(tmp_path, capsys):
     new = tmp_path / "new.csv"
-    code = main(["simulate", str(new), "--body", str(DATA / "body.json"), "--parameters", str(DATA / "truth.json"),
-                 "--seed", "2020"])
+    code = main(
+        [
+            "simulate",
+            str(new),
+            "--body",
+            str(DATA / "body.json"),
+            "--parameters",
+            str(DATA / "truth.json"),
+            "--seed",
+            "2020",
+        ]
+    )
     assert code == SOLVED
     assert_same_table(new, DATA / "recording.csv")
     assert "6001 samples, 120 s at 50 Hz" in capsys.readouterr().out
@@ -79,8 +126,24 @@ def test_simulate_makes_the_recording_that_ships(tmp_path, capsys):
 def test_simulate_on_a_recorded_platform_from_what_identify_writes(tmp_path):
     found, new = tmp_path / "found.json", tmp_path / "new.csv"
     assert main([*IDENTIFY, "--controller", "pd", "--window", "0", "20", "--json", str(found)]) == SOLVED
-    code = main(["simulate", str(new), "--body", str(DATA / "body.json"), "--controller", "pd", "--parameters", str(found),
-                 "--platform", str(DATA / "recording.csv"), "--torque-noise", "0", "--duration", "30"])
+    code = main(
+        [
+            "simulate",
+            str(new),
+            "--body",
+            str(DATA / "body.json"),
+            "--controller",
+            "pd",
+            "--parameters",
+            str(found),
+            "--platform",
+            str(DATA / "recording.csv"),
+            "--torque-noise",
+            "0",
+            "--duration",
+            "30",
+        ]
+    )
     assert code == SOLVED
     made, given = read_recording(new), read_recording(DATA / "recording.csv")
     assert len(made) == 1501
@@ -98,6 +161,7 @@ def test_demo_compares_with_the_truth(tmp_path, monkeypatch, capsys):
 
 def test_demo_of_an_installed_symid_makes_its_data(tmp_path, monkeypatch):
     from symid.cli import demo
+
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(demo, "__file__", str(tmp_path / "site-packages" / "symid" / "cli" / "demo.py"))
     made = demo.data_folder()
@@ -129,6 +193,7 @@ def test_interrupting_ends_without_a_traceback(monkeypatch, capsys):
 
     def interrupt(*_):
         raise KeyboardInterrupt
+
     monkeypatch.setattr(simulate, "build_model", interrupt)
     assert main(["simulate", "new.csv", "--body", "b", "--parameters", "p"]) == INTERRUPTED
     assert capsys.readouterr().err == "symid: interrupted\n"
@@ -140,11 +205,21 @@ def test_as_a_program_a_warning_is_one_line_and_the_exit_code_reaches_the_shell(
     cells = lines[300].split(",")
     lines[300] = ",".join([*cells[:-1], "-60.0"])
     (tmp_path / "odd.csv").write_text("\n".join(lines) + "\n")
-    command = [sys.executable, "-m", "symid.cli", "identify", str(tmp_path / "odd.csv"), "--body", str(DATA / "body.json"),
-               "--window", "0", "2"]
+    command = [
+        sys.executable,
+        "-m",
+        "symid.cli",
+        "identify",
+        str(tmp_path / "odd.csv"),
+        "--body",
+        str(DATA / "body.json"),
+        "--window",
+        "0",
+        "2",
+    ]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == SOLVED
-    (warning,) = [line for line in done.stderr.splitlines() if "row 300" in line]    # no cache and no compiler warn, too
+    (warning,) = [line for line in done.stderr.splitlines() if "row 300" in line]  # no cache and no compiler warn, too
     assert warning.startswith("symid: warning: ")
     done = subprocess.run([*command[:-2], "9", "99"], capture_output=True, text=True)
     assert done.returncode == BAD_INPUT and "Traceback" not in done.stderr
@@ -165,6 +240,7 @@ def test_a_full_disk_names_the_file(tmp_path, monkeypatch, capsys):
 
     def full(*_):
         raise OSError(28, "No space left on device")
+
     monkeypatch.setattr(files.os, "replace", full)
     code = main([*IDENTIFY, "--window", "0", "4", "--json", str(tmp_path / "a.json")])
     assert code == BAD_INPUT and list(tmp_path.iterdir()) == []

@@ -43,8 +43,11 @@ def finding(folder):
 @pytest.fixture
 def quick(monkeypatch):
     """The commands with few suspects: what they do with a finding is the same."""
-    monkeypatch.setattr(import_module("symid.discrepancy.diagnose"), "suspects_of",
-                        lambda model: [s for s in suspects(model) if s.term.name == "sensor_offset"])
+    monkeypatch.setattr(
+        import_module("symid.discrepancy.diagnose"),
+        "suspects_of",
+        lambda model: [s for s in suspects(model) if s.term.name == "sensor_offset"],
+    )
 
 
 def test_a_case_directory_ends_in_words_json_report_and_prediction(folder, tmp_path, capsys, quick):
@@ -70,19 +73,46 @@ def test_the_scorer_takes_the_answer_and_the_prediction(folder, finding, tmp_pat
         pytest.skip(f"no scorer at {scorer}")
     finding.to_json(tmp_path / "r01.json")
     finding.held_out_csv(tmp_path / "r01_heldout.csv")
-    subprocess.run([sys.executable, str(scorer), "--truth", str(folder / "sealed"), "--cases", str(folder / "cases"),
-                    "--answers", str(tmp_path), "--json", str(tmp_path / "score.json")], check=True, capture_output=True)
+    subprocess.run(
+        [
+            sys.executable,
+            str(scorer),
+            "--truth",
+            str(folder / "sealed"),
+            "--cases",
+            str(folder / "cases"),
+            "--answers",
+            str(tmp_path),
+            "--json",
+            str(tmp_path / "score.json"),
+        ],
+        check=True,
+        capture_output=True,
+    )
     row = json.loads((tmp_path / "score.json").read_text())["cases"][0]
-    assert row["top1"] == 1 and row["location_ok"] == 1 and row["heldout_source"] == "computed" and row["gap_closed"] > 0.95
+    assert (
+        row["top1"] == 1
+        and row["location_ok"] == 1
+        and row["heldout_source"] == "computed"
+        and row["gap_closed"] > 0.95
+    )
 
 
 def test_the_report_says_it_all_without_a_file_beside_it(finding, tmp_path):
     path = write_diagnosis_report(finding, tmp_path / "report.html", "My rig", {"recording": "rig.csv"})
     html = path.read_text()
     assert html.index(finding.words.split(" ")[0]) < html.index("<table")
-    for part in ("My rig", "missing physics", "sensor offset", "held-out window", "torsional spring", "rig.csv", "What is left"):
+    for part in (
+        "My rig",
+        "missing physics",
+        "sensor offset",
+        "held-out window",
+        "torsional spring",
+        "rig.csv",
+        "What is left",
+    ):
         assert part in html
-    assert html.count("data:image/png;base64,") == 8   # four figures, each for a wide and a narrow screen
+    assert html.count("data:image/png;base64,") == 8  # four figures, each for a wide and a narrow screen
     assert not re.search(r'(src|href)="(?!data:)', html)
     assert diagnosis_html(finding, "My rig", {"recording": "rig.csv"}) == html
 
@@ -102,7 +132,7 @@ def test_figures_show_the_numbers_of_the_finding(finding):
     recorded, before, after = panels[0].lines
     run = finding.runs["augmented_train"]
     start = int(np.argmin(np.abs(run.time - after.get_xdata()[0])))
-    np.testing.assert_allclose(after.get_ydata(), np.degrees(run.simulated[start:start + len(after.get_ydata()), 0]))
+    np.testing.assert_allclose(after.get_ydata(), np.degrees(run.simulated[start : start + len(after.get_ydata()), 0]))
     assert [line.get_label() for line in (recorded, before, after)] == ["recorded", "model as given", "improved"]
     assert panels[0].get_ylabel().endswith("[deg]")
     assert len(plots.plot_spectra(finding).axes[0].lines) == 2
@@ -110,10 +140,13 @@ def test_figures_show_the_numbers_of_the_finding(finding):
 
 def test_a_hidden_torque_is_located_in_time_place_size_and_sign():
     """A push at the ankle: there, then, as large, and not at the hip."""
-    case = draw_case("standing", [("external_push", "ankle", {"peak_Nm": 40.0, "start_s": 20.0, "duration_s": 0.6})], (8, 0))
+    case = draw_case(
+        "standing", [("external_push", "ankle", {"peak_Nm": 40.0, "start_s": 20.0, "duration_s": 0.6})], (8, 0)
+    )
     from symid.estimation.cold_start import fit_model
     from symid.estimation.data import Data, segments_between
     from symid.estimation.free_run import free_run
+
     s = case.setup
     segments = segments_between(s.model, case.recording.time, dict(case.recording.channels), s.windows[0])
     data = Data(segments, np.full(2, s.sensor_noise), True)
@@ -124,7 +157,7 @@ def test_a_hidden_torque_is_located_in_time_place_size_and_sign():
     assert abs(ankle.time[peak] - 20.3) < 0.15
     assert 25 < ankle.torque[peak] < 55
     during = (ankle.time > 20) & (ankle.time < 20.6)
-    assert ankle.torque[during].mean() == pytest.approx(20, rel=0.25)   # the mean of sin^2 is a half
+    assert ankle.torque[during].mean() == pytest.approx(20, rel=0.25)  # the mean of sin^2 is a half
     assert abs(hip.torque[during].mean()) < 0.25 * ankle.torque[during].mean()
 
 
@@ -134,16 +167,22 @@ def test_every_law_has_an_experiment_that_would_split_it_from_its_likes():
     assert told["feedback_delay"] != told["coulomb_friction"]
 
 
-@pytest.mark.parametrize(("arguments", "message"), [
-    (["nowhere"], "nowhere is no case directory, so --body, --controller, --window must be given"),
-    (["nowhere.csv", "--body", "none.json", "--controller", "pd", "--window", "0", "5"], "none.json"),
-    (["{case}", "--window", "0", "5"], "case.json says what --window would"),
-    (["{case}", "--threads", "0"], "--threads 0 is not possible"),
-    (["{case}", "--json", "no/such/folder/a.json"], "the folder no/such/folder does not exist"),
-    (["nowhere.csv", "--held-out-csv", "a.csv"], "--held-out-csv needs a held-out window"),
-    (["{empty}"], "is no case: it has no case.json"),
-    (["nowhere.csv", "--body", "b", "--controller", "pd", "--window", "0", "5", "--sensor-noise", "-1"], "--sensor-noise -1 is not possible"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["nowhere"], "nowhere is no case directory, so --body, --controller, --window must be given"),
+        (["nowhere.csv", "--body", "none.json", "--controller", "pd", "--window", "0", "5"], "none.json"),
+        (["{case}", "--window", "0", "5"], "case.json says what --window would"),
+        (["{case}", "--threads", "0"], "--threads 0 is not possible"),
+        (["{case}", "--json", "no/such/folder/a.json"], "the folder no/such/folder does not exist"),
+        (["nowhere.csv", "--held-out-csv", "a.csv"], "--held-out-csv needs a held-out window"),
+        (["{empty}"], "is no case: it has no case.json"),
+        (
+            ["nowhere.csv", "--body", "b", "--controller", "pd", "--window", "0", "5", "--sensor-noise", "-1"],
+            "--sensor-noise -1 is not possible",
+        ),
+    ],
+)
 def test_bad_input_ends_in_one_sentence(folder, tmp_path, capsys, arguments, message):
     places = {"case": folder / "cases" / "r01", "empty": tmp_path}
     assert main(["diagnose", *(a.format(**places) for a in arguments)]) == 2

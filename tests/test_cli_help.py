@@ -45,4 +45,5 @@ def test_the_doctor_names_what_does_not_work(capsys, monkeypatch, tmp_path):
 
 def test_the_package_tells_its_version():
     from importlib.metadata import version
+
     assert symid.__version__ == version("symid")

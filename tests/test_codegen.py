@@ -70,12 +70,19 @@ def hessian(k: Kernel, multipliers: np.ndarray, *args) -> np.ndarray:
 
 def slopes(f, k: Kernel, local, shared, data, constants, step=1e-3) -> np.ndarray:
     """Fourth-order central differences of f(local, shared, ...) for each local and shared symbol."""
+
     def at(j, h):
         a, s = local.copy(), shared.copy()
-        (a[:, j:j + 1] if j < k.n_local else s[j - k.n_local:j - k.n_local + 1])[...] += h
+        (a[:, j : j + 1] if j < k.n_local else s[j - k.n_local : j - k.n_local + 1])[...] += h
         return f(a, s, data, constants)
-    return np.stack([(8 * (at(j, step) - at(j, -step)) - (at(j, 2 * step) - at(j, -2 * step))) / (12 * step)
-                     for j in range(k.n_local + k.n_shared)], axis=-1)
+
+    return np.stack(
+        [
+            (8 * (at(j, step) - at(j, -step)) - (at(j, 2 * step) - at(j, -2 * step))) / (12 * step)
+            for j in range(k.n_local + k.n_shared)
+        ],
+        axis=-1,
+    )
 
 
 def assert_close(a: np.ndarray, b: np.ndarray, relative: float) -> None:
@@ -88,8 +95,10 @@ def assert_close(a: np.ndarray, b: np.ndarray, relative: float) -> None:
 def assert_derivatives(k: Kernel, *args) -> None:
     multipliers = np.random.default_rng(9).uniform(-1, 1, (len(args[0]), k.m))
     assert_close(jacobian(k, *args), slopes(k.residual, k, *args), 1e-6)
+
     def gradient(*a):
         return np.einsum("kij,ki->kj", jacobian(k, *a), multipliers)
+
     assert_close(hessian(k, multipliers, *args), slopes(gradient, k, *args), 1e-6)
 
 
@@ -103,15 +112,24 @@ def assert_backends_agree(p: Program, *args) -> None:
 
 # ---- the numbers are right ---------------------------------------------------------------
 LEAVES = st.sampled_from([X, Y, P, Q, D, C, sm.Integer(2), sm.Rational(1, 3), sm.pi / 4, sm.Float(-0.7)])
-SMOOTH = st.recursive(LEAVES, lambda e: st.one_of(
-    st.builds(lambda a, b: a + b, e, e), st.builds(lambda a, b: a - b, e, e), st.builds(lambda a, b: a * b, e, e),
-    st.builds(lambda a, b: a / (2 + sm.sin(b)), e, e),
-    st.builds(lambda f, a: f(a), st.sampled_from([sm.sin, sm.cos, sm.tanh, sm.atan]), e),
-    st.builds(lambda a: sm.exp(sm.sin(a)), e), st.builds(lambda a: sm.log(2 + sm.cos(a)), e),
-    st.builds(lambda a: sm.sqrt(1 + a**2), e), st.builds(lambda a: (1 + a**2) ** sm.Rational(-3, 2), e),
-    st.builds(lambda a, b: (2 + sm.sin(a)) ** sm.cos(b), e, e), st.builds(lambda a, b: sm.atan2(a, 3 + sm.cos(b)), e, e),
-    st.builds(lambda a: sm.cos(a) ** 3, e),
-), max_leaves=7)
+SMOOTH = st.recursive(
+    LEAVES,
+    lambda e: st.one_of(
+        st.builds(lambda a, b: a + b, e, e),
+        st.builds(lambda a, b: a - b, e, e),
+        st.builds(lambda a, b: a * b, e, e),
+        st.builds(lambda a, b: a / (2 + sm.sin(b)), e, e),
+        st.builds(lambda f, a: f(a), st.sampled_from([sm.sin, sm.cos, sm.tanh, sm.atan]), e),
+        st.builds(lambda a: sm.exp(sm.sin(a)), e),
+        st.builds(lambda a: sm.log(2 + sm.cos(a)), e),
+        st.builds(lambda a: sm.sqrt(1 + a**2), e),
+        st.builds(lambda a: (1 + a**2) ** sm.Rational(-3, 2), e),
+        st.builds(lambda a, b: (2 + sm.sin(a)) ** sm.cos(b), e, e),
+        st.builds(lambda a, b: sm.atan2(a, 3 + sm.cos(b)), e, e),
+        st.builds(lambda a: sm.cos(a) ** 3, e),
+    ),
+    max_leaves=7,
+)
 
 
 @settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow])
@@ -123,8 +141,10 @@ def test_random_expressions_have_the_derivatives_that_sympy_gives(rows):
     multipliers = np.array([[0.7, -1.3]] * 2)
     values = [np.concatenate([args[0][0], args[1], args[2][0], args[3]])]
     symbols = (*variables, *p.data, *p.constants)
+
     def numbers(e):
         return np.array(sm.lambdify(symbols, e, "numpy")(*values[0]), dtype=float)
+
     assert np.allclose(k.residual(*args)[0], numbers(list(p.rows)), rtol=1e-11, atol=1e-11)
     exact = numbers([[sm.diff(r, v) for v in variables] for r in p.rows])
     assert np.allclose(jacobian(k, *args)[0], exact, rtol=1e-10, atol=1e-10)
@@ -145,8 +165,10 @@ def test_random_expressions_agree_with_central_differences_and_between_backends(
 BODY = DoubleLinkPendulum(0.88, 0.55, 0.31, 24.0, 48.0, 1.4, 3.1)
 BENCH = BenchDoublePendulum(0.2, 0.1, 0.1, 0.11, 0.2, 1e-3, 2e-3)
 MODELS = {
-    "pd": lambda: BODY.with_feedback(PD()), "fpd": lambda: BODY.with_feedback(FullStatePD()),
-    "nn": lambda: BODY.with_feedback(NeuralNetwork()), "bench": lambda: BENCH.plant(),
+    "pd": lambda: BODY.with_feedback(PD()),
+    "fpd": lambda: BODY.with_feedback(FullStatePD()),
+    "nn": lambda: BODY.with_feedback(NeuralNetwork()),
+    "bench": lambda: BENCH.plant(),
     "bench with friction": lambda: BENCH.plant(("joint1", "joint2")),
 }
 
@@ -178,14 +200,37 @@ def test_the_objective_of_every_model_has_right_derivatives(models, name):
 
 
 SPECIAL = {
-    "sin": sm.sin(X), "cos": sm.cos(X), "tan": sm.tan(X), "tanh": sm.tanh(X), "exp": sm.exp(X), "log": sm.log(X),
-    "sqrt": sm.sqrt(X), "asin": sm.asin(X), "acos": sm.acos(X), "atan": sm.atan(X), "sinh": sm.sinh(X),
-    "cosh": sm.cosh(X), "atan2": sm.atan2(Y, X), "pow": X**Y, "number**x": 2**X, "x**2.5": X ** sm.Float(2.5),
-    "x**-3": X**-3, "x**0.3": X ** sm.Float(0.3), "Abs": sm.Abs(X - sm.Rational(3, 5)) * Y, "sign": sm.sign(X - 0.6) * Y,
-    "Max": sm.Max(X, Y * Q, P) ** 2, "Min": sm.Min(X, Y * Q, P) ** 2, "Heaviside": sm.Heaviside(X - 0.6) * Y**2,
+    "sin": sm.sin(X),
+    "cos": sm.cos(X),
+    "tan": sm.tan(X),
+    "tanh": sm.tanh(X),
+    "exp": sm.exp(X),
+    "log": sm.log(X),
+    "sqrt": sm.sqrt(X),
+    "asin": sm.asin(X),
+    "acos": sm.acos(X),
+    "atan": sm.atan(X),
+    "sinh": sm.sinh(X),
+    "cosh": sm.cosh(X),
+    "atan2": sm.atan2(Y, X),
+    "pow": X**Y,
+    "number**x": 2**X,
+    "x**2.5": X ** sm.Float(2.5),
+    "x**-3": X**-3,
+    "x**0.3": X ** sm.Float(0.3),
+    "Abs": sm.Abs(X - sm.Rational(3, 5)) * Y,
+    "sign": sm.sign(X - 0.6) * Y,
+    "Max": sm.Max(X, Y * Q, P) ** 2,
+    "Min": sm.Min(X, Y * Q, P) ** 2,
+    "Heaviside": sm.Heaviside(X - 0.6) * Y**2,
     "Piecewise": sm.Piecewise((X**2, X > 0.6), (X * Y, sm.And(X > 0.4, Y > 0.4)), (Y**3, True)),
-    "floor": sm.floor(5 * X) * Y**2, "sec": sm.sec(X).rewrite(sm.cos), "quotient": (X + P) / (Y * Q + C) / C,
-    "E": sm.E**X, "I-free number": sm.sqrt(2) * X, "constant row": C + 1, "nothing": sm.Integer(0),
+    "floor": sm.floor(5 * X) * Y**2,
+    "sec": sm.sec(X).rewrite(sm.cos),
+    "quotient": (X + P) / (Y * Q + C) / C,
+    "E": sm.E**X,
+    "I-free number": sm.sqrt(2) * X,
+    "constant row": C + 1,
+    "nothing": sm.Integer(0),
 }
 
 
@@ -202,8 +247,11 @@ def test_every_function_is_the_same_in_both_backends_also_at_kinks_and_outside_o
     local = np.array([[x, y] for x in values for y in values])
     c, n = (compile_program(p, b) for b in BACKENDS)
     _, shared, data, constants = arguments(c, n=len(local))
-    for of in (lambda k: k.residual(local, shared, data, constants), lambda k: jacobian(k, local, shared, data, constants),
-               lambda k: hessian(k, np.ones((len(local), k.m)), local, shared, data, constants)):
+    for of in (
+        lambda k: k.residual(local, shared, data, constants),
+        lambda k: jacobian(k, local, shared, data, constants),
+        lambda k: hessian(k, np.ones((len(local), k.m)), local, shared, data, constants),
+    ):
         a, b = of(c), of(n)
         assert np.array_equal(np.isnan(a), np.isnan(b))
         assert np.allclose(a, b, rtol=1e-12, atol=0, equal_nan=True)
@@ -211,7 +259,9 @@ def test_every_function_is_the_same_in_both_backends_also_at_kinks_and_outside_o
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_conventions_at_kinks_and_jumps(backend):
-    k = compile_program(Program("kinks", (sm.Abs(X), sm.sign(X), sm.Heaviside(X), sm.Max(X, 0), sm.Min(X, 0)), (X,)), backend)
+    k = compile_program(
+        Program("kinks", (sm.Abs(X), sm.sign(X), sm.Heaviside(X), sm.Max(X, 0), sm.Min(X, 0)), (X,)), backend
+    )
     empty = np.zeros((1, 0)), np.zeros(0)
     zero = np.zeros((1, 1))
     assert k.residual(zero, np.zeros(0), *empty).tolist() == [[0, 0, 0.5, 0, 0]]
@@ -281,13 +331,15 @@ def test_overlapping_strided_rows_are_read_without_copying(backend):
         copy = np.ascontiguousarray(local)
         assert np.array_equal(k.residual(local, shared, data, constants), k.residual(copy, shared, data, constants))
         assert np.array_equal(k.jacobian(local, shared, data, constants), k.jacobian(copy, shared, data, constants))
-        assert np.array_equal(hessian(k, multipliers, local, shared, data, constants),
-                              hessian(k, multipliers, copy, shared, data, constants))
+        assert np.array_equal(
+            hessian(k, multipliers, local, shared, data, constants),
+            hessian(k, multipliers, copy, shared, data, constants),
+        )
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
 def test_the_hessian_is_added_through_the_index(backend):
-    k = compile_program(program(X**2 / 2 + P * Y), backend)    # entries (x, x) and (p, y)
+    k = compile_program(program(X**2 / 2 + P * Y), backend)  # entries (x, x) and (p, y)
     args, multipliers = arguments(k, 10), np.arange(1.0, 11)[:, None]
     index = np.column_stack([np.arange(10), np.full(10, 10)]).astype(np.int32)
     out = np.full(12, 100.0)
@@ -313,14 +365,20 @@ def test_threads_may_share_a_kernel():
 
 
 # ---- bad input -----------------------------------------------------------------------------
-@pytest.mark.parametrize("rows, message", [
-    ((sm.Function("mystery")(X),), "cannot compute mystery: 'mystery\\(x\\)' has no generated code; write it with"),
-    ((sm.gamma(X),), "cannot compute gamma"),
-    ((sm.Derivative(sm.Function("f")(X), X),), "cannot compute"),
-    ((X + sm.I,), "the number I cannot be used"),
-    ((X + sm.oo,), "the number oo cannot be used"),
-    ((X, X + sm.Symbol("stray") * sm.Symbol("lost")), "program 'test', row 1: unknown symbol lost, stray; list it under"),
-])
+@pytest.mark.parametrize(
+    "rows, message",
+    [
+        ((sm.Function("mystery")(X),), "cannot compute mystery: 'mystery\\(x\\)' has no generated code; write it with"),
+        ((sm.gamma(X),), "cannot compute gamma"),
+        ((sm.Derivative(sm.Function("f")(X), X),), "cannot compute"),
+        ((X + sm.I,), "the number I cannot be used"),
+        ((X + sm.oo,), "the number oo cannot be used"),
+        (
+            (X, X + sm.Symbol("stray") * sm.Symbol("lost")),
+            "program 'test', row 1: unknown symbol lost, stray; list it under",
+        ),
+    ],
+)
 def test_what_cannot_be_computed_is_named(rows, message):
     with pytest.raises(CodegenError, match=message):
         compile_program(program(*rows), "numpy")
@@ -332,7 +390,9 @@ def test_a_symbol_has_one_place():
 
 
 def test_an_unknown_backend_is_refused():
-    with pytest.raises(CodegenError, match="backend 'fortran' of program 'test' is not known; choose one of auto, c, numpy"):
+    with pytest.raises(
+        CodegenError, match="backend 'fortran' of program 'test' is not known; choose one of auto, c, numpy"
+    ):
         compile_program(program(X), "fortran")
 
 
@@ -340,19 +400,26 @@ def test_an_unknown_backend_is_refused():
 def test_arrays_that_do_not_fit_are_refused_by_name(backend):
     k = compile_program(program(X * P + D * C, X**2 * Q), backend)
     good = dict(zip(("local", "shared", "data", "constants"), arguments(k, 5), strict=True))
-    bad = [("local", np.zeros((5, 3)), "local must be .* shape \\(5, 2\\), not float64 of shape \\(5, 3\\)"),
-           ("local", np.zeros((5, 2), np.float32), "local must be .* not float32"),
-           ("local", np.zeros((2, 5)).T, "local must be contiguous in its last axis"),
-           ("shared", [1.0, 2.0], "shared must be .* not list"), ("shared", np.zeros(4)[::2], "shared must be contiguous;"),
-           ("data", np.zeros((4, 1)), "data must be .* \\(5, 1\\)"), ("constants", np.zeros(0), "constants must be"),
-           ("out", np.zeros((5, 3)), "out must be .* \\(5, 2\\)")]
+    bad = [
+        ("local", np.zeros((5, 3)), "local must be .* shape \\(5, 2\\), not float64 of shape \\(5, 3\\)"),
+        ("local", np.zeros((5, 2), np.float32), "local must be .* not float32"),
+        ("local", np.zeros((2, 5)).T, "local must be contiguous in its last axis"),
+        ("shared", [1.0, 2.0], "shared must be .* not list"),
+        ("shared", np.zeros(4)[::2], "shared must be contiguous;"),
+        ("data", np.zeros((4, 1)), "data must be .* \\(5, 1\\)"),
+        ("constants", np.zeros(0), "constants must be"),
+        ("out", np.zeros((5, 3)), "out must be .* \\(5, 2\\)"),
+    ]
     for name, value, message in bad:
         with pytest.raises(CodegenError, match=message):
             k.residual(**good | {name: value})
     index, out, multipliers = np.zeros((5, len(k.hessian_rows)), np.int32), np.zeros(3), np.zeros((5, 2))
-    for name, value, message in [("index", index.astype(np.int64), "index must be .* int32"),
-                                 ("index", index + np.int32(3), "index points to 3 ... 3, outside of out, which has 3 values"),
-                                 ("multipliers", np.zeros(5), "multipliers must be"), ("out", np.zeros((3, 1)), "out must be")]:
+    for name, value, message in [
+        ("index", index.astype(np.int64), "index must be .* int32"),
+        ("index", index + np.int32(3), "index points to 3 ... 3, outside of out, which has 3 values"),
+        ("multipliers", np.zeros(5), "multipliers must be"),
+        ("out", np.zeros((3, 1)), "out must be"),
+    ]:
         with pytest.raises(CodegenError, match=message):
             k.hessian_into(**{"out": out, "index": index, **good, "multipliers": multipliers} | {name: value})
 
@@ -378,8 +445,10 @@ def test_the_second_use_compiles_nothing(tmp_path, monkeypatch):
     assert set(k.seconds) == {"derive", "compile", "load"}
 
 
-@pytest.mark.parametrize("damage", [lambda b: b[:1000], lambda b: b"", lambda b: b"garbage" * 1000,
-                                    lambda b: b[:3000] + b"\0" * 64 + b[3064:]])
+@pytest.mark.parametrize(
+    "damage",
+    [lambda b: b[:1000], lambda b: b"", lambda b: b"garbage" * 1000, lambda b: b[:3000] + b"\0" * 64 + b[3064:]],
+)
 def test_a_damaged_library_is_built_again(tmp_path, monkeypatch, damage):
     monkeypatch.setenv("SYMID_CACHE_DIR", str(tmp_path))
     source = "double twice(double x) { return 2 * x; }"
@@ -391,8 +460,13 @@ def test_a_damaged_library_is_built_again(tmp_path, monkeypatch, damage):
 
 
 def in_a_new_process(code: str, **environment) -> subprocess.Popen:
-    return subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            env=os.environ | environment)
+    return subprocess.Popen(
+        [sys.executable, "-c", code],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | environment,
+    )
 
 
 SMALL = """
@@ -425,7 +499,7 @@ def test_a_cache_that_cannot_be_written_is_replaced_with_one_warning(tmp_path, m
     assert len(caught) == 1
     assert np.allclose(k.residual(*arguments(k)), 3 * arguments(k)[0][:, :1])
     monkeypatch.setattr(build, "_compile", None)
-    compile_program(program(X * 4), "c")       # from the temporary folder
+    compile_program(program(X * 4), "c")  # from the temporary folder
 
 
 def test_a_full_cache_is_replaced_and_nothing_half_written_stays(tmp_path, monkeypatch):
@@ -457,7 +531,7 @@ def test_the_cache_is_for_this_user_alone(tmp_path, monkeypatch):
     path = build.compiled("int one(void) { return 1; }")
     assert path.parent.stat().st_mode & 0o777 == 0o700
     path.chmod(0o777)
-    assert kept.find(path.stem) is None    # others could have changed it
+    assert kept.find(path.stem) is None  # others could have changed it
 
 
 def test_a_folder_that_others_can_write_to_is_not_believed(tmp_path, monkeypatch):
@@ -494,12 +568,21 @@ def stand_in(folder, script: str) -> dict[str, str]:
 VERSION = 'case "$*" in *--version*) echo 1.0; exit 0;; esac\n'
 
 
-@pytest.mark.parametrize("environment, words", [
-    (NO_COMPILER, "cannot be run"), ({"PATH": "/nowhere", "CC": ""}, "cannot be run"), ({"CC": "false"}, "--version' fails"),
-    ({"CC": "cc 'unfinished"}, "is no command"), ({"CC": "true"}, "wrote nothing"), ({"CC": "/"}, "cannot be run"),
-    (VERSION + "echo out of memory >&2; exit 1", "out of memory"), ("sleep 60", "did not end within 0.2 s"),
-    (VERSION + "sleep 60 & wait", "did not end within 0.2 s"), (VERSION + 'echo "#$*" > /dev/null', "wrote nothing"),
-])
+@pytest.mark.parametrize(
+    "environment, words",
+    [
+        (NO_COMPILER, "cannot be run"),
+        ({"PATH": "/nowhere", "CC": ""}, "cannot be run"),
+        ({"CC": "false"}, "--version' fails"),
+        ({"CC": "cc 'unfinished"}, "is no command"),
+        ({"CC": "true"}, "wrote nothing"),
+        ({"CC": "/"}, "cannot be run"),
+        (VERSION + "echo out of memory >&2; exit 1", "out of memory"),
+        ("sleep 60", "did not end within 0.2 s"),
+        (VERSION + "sleep 60 & wait", "did not end within 0.2 s"),
+        (VERSION + 'echo "#$*" > /dev/null', "wrote nothing"),
+    ],
+)
 def test_without_a_working_compiler_numpy_is_used_with_one_warning(tmp_path, monkeypatch, environment, words):
     for name, value in (stand_in(tmp_path, environment) if isinstance(environment, str) else environment).items():
         monkeypatch.setenv(name, value)
@@ -524,7 +607,9 @@ def test_a_source_that_the_compiler_rejects_is_an_error_with_its_words():
 def test_a_compiler_that_knows_no_special_flags_still_works(tmp_path, monkeypatch):
     """A stand-in that refuses whatever an old or foreign compiler may not know."""
     script = tmp_path / "oldcc"
-    script.write_text(f'#!/bin/sh\ncase "$*" in *march*|*mvec*|*openmp*) exit 1;; esac\nexec {shutil.which("cc")} "$@"\n')
+    script.write_text(
+        f'#!/bin/sh\ncase "$*" in *march*|*mvec*|*openmp*) exit 1;; esac\nexec {shutil.which("cc")} "$@"\n'
+    )
     script.chmod(0o755)
     p = program(sm.sin(X) * sm.exp(P) + D)
     good = compile_program(p, "c")
@@ -560,6 +645,7 @@ print(generate(Program("any", rows, (x, y), (p, q))).text)
 def test_the_fingerprint_is_that_of_the_equations_alone():
     def key(*rows, name="test"):
         return generate(program(*rows, name=name)).fingerprint
+
     assert key(X * P) == key(X * P, name="other")
     assert len({key(X * P), key(X * Q), key(X * P, Y), key(Y, X * P), key(2 * X * P), key(X * C)}) == 6
 
@@ -584,7 +670,9 @@ def test_a_damaged_shipped_source_is_named(tmp_path, monkeypatch):
 
 
 def test_c_statements_share_common_parts_and_may_overwrite_what_they_read():
-    text = c_statements([("z[0]", sm.sin(X) * Y), ("z[1]", sm.sin(X) + sm.Max(X, Y) + sm.sign(Y))], {X: "z[0]", Y: "z[1]"})
+    text = c_statements(
+        [("z[0]", sm.sin(X) * Y), ("z[1]", sm.sin(X) + sm.Max(X, Y) + sm.sign(Y))], {X: "z[0]", Y: "z[1]"}
+    )
     assert text.count("sin(") == 1
     library = load_library(f"#include <math.h>\nvoid f(double *z)\n{{\n{text}\n}}\n")
     z = np.array([0.3, -0.4])

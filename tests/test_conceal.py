@@ -48,8 +48,20 @@ def standing():
 
 def small_setup(**changes) -> Setup:
     """The driven pendulum, which no shipped system knows."""
-    return replace(Setup(pendulum(), {"damping": 0.4}, rate=50, fit=8.0, held_out=4.0, sensor_noise=1e-3,
-                         torque_noise={"push": 1.0}, sway=0.01, warm_up=5.0), **changes)
+    return replace(
+        Setup(
+            pendulum(),
+            {"damping": 0.4},
+            rate=50,
+            fit=8.0,
+            held_out=4.0,
+            sensor_noise=1e-3,
+            torque_noise={"push": 1.0},
+            sway=0.01,
+            warm_up=5.0,
+        ),
+        **changes,
+    )
 
 
 def test_the_same_seed_gives_the_same_bytes_and_another_seed_others(tmp_path, offset):
@@ -57,7 +69,12 @@ def test_the_same_seed_gives_the_same_bytes_and_another_seed_others(tmp_path, of
     files = []
     for i, case in enumerate((offset, again, other)):
         directory = write_case(case, tmp_path / str(i), "r01")
-        files.append([p.read_bytes() for p in (directory / "recording.csv", directory / "case.json", tmp_path / str(i) / "sealed/r01.json")])
+        files.append(
+            [
+                p.read_bytes()
+                for p in (directory / "recording.csv", directory / "case.json", tmp_path / str(i) / "sealed/r01.json")
+            ]
+        )
     assert files[0] == files[1]
     assert all(a != b for a, b in zip(files[0], files[2], strict=True))
 
@@ -85,7 +102,10 @@ def test_an_offset_is_in_the_recording_by_its_size(offset):
     """Offset apart, the noise-free channel is the plain pendulum's."""
     model, s = offset.setup.model, offset.setup
     from symid.simulation import simulator
-    plain = simulator(model).simulate(dict(s.parameters), dict.fromkeys(model.states, 0.0) | dict(s.initial_state), offset.recording.time)
+
+    plain = simulator(model).simulate(
+        dict(s.parameters), dict.fromkeys(model.states, 0.0) | dict(s.initial_state), offset.recording.time
+    )
     np.testing.assert_allclose(offset.clean - plain.y, [[0.004, 0.0]] * len(offset.clean), atol=1e-7)
 
 
@@ -124,7 +144,7 @@ def test_a_fit_recovers_what_was_simulated():
     case = conceal(setup, {}, seed=1)
     segments = segments_between(setup.model, case.recording.time, dict(case.recording.channels), setup.windows[0])
     fit = fit_free(setup.model, segments, {"damping": 1.0}, np.zeros((1, 2)))
-    assert fit.values["damping"] == pytest.approx(0.4, rel=2e-4)   # the input is known at samples only
+    assert fit.values["damping"] == pytest.approx(0.4, rel=2e-4)  # the input is known at samples only
     assert fit.rms(segments) < 1e-4
     again = simulate_free(setup.model, segments, fit.values, fit.initial)
     np.testing.assert_array_equal(again.simulated[0], fit.simulated[0])
@@ -135,7 +155,9 @@ def test_a_null_is_called_adequate_and_nothing_is_missed():
     document = sealed_document(case, "r01")
     assert (document["kind"], document["verdict"], document["effects"]) == ("none", "adequate", [])
     reference = case.reference
-    assert reference["baseline"]["heldout_rms_rad"] == pytest.approx(reference["true_parameters"]["heldout_rms_rad"], rel=0.03)
+    assert reference["baseline"]["heldout_rms_rad"] == pytest.approx(
+        reference["true_parameters"]["heldout_rms_rad"], rel=0.03
+    )
 
 
 def test_two_effects_and_a_time_window():
@@ -168,7 +190,10 @@ def test_a_law_and_a_model_of_ones_own(pendulum_model):
 
 def test_all_that_is_drawn_at_random_exists_where_it_is_drawn():
     rng = np.random.default_rng(0)
-    setups = {"standing": setup_from_facts(standing_facts(rng), rng), "rig": setup_from_facts(rig_facts(rng, True), rng)}
+    setups = {
+        "standing": setup_from_facts(standing_facts(rng), rng),
+        "rig": setup_from_facts(rig_facts(rng, True), rng),
+    }
     for system, ranges in RANGES.items():
         for name, sizes in ranges.items():
             keys = {q.key for q in LIBRARY[name].parameters}
@@ -191,30 +216,36 @@ def test_a_rig_without_friction_in_its_model_gets_a_friction():
         assert draw_terms(viscous, "unlisted", rng)[0].name not in CANONICAL
 
 
-@pytest.mark.parametrize(("text", "expected"), [
-    ("feedback_delay@global", ("feedback_delay", "global", {})),
-    ("sensor_gain@sensor:hip", ("sensor_gain", "sensor:hip", {})),
-    ("sensor_gain@sensor:hip:gain=1.2", ("sensor_gain", "sensor:hip", {"gain": 1.2})),
-    ("external_push@ankle:peak_Nm=-2e1,start_s=5", ("external_push", "ankle", {"peak_Nm": -20.0, "start_s": 5.0})),
-])
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("feedback_delay@global", ("feedback_delay", "global", {})),
+        ("sensor_gain@sensor:hip", ("sensor_gain", "sensor:hip", {})),
+        ("sensor_gain@sensor:hip:gain=1.2", ("sensor_gain", "sensor:hip", {"gain": 1.2})),
+        ("external_push@ankle:peak_Nm=-2e1,start_s=5", ("external_push", "ankle", {"peak_Nm": -20.0, "start_s": 5.0})),
+    ],
+)
 def test_effects_are_written_as_name_place_values(text, expected):
     assert parse_effect(text) == expected
 
 
-@pytest.mark.parametrize(("arguments", "message"), [
-    (["--effect", "feedback_delay"], "write NAME@PLACE"),
-    (["--effect", "feedbak_delay@global"], "no law 'feedbak_delay'; did you mean 'feedback_delay'"),
-    (["--effect", "feedback_delay@global:delay=1"], "has no parameter 'delay'; did you mean 'delay_s'"),
-    (["--effect", "feedback_delay@global:delay_s=fast"], "delay_s must be a number, found 'fast'"),
-    (["--effect", "feedback_delay@global:delay_s=nan"], "delay_s must be a finite number"),
-    (["--effect", "feedback_delay@global:delay_s=7"], "delay_s = 7 is outside of its range 0 to 0.5"),
-    (["--effect", "feedback_delay@knee"], "cannot act at 'knee'"),
-    (["--effect", "end_range_stiffness@hip"], "give a value of torque_Nm"),
-    (["--effect", "feedback_delay@global", "--random"], "--effect or --random, not both"),
-    (["--count", "0"], "give at least one case"),
-    (["--seed", "-1"], "give a whole number from 0 to"),
-    (["--system", "unicycle"], "no system 'unicycle' and no such file"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--effect", "feedback_delay"], "write NAME@PLACE"),
+        (["--effect", "feedbak_delay@global"], "no law 'feedbak_delay'; did you mean 'feedback_delay'"),
+        (["--effect", "feedback_delay@global:delay=1"], "has no parameter 'delay'; did you mean 'delay_s'"),
+        (["--effect", "feedback_delay@global:delay_s=fast"], "delay_s must be a number, found 'fast'"),
+        (["--effect", "feedback_delay@global:delay_s=nan"], "delay_s must be a finite number"),
+        (["--effect", "feedback_delay@global:delay_s=7"], "delay_s = 7 is outside of its range 0 to 0.5"),
+        (["--effect", "feedback_delay@knee"], "cannot act at 'knee'"),
+        (["--effect", "end_range_stiffness@hip"], "give a value of torque_Nm"),
+        (["--effect", "feedback_delay@global", "--random"], "--effect or --random, not both"),
+        (["--count", "0"], "give at least one case"),
+        (["--seed", "-1"], "give a whole number from 0 to"),
+        (["--system", "unicycle"], "no system 'unicycle' and no such file"),
+    ],
+)
 def test_bad_input_ends_in_one_sentence_and_writes_nothing(tmp_path, capsys, arguments, message):
     assert main(["conceal", str(tmp_path / "out"), *arguments]) == 2
     error = capsys.readouterr().err
@@ -222,12 +253,15 @@ def test_bad_input_ends_in_one_sentence_and_writes_nothing(tmp_path, capsys, arg
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.parametrize(("change", "message"), [
-    ({"system": "unicycle"}, "system 'unicycle' cannot be made"),
-    ({"body": None}, "has no 'body'"),
-    ({"heldout_window_s": [80, 90]}, "must follow one another"),
-    ({"baseline": {"controller": "LQR"}}, "controller is 'LQR'; known: PD, FPD"),
-])
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"system": "unicycle"}, "system 'unicycle' cannot be made"),
+        ({"body": None}, "has no 'body'"),
+        ({"heldout_window_s": [80, 90]}, "must follow one another"),
+        ({"baseline": {"controller": "LQR"}}, "controller is 'LQR'; known: PD, FPD"),
+    ],
+)
 def test_a_case_that_cannot_be_imitated_is_refused(change, message):
     rng = np.random.default_rng(1)
     facts = {k: v for k, v in (standing_facts(rng) | change).items() if v is not None}
@@ -244,14 +278,23 @@ def test_motion_out_of_range_is_refused():
 
 def test_a_hopeless_effect_says_why(monkeypatch):
     monkeypatch.setattr("symid.conceal.draw.ATTEMPTS", 2)
-    with pytest.raises(SymidError, match="no suitable case in 2 draws; the last one failed because what the model cannot absorb"):
+    with pytest.raises(
+        SymidError, match="no suitable case in 2 draws; the last one failed because what the model cannot absorb"
+    ):
         draw_case("rig", [("sensor_offset", "sensor:link1", {"offset_rad": 1e-7})], (0, 0))
 
 
 def test_command_writes_cases_that_follow_those_that_are_there(tmp_path, capsys, offset):
     write_case(offset, tmp_path, "r01")
     imitated = tmp_path / "cases" / "r01" / "case.json"
-    arguments = ["conceal", str(tmp_path), "--system", str(imitated), "--effect", "sensor_offset@sensor:link2:offset_rad=0.004"]
+    arguments = [
+        "conceal",
+        str(tmp_path),
+        "--system",
+        str(imitated),
+        "--effect",
+        "sensor_offset@sensor:link2:offset_rad=0.004",
+    ]
     assert main([*arguments, "--seed", "2"]) == 0
     assert str(tmp_path / "cases" / "r02") in capsys.readouterr().out
     old, new = (json.loads((tmp_path / "cases" / n / "case.json").read_text()) for n in ("r01", "r02"))
@@ -277,8 +320,11 @@ def test_sealed_answers_suit_the_scorer(tmp_path, shared, offset, standing):
         pytest.skip(f"no scorer at {scorer}")
     for case, name in ((offset, "r01"), (standing, "s01"), (draw_case("rig", [], (1, 0)), "r02")):
         write_case(case, tmp_path, name)
-    done = subprocess.run([sys.executable, str(scorer), "--self-test", "--truth", str(tmp_path / "sealed")],
-                          capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, str(scorer), "--self-test", "--truth", str(tmp_path / "sealed")],
+        capture_output=True,
+        text=True,
+    )
     assert "self-test passed: 3 cases" in done.stdout, done.stderr
 
 

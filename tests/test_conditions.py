@@ -31,14 +31,20 @@ def everything(hold: str = "linear") -> si.Model:
     return m
 
 
-@pytest.mark.parametrize(("hold", "duration", "nodes"), [("linear", 2.0, 5), ("zero", si.Free(1, 3), [0, 0.1, 0.4, 0.5, 1])])
+@pytest.mark.parametrize(
+    ("hold", "duration", "nodes"), [("linear", 2.0, 5), ("zero", si.Free(1, 3), [0, 0.1, 0.4, 0.5, 1])]
+)
 @pytest.mark.parametrize("name", SCHEMES)
 def test_derivatives_of_all_kinds_of_parts_agree_with_central_differences(name, hold, duration, nodes):
-    problem = si.Optimization(everything(hold), duration=duration, nodes=nodes, scheme=scheme_by_name(name), backend="numpy")
+    problem = si.Optimization(
+        everything(hold), duration=duration, nodes=nodes, scheme=scheme_by_name(name), backend="numpy"
+    )
     t = problem.transcription
     z = np.random.default_rng(1).uniform(0.2, 0.9, t.layout.size)
     assert check_derivatives(t.nonlinear_program(problem.start()), z).worst_error < 1e-6
-    words = [t.layout.describe(i) for i in range(t.layout.size)] + [t.program.describe_constraint(i) for i in range(t.program.rows)]
+    words = [t.layout.describe(i) for i in range(t.layout.size)] + [
+        t.program.describe_constraint(i) for i in range(t.program.rows)
+    ]
     assert len(words) == t.layout.size + t.program.rows
 
 
@@ -64,7 +70,7 @@ def double_integrator(**control) -> si.Model:
 def test_a_graded_mesh_gives_the_plan_of_an_even_one():
     m = double_integrator()
     m.cost = si.Objective(running=m.u**2)
-    plan = si.Optimization(m, duration=1, nodes=np.linspace(0, 1, 31)**1.5).solve()
+    plan = si.Optimization(m, duration=1, nodes=np.linspace(0, 1, 31) ** 1.5).solve()
     assert plan.objective == pytest.approx(12, abs=1e-6)
     again = si.Optimization(m, duration=1, nodes=11).solve(plan)
     assert again.objective == pytest.approx(12, abs=1e-6) and again.result.iterations <= 2
@@ -73,7 +79,7 @@ def test_a_graded_mesh_gives_the_plan_of_an_even_one():
 def test_least_effort_of_a_double_integrator_is_the_closed_form():
     m = double_integrator()
     m.cost = si.Objective(running=m.u**2)
-    plan = si.Optimization(m, duration=1, nodes=11).solve()        # u = 6 - 12 t: cost 12
+    plan = si.Optimization(m, duration=1, nodes=11).solve()  # u = 6 - 12 t: cost 12
     assert plan.objective == pytest.approx(12, abs=1e-6)
     assert np.allclose(plan["u"], 6 - 12 * plan.trajectories.index, atol=1e-5)
 
@@ -104,8 +110,10 @@ def test_an_algebraic_variable_keeps_the_order_of_the_scheme(name):
         m.rate, m.law = si.Equation(m.x.dot + m.y), si.Equation(sm.log(1 + 2 * m.y) - sm.log(1 + 2 * m.x) + 0 * m.time)
         m.begin = si.Boundary(initial={m.x: 1})
         plan = si.Optimization(m, duration=2, nodes=nodes, scheme=scheme_by_name(name), backend="numpy").solve(
-            {"x": 1, "y": 1}, options={"tol": 1e-12})
+            {"x": 1, "y": 1}, options={"tol": 1e-12}
+        )
         return abs(plan["x"][-1] - np.exp(-2))
+
     assert np.log2(miss(11) / miss(21)) == pytest.approx(scheme_by_name(name).order, abs=0.25)
 
 
@@ -129,15 +137,18 @@ def test_an_algebraic_force_that_only_accelerations_determine_is_found_at_the_po
         accelerated(si.Trapezoid()).solve()
 
 
-@pytest.mark.parametrize(("condition", "words"), [
-    (lambda m: si.Constraint(m.x == 1), "always False"),
-    (lambda m: si.Constraint("far"), "far"),
-    (lambda m: si.Constraint(sm.Ne(m.x.symbol, 1)), "cannot be a constraint"),
-    (lambda m: si.Constraint(m.x.dot <= 1), "which have no rates"),
-    (lambda m: si.Objective(running=m.x.terminal), "objective's end"),
-    (lambda m: si.Boundary(initial=[m.x]), "needs a dictionary"),
-    (lambda m: si.Boundary(terminal={m.x: 5}), "outside its bounds"),
-])
+@pytest.mark.parametrize(
+    ("condition", "words"),
+    [
+        (lambda m: si.Constraint(m.x == 1), "always False"),
+        (lambda m: si.Constraint("far"), "far"),
+        (lambda m: si.Constraint(sm.Ne(m.x.symbol, 1)), "cannot be a constraint"),
+        (lambda m: si.Constraint(m.x.dot <= 1), "which have no rates"),
+        (lambda m: si.Objective(running=m.x.terminal), "objective's end"),
+        (lambda m: si.Boundary(initial=[m.x]), "needs a dictionary"),
+        (lambda m: si.Boundary(terminal={m.x: 5}), "outside its bounds"),
+    ],
+)
 def test_conditions_that_make_no_sense_are_refused_in_words(condition, words):
     m = double_integrator()
     m.components["x"] = si.State(unit="m", bounds=(0, 2), name="x")
@@ -146,10 +157,15 @@ def test_conditions_that_make_no_sense_are_refused_in_words(condition, words):
         si.Optimization(m, duration=1, nodes=5, backend="numpy").transcription  # noqa: B018 - made when first asked for
 
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    ({"duration": "long"}, "positive number of seconds"), ({"duration": -1}, "positive number"),
-    ({"duration": 1, "nodes": 2.5}, "whole number"), ({"duration": 1, "scheme": "midpoint"}, "give a scheme"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"duration": "long"}, "positive number of seconds"),
+        ({"duration": -1}, "positive number"),
+        ({"duration": 1, "nodes": 2.5}, "whole number"),
+        ({"duration": 1, "scheme": "midpoint"}, "give a scheme"),
+    ],
+)
 def test_a_problem_that_makes_no_sense_is_refused_in_words(arguments, words):
     with pytest.raises(TranscriptionError, match=words):
         si.Optimization(double_integrator(), **arguments)

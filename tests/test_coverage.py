@@ -17,27 +17,35 @@ def counted(name: str, seeds: range) -> dict:
     rows, coloured = [], 0
     for seed in seeds:
         problem, truth = SYSTEMS[name](seed)
-        solution = problem.solve(start=truth | {n: 1.0 for n in problem.model.parameters if n not in truth})    # no study of starts
+        solution = problem.solve(
+            start=truth | {n: 1.0 for n in problem.model.parameters if n not in truth}
+        )  # no study of starts
         assert solution.solved, solution.message
         table = solution.parameters.loc[[n for n in solution.values if n in truth]]
         rows.append((table["value"] - [truth[n] for n in table.index], table["std_error"]))
         coloured += solution.errors.model == "coloured"
     error, std_error = np.array(rows).transpose(1, 0, 2)
-    return {"names": list(table.index), "coverage": np.mean(np.abs(error) < NORMAL * std_error, axis=0),
-            "ratio": np.median(std_error, axis=0) / error.std(axis=0), "bias": error.mean(axis=0) / error.std(axis=0),
-            "coloured": coloured / len(rows)}
+    return {
+        "names": list(table.index),
+        "coverage": np.mean(np.abs(error) < NORMAL * std_error, axis=0),
+        "ratio": np.median(std_error, axis=0) / error.std(axis=0),
+        "bias": error.mean(axis=0) / error.std(axis=0),
+        "coloured": coloured / len(rows),
+    }
 
 
 def line(name: str, found: dict) -> str:
-    cells = "  ".join(f"{n} {100 * c:.1f} ({r:.2f})" for n, c, r in
-                      zip(found["names"], found["coverage"], found["ratio"], strict=True))
+    cells = "  ".join(
+        f"{n} {100 * c:.1f} ({r:.2f})"
+        for n, c, r in zip(found["names"], found["coverage"], found["ratio"], strict=True)
+    )
     return f"{name:<30} mean {100 * found['coverage'].mean():.1f} %  coloured {100 * found['coloured']:.0f} %  {cells}"
 
 
 @pytest.mark.parametrize("name", ["integrator", "algebraic, channels together"])
 def test_intervals_hold_the_truth(name):
     found = counted(name, range(8))
-    assert found["coverage"].mean() >= 0.6, line(name, found)      # 4 of 8 wrong at 95 % are four chances in ten thousand
+    assert found["coverage"].mean() >= 0.6, line(name, found)  # 4 of 8 wrong at 95 % are four chances in ten thousand
     assert np.all((found["ratio"] > 0.4) & (found["ratio"] < 2.5)), line(name, found)
 
 
@@ -55,7 +63,7 @@ def test_coverage_is_ninety_five_per_cent(name):
     print(line(name, found))
     assert np.all((found["coverage"] >= 0.92) & (found["coverage"] <= 0.98)), line(name, found)
     if name in WHITE:
-        assert np.all(np.abs(found["ratio"] - 1) < 0.08), line(name, found)     # the spread of 400 has an error of 3.5 %
+        assert np.all(np.abs(found["ratio"] - 1) < 0.08), line(name, found)  # the spread of 400 has an error of 3.5 %
 
 
 if __name__ == "__main__":

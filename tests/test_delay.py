@@ -8,8 +8,18 @@ from symid.mechanics import FullStatePD
 from symid.simulation import simulator
 from symid.synthetic import BODY, standing_recording
 
-GAINS = {"kp_aa": 460.0, "kp_ah": 200.0, "kd_aa": 187.0, "kd_ah": 183.0, "kp_ha": 5.0, "kp_hh": 80.0, "kd_ha": 19.0,
-         "kd_hh": 79.0, "ref_ankle": -0.002, "ref_hip": -0.004}
+GAINS = {
+    "kp_aa": 460.0,
+    "kp_ah": 200.0,
+    "kd_aa": 187.0,
+    "kd_ah": 183.0,
+    "kp_ha": 5.0,
+    "kp_hh": 80.0,
+    "kd_ha": 19.0,
+    "kd_hh": 79.0,
+    "ref_ankle": -0.002,
+    "ref_hip": -0.004,
+}
 """They hold `BODY` upright with any delay from 40 to 120 ms."""
 DELAYS = 0.04, 0.08, 0.12
 
@@ -35,8 +45,17 @@ def test_start_is_close_to_the_true_delay(model, delay):
 
 
 def test_start_of_a_loop_without_delay_is_without_delay(model):
-    quick = GAINS | {"kp_aa": 380.0, "kd_aa": 72.0, "kp_ah": 330.0, "kd_ah": 42.0, "kp_ha": -40.0, "kp_hh": 290.0,
-                     "kd_ha": 18.0, "kd_hh": 21.0, "feedback_delay": 0.0}
+    quick = GAINS | {
+        "kp_aa": 380.0,
+        "kd_aa": 72.0,
+        "kp_ah": 330.0,
+        "kd_ah": 42.0,
+        "kp_ha": -40.0,
+        "kp_hh": 290.0,
+        "kd_ha": 18.0,
+        "kd_hh": 21.0,
+        "feedback_delay": 0.0,
+    }
     p = si.Identification(model, standing_recording(model, quick, seed=1, duration=21, torque_noise=0.5), (1, 21))
     lag = p.transcription.layout.parameters(p.start())[list(model.parameters).index("feedback_delay")]
     assert lag < 0.01
@@ -48,14 +67,21 @@ def test_collocation_with_a_lag_converges_to_the_simulation(model):
     for rate in (50.0, 100.0, 200.0):
         time = np.arange(round(6 * rate) + 1) / rate
         push = np.sin(3 * time) * np.minimum(time, 1) ** 3
-        run = simulator(model).simulate(values, dict.fromkeys(model.states, 0.0), time,
-                                        dict.fromkeys(model.inputs, push), substeps=round(800 / rate))
+        run = simulator(model).simulate(
+            values,
+            dict.fromkeys(model.states, 0.0),
+            time,
+            dict.fromkeys(model.inputs, push),
+            substeps=round(800 / rate),
+        )
         units = {"ankle_angle": "rad", "hip_angle": "rad", "ankle_velocity": "rad/s", "hip_velocity": "rad/s"}
         channels = {name: run.states[name] for name in units} | {u.channel: push for u in model.inputs.values()}
-        recording = si.Recording("simulated", time, channels, units | {u.channel: "m/s^2" for u in model.inputs.values()})
+        recording = si.Recording(
+            "simulated", time, channels, units | {u.channel: "m/s^2" for u in model.inputs.values()}
+        )
         t = si.Identification(model, recording, (1, 6)).transcription
         z = t.start(np.array([values[name] for name in model.parameters]))
-        worst.append(np.abs(t.program.constraints(z)).max() * rate)     # scaled equations are increments
+        worst.append(np.abs(t.program.constraints(z)).max() * rate)  # scaled equations are increments
     order = np.log2(np.array(worst[:-1]) / worst[1:])
     assert order == pytest.approx(2, abs=0.3), (order, worst)
 

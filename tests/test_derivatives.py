@@ -23,9 +23,13 @@ MODELS = {
 def smooth_recording(model: si.Model) -> si.Recording:
     """Smooth made-up channels for everything that the model asks for, 0.6 s at 50 Hz."""
     time = np.arange(31) * 0.02
-    channels = {c.channel: (c.unit, 0.2 * np.sin((3 + k) * time + k))
-                for k, c in enumerate((*model.inputs.values(), *model.outputs.values()))}
-    return si.Recording("made up", time, {n: v for n, (_, v) in channels.items()}, {n: u for n, (u, _) in channels.items()})
+    channels = {
+        c.channel: (c.unit, 0.2 * np.sin((3 + k) * time + k))
+        for k, c in enumerate((*model.inputs.values(), *model.outputs.values()))
+    }
+    return si.Recording(
+        "made up", time, {n: v for n, (_, v) in channels.items()}, {n: u for n, (u, _) in channels.items()}
+    )
 
 
 @pytest.mark.parametrize("backend", ["c", "numpy"])
@@ -34,13 +38,24 @@ def smooth_recording(model: si.Model) -> si.Recording:
 def test_derivatives_agree_with_central_differences(name, scheme, backend):
     model = MODELS[name]()
     noise = Episodes(2, amplitude=0.2) if model.noises else Episodes()
-    t = transcribe(model, [measure(model, smooth_recording(model), (0.3, 0.6))], scheme_by_name(scheme), noise,
-                   np.ones((1, len(model.outputs))), (), backend)
+    t = transcribe(
+        model,
+        [measure(model, smooth_recording(model), (0.3, 0.6))],
+        scheme_by_name(scheme),
+        noise,
+        np.ones((1, len(model.outputs))),
+        (),
+        backend,
+    )
     draw = np.random.default_rng(4)
     # Large weights of a network make kinks that no finite difference resolves.
-    within = np.array([draw.uniform(*np.clip(p.bounds, *((-0.5, 0.5) if p.role == "weight" else (-300, 300))))
-                       for p in model.parameters.values()])
+    within = np.array(
+        [
+            draw.uniform(*np.clip(p.bounds, *((-0.5, 0.5) if p.role == "weight" else (-300, 300))))
+            for p in model.parameters.values()
+        ]
+    )
     start = t.start(within)
     z = start + draw.normal(0, 0.02, len(start))
-    z[t.layout.offsets[-1]:] = start[t.layout.offsets[-1]:]
+    z[t.layout.offsets[-1] :] = start[t.layout.offsets[-1] :]
     assert check_derivatives(t.nonlinear_program(start), z).worst_error < 1e-6

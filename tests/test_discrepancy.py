@@ -22,19 +22,7 @@ from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data, segments_between
 from symid.estimation.kalman import HOLD, kalman_gain
 from symid.mechanics import LIBRARY
-from symid.model import (
-    Constant,
-    Equation,
-    Input,
-    Law,
-    LawParameter,
-    Model,
-    Noise,
-    Output,
-    Parameter,
-    Port,
-    State,
-)
+from symid.model import Constant, Equation, Input, Law, LawParameter, Model, Noise, Output, Parameter, Port, State
 from symid.simulation import Linearised, synthetic_recording
 
 TRUE = {"stiffness": 30.0, "damping": 1.2}
@@ -59,8 +47,15 @@ def cart(softest: float = 0.0) -> Model:
 def recorded(seed=1, term=None, values=None, gust=0.05, duration=60):
     model = cart() if term is None else cart().with_term(term)
     own = {} if term is None else {term.parameter_name(k): v for k, v in values.items()}
-    return synthetic_recording(model, TRUE | own, duration=duration, rate=50, seed=seed, process_noise={"gust": gust},
-                               sensor_noise={"position": SENSOR})
+    return synthetic_recording(
+        model,
+        TRUE | own,
+        duration=duration,
+        rate=50,
+        seed=seed,
+        process_noise={"gust": gust},
+        sensor_noise={"position": SENSOR},
+    )
 
 
 def data_of(recording, driven=True, window=(0.0, 40.0), length=None) -> Data:
@@ -68,8 +63,17 @@ def data_of(recording, driven=True, window=(0.0, 40.0), length=None) -> Data:
     return Data(segments, np.array([SENSOR]), driven)
 
 
-FEW = ("coulomb_friction", "cubic_stiffness", "input_gain", "input_delay", "external_push", "viscous_friction",
-       "torsional_spring", "stribeck_friction", "quadratic_stiffness")
+FEW = (
+    "coulomb_friction",
+    "cubic_stiffness",
+    "input_gain",
+    "input_delay",
+    "external_push",
+    "viscous_friction",
+    "torsional_spring",
+    "stribeck_friction",
+    "quadratic_stiffness",
+)
 
 
 def few() -> list[Suspect]:
@@ -78,8 +82,14 @@ def few() -> list[Suspect]:
 
 
 def finding(recording, suspects=None):
-    return diagnose(cart(), recording, fit_window=(0.0, 40.0), held_out=(40.0, 60.0), sensor_noise=SENSOR,
-                    suspects=suspects or few())
+    return diagnose(
+        cart(),
+        recording,
+        fit_window=(0.0, 40.0),
+        held_out=(40.0, 60.0),
+        sensor_noise=SENSOR,
+        suspects=suspects or few(),
+    )
 
 
 @cache
@@ -110,10 +120,17 @@ def test_free_runs_of_pieces_without_random_forces():
 
 
 def test_kalman_gain_of_a_random_walk():
-    linear = Linearised(np.zeros((1, 1)), np.ones((1, 1)), np.ones((1, 1)), np.zeros((1, 0)), np.zeros((1, 0)),
-                        np.zeros(0), np.zeros(0, int))
+    linear = Linearised(
+        np.zeros((1, 1)),
+        np.ones((1, 1)),
+        np.ones((1, 1)),
+        np.zeros((1, 0)),
+        np.zeros((1, 0)),
+        np.zeros(0),
+        np.zeros(0, int),
+    )
     gain = kalman_gain(linear, 1.0, np.array([1.0 / HOLD**0.5]), np.array([1.0]))
-    golden = (1 + 5**0.5) / 2          # P = (1 + sqrt 5)/2 solves P^2 = P + 1
+    golden = (1 + 5**0.5) / 2  # P = (1 + sqrt 5)/2 solves P^2 = P + 1
     assert gain[0, 0] == pytest.approx(golden / (golden + 1), rel=1e-6)
 
 
@@ -130,7 +147,7 @@ def test_forces_that_change_within_a_sample_move_position_and_speed_apart():
         innovations.append(x[0] + 1e-4 * rng.standard_normal() - guess[0])
         guess = guess + gain[:, 0] * innovations[-1]
     e = np.array(innovations)
-    assert abs(e[1:] @ e[:-1] / (e @ e)) < 4 / len(e)**0.5
+    assert abs(e[1:] @ e[:-1] / (e @ e)) < 4 / len(e) ** 0.5
 
 
 def test_nothing_missing_is_adequate():
@@ -161,10 +178,15 @@ def test_effects_that_could_as_well_be_nothing_are_left_out():
 
 
 def test_a_suspect_that_no_longer_earns_its_place_is_dropped():
-    friction, cubic, gain = (Suspect(LIBRARY[n].at(p)) for n, p in (("coulomb_friction", "cart"), ("cubic_stiffness", "cart"), ("input_gain", "input")))
+    friction, cubic, gain = (
+        Suspect(LIBRARY[n].at(p))
+        for n, p in (("coulomb_friction", "cart"), ("cubic_stiffness", "cart"), ("input_gain", "input"))
+    )
     data = data_of(recorded(4, friction.term, {"torque_Nm": 0.35}))
     base = fit_model(cart(), data)
-    start = base.values | friction.named({"torque_Nm": 0.3}) | cubic.named({"k3_Nm_rad3": 0.0}) | gain.named({"gain": 1.0})
+    start = (
+        base.values | friction.named({"torque_Nm": 0.3}) | cubic.named({"k3_Nm_rad3": 0.0}) | gain.named({"gain": 1.0})
+    )
     three = hypothesis([friction, cubic, gain], base, base, data, start)
     search = Search(base, data, [friction, cubic, gain], lambda: None)
     assert search._reexamined(three, []).suspects == (friction, gain)
@@ -177,10 +199,13 @@ def test_with_the_whole_library():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name, place, values, key", [
-    ("cubic_stiffness", "cart", {"k3_Nm_rad3": 4000.0}, "k3_Nm_rad3"),
-    ("input_delay", "input", {"delay_s": 0.05}, "delay_s"),
-])
+@pytest.mark.parametrize(
+    "name, place, values, key",
+    [
+        ("cubic_stiffness", "cart", {"k3_Nm_rad3": 4000.0}, "k3_Nm_rad3"),
+        ("input_delay", "input", {"delay_s": 0.05}, "delay_s"),
+    ],
+)
 def test_what_is_missing_is_named_placed_and_measured(name, place, values, key):
     finding_ = finding(recorded(4, LIBRARY[name].at(place), values))
     first = finding_.effects[0]
@@ -213,9 +238,13 @@ def _sine_spring(model, place, p):
     model.add_effort("cart", -p.force_N * sm.sin(port.position / p.wave_m))
 
 
-SINE = Law("washboard", "joint", (LawParameter("force_N", "N", (-10.0, 10.0)),
-                                  LawParameter("wave_m", "m", (0.001, 0.1), None, (0.005, 0.01, 0.02))), _sine_spring,
-           "The {place} runs over a washboard of {force_N}")
+SINE = Law(
+    "washboard",
+    "joint",
+    (LawParameter("force_N", "N", (-10.0, 10.0)), LawParameter("wave_m", "m", (0.001, 0.1), None, (0.005, 0.01, 0.02))),
+    _sine_spring,
+    "The {place} runs over a washboard of {force_N}",
+)
 
 
 def test_a_suspect_of_the_user_takes_part():
@@ -270,13 +299,23 @@ def test_windows_and_channels_are_checked():
         segments_between(cart(), recording.time, {"shaker": recording["shaker"]}, (0, 10))
 
 
-@pytest.mark.parametrize("text, words", [
-    (None, "has no case.json"), ("{", "is not JSON"), ("{}", "the key 'system' is missing"),
-    ('{"system": "boat", "baseline": {}, "fit_window_s": [], "heldout_window_s": [], "angle_noise_rms_rad_approx": 1}',
-     "system is 'boat'; known: standing, rig"),
-    ('{"system": "standing", "baseline": {}, "body": {}, "fit_window_s": [], "heldout_window_s": [], '
-     '"angle_noise_rms_rad_approx": 1}', "body has no 'l_L_m'"),
-])
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        (None, "has no case.json"),
+        ("{", "is not JSON"),
+        ("{}", "the key 'system' is missing"),
+        (
+            '{"system": "boat", "baseline": {}, "fit_window_s": [], "heldout_window_s": [], "angle_noise_rms_rad_approx": 1}',
+            "system is 'boat'; known: standing, rig",
+        ),
+        (
+            '{"system": "standing", "baseline": {}, "body": {}, "fit_window_s": [], "heldout_window_s": [], '
+            '"angle_noise_rms_rad_approx": 1}',
+            "body has no 'l_L_m'",
+        ),
+    ],
+)
 def test_case_directories_are_checked(tmp_path, text, words):
     if text is not None:
         (tmp_path / "case.json").write_text(text)
@@ -291,6 +330,7 @@ def test_practice_cases(case, name):
     if not folder.exists():
         pytest.skip(f"no practice cases at {folder.parent}")
     from symid.cases import diagnose_case
+
     assert diagnose_case(read_case(folder)).effects[0].name == name
 
 

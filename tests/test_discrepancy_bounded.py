@@ -26,7 +26,9 @@ def test_growth_is_priced_with_the_right_slope():
     H, g = growth_normal(fitter, p, path)
     slope = -10 * 40 / root
     i = fitter.free.index("stiffness")
-    assert H[i, i] == pytest.approx(slope**2, rel=1e-2) and g[i] == pytest.approx(-growth(fitter, p, path) * slope, rel=1e-2)
+    assert H[i, i] == pytest.approx(slope**2, rel=1e-2) and g[i] == pytest.approx(
+        -growth(fitter, p, path) * slope, rel=1e-2
+    )
 
 
 def test_what_leaves_the_recording_has_run_away():

@@ -85,7 +85,7 @@ def test_undoing_meets_no_kink_at_the_ends_of_a_large_swing():
 def test_filter_is_told_from_what_the_motion_leaves(cutoff):
     rng = np.random.default_rng(3)
     n, force = 8000, rng.standard_normal(8000)
-    motion = lfilter([STEP**2], [1, -2 + 0.05 + 0.001, 1 - 0.05], force)    # a damped body under random force
+    motion = lfilter([STEP**2], [1, -2 + 0.05 + 0.001, 1 - 0.05], force)  # a damped body under random force
     recorded = filtfilt(*butter(2, cutoff * 2 * STEP), motion + 0.02 * motion.std() * rng.standard_normal(n))
     found = estimated_filter([recorded], [], STEP)
     assert found.order == 2
@@ -116,19 +116,21 @@ def test_the_fit_finds_the_truth_and_the_cutoff_under_a_filter():
 
 def test_fits_of_a_recording_as_it_is_where_nothing_was_filtered():
     plain = data_of(recorded(0))
-    (data, fit), = fits_of(cart(), recorded(0), (0.0, 40.0), None, plain, None, False, {})
-    assert data is plain and fit.values["stiffness"] == pytest.approx(TRUE["stiffness"], abs=4 * fit.errors["stiffness"])
+    ((data, fit),) = fits_of(cart(), recorded(0), (0.0, 40.0), None, plain, None, False, {})
+    assert data is plain and fit.values["stiffness"] == pytest.approx(
+        TRUE["stiffness"], abs=4 * fit.errors["stiffness"]
+    )
 
 
 def test_inputs_may_have_gone_through_the_filter_too():
     recording = filtered(recorded(1))
     possible = fits_of(cart(), recording, (0.0, 40.0), None, data_of(recording), ZeroPhase(2, 4.0, 50.0), True, {})
-    assert len(possible) == 2 and possible[0][1].loglik2 > possible[1][1].loglik2 + 50     # here they have not
+    assert len(possible) == 2 and possible[0][1].loglik2 > possible[1][1].loglik2 + 50  # here they have not
     assert possible[0][0].cutoff_free and not possible[1][0].cutoff_free
 
 
 def test_sparser_outputs_keep_all_of_the_inputs():
-    segment, = data_of(recorded(0)).segments
+    (segment,) = data_of(recorded(0)).segments
     sparse, sim = segment.sparser(5), simulator(cart())
     whole = segment.simulate(sim, TRUE, np.zeros(2), substeps=2)
     part = sparse.simulate(sim, TRUE, np.zeros(2), substeps=10)
@@ -139,7 +141,7 @@ def test_sparser_outputs_keep_all_of_the_inputs():
 
 
 def test_a_gain_corrects_at_the_samples_of_the_outputs_only():
-    segment, = data_of(recorded(0)).segments
+    (segment,) = data_of(recorded(0)).segments
     gain, seen = np.array([[0.3], [1.0]]), segment.sparser(5)
     blind = np.full_like(segment.recorded, np.nan)
     blind[::5] = segment.recorded[::5]
@@ -154,7 +156,9 @@ def test_memory_of_the_sensors_widens_errors_to_what_repeats_scatter():
         recording = recorded(seed, gust=0.02)
         rng = np.random.default_rng(seed)
         noise = 2e-3 * autoregressive(rng, len(recording), 0.85, outputs=1)[:, 0]
-        data = data_of(replace(recording, channels=dict(recording.channels) | {"position": recording["position"] + noise}))
+        data = data_of(
+            replace(recording, channels=dict(recording.channels) | {"position": recording["position"] + noise})
+        )
         white = fit_model(cart(), data)
         coloured, fit = with_memory(white, data)
         assert coloured.memory > 0 and remembered(fit.remaining) == 0

@@ -16,7 +16,7 @@ from symid.identification.error_models import Errors, bandwidth, coloured, white
 def test_standard_error_is_the_closed_form_times_the_estimated_noise(make):
     model, recording, _, closed = make(seed=3)
     solution = si.Identification(model, recording).solve()
-    estimated = solution.errors.noise[0, 0] / 0.05    # the closed form is that of noise 0.05
+    estimated = solution.errors.noise[0, 0] / 0.05  # the closed form is that of noise 0.05
     for name, value in closed.items():
         assert solution.parameters["std_error"][name] == pytest.approx(value * estimated, rel=0.02)
     assert solution.errors.model == "white"
@@ -24,9 +24,13 @@ def test_standard_error_is_the_closed_form_times_the_estimated_noise(make):
 
 def test_known_noise_is_used_where_the_residual_does_not_refute_it():
     model, recording, _, closed = integrator(seed=3, known=0.05)
-    assert si.Identification(model, recording).solve().parameters["std_error"]["b"] == pytest.approx(closed["b"], rel=1e-3)
+    assert si.Identification(model, recording).solve().parameters["std_error"]["b"] == pytest.approx(
+        closed["b"], rel=1e-3
+    )
     model, recording, _, closed = integrator(seed=3, known=0.005)
-    assert si.Identification(model, recording).solve().parameters["std_error"]["b"] == pytest.approx(closed["b"], rel=0.15)
+    assert si.Identification(model, recording).solve().parameters["std_error"]["b"] == pytest.approx(
+        closed["b"], rel=0.15
+    )
 
 
 def test_median_of_printed_over_closed_form_is_one():
@@ -49,7 +53,7 @@ def test_parameters_of_the_sensor_alone_have_errors():
 def test_a_sum_that_alone_is_determined_is_named():
     model, recording = two_dampings()
     solution = si.Identification(model, recording).solve()
-    (text, (value, error)), = solution.determined.items()
+    ((text, (value, error)),) = solution.determined.items()
     assert text == "c + c2" and value == pytest.approx(0.5, abs=4 * error) and error < 0.05
     assert np.isinf(solution.parameters["std_error"][["c", "c2"]]).all() and solution.parameters["std_error"]["k"] < 0.1
     assert "do not determine c, c2: only c + c2: 0." in repr(solution) and "c + c2" in solution._repr_html_()
@@ -85,10 +89,18 @@ def test_a_likelihood_of_noise_written_by_hand_gives_the_same():
     model, fast, _, _ = integrator(seed=1, samples=2501)
     slow = integrator(seed=2, samples=51)[1]
     likely = si.Identification(model, [slow, fast], noise=[{"y": 0.1}, {"y": 0.02}]).solve()
-    shapes = [np.column_stack([np.ones(len(r)), np.concatenate([[0], np.cumsum((r["u"][1:] + r["u"][:-1]) / 2 * np.diff(r.time))])])
-              for r in (slow, fast)]
-    matrix = np.block([[shapes[0][:, :1] / 0.1, np.zeros((51, 1)), shapes[0][:, 1:] / 0.1],
-                       [np.zeros((2501, 1)), shapes[1][:, :1] / 0.02, shapes[1][:, 1:] / 0.02]])
+    shapes = [
+        np.column_stack(
+            [np.ones(len(r)), np.concatenate([[0], np.cumsum((r["u"][1:] + r["u"][:-1]) / 2 * np.diff(r.time))])]
+        )
+        for r in (slow, fast)
+    ]
+    matrix = np.block(
+        [
+            [shapes[0][:, :1] / 0.1, np.zeros((51, 1)), shapes[0][:, 1:] / 0.1],
+            [np.zeros((2501, 1)), shapes[1][:, :1] / 0.02, shapes[1][:, 1:] / 0.02],
+        ]
+    )
     by_hand = np.linalg.lstsq(matrix, np.concatenate([slow["x"] / 0.1, fast["x"] / 0.02]))[0]
     assert likely.values["b"] == pytest.approx(by_hand[2], rel=1e-7)
 
@@ -112,7 +124,7 @@ def test_clustered_errors_see_what_recordings_do_not_share():
     rng, recordings, model = np.random.default_rng(4), [], None
     for seed in range(12):
         model, r, _, _ = integrator(seed=seed, samples=101)
-        tilt = 0.1 * rng.standard_normal() * r.time                 # a drift of each recording's own
+        tilt = 0.1 * rng.standard_normal() * r.time  # a drift of each recording's own
         recordings.append(r.with_channel("x", r["x"] + tilt, "m"))
     solution = si.Identification(model, recordings).solve()
     wide, narrow = (solution.with_errors(m).parameters["std_error"]["b"] for m in ("clustered", "white"))
@@ -129,8 +141,14 @@ def autoregressive(rng, count: int, memory: float) -> np.ndarray:
 def fitted(noise: np.ndarray, shapes: np.ndarray) -> Errors:
     """What is left of a noise after a fit of shapes (K, q) by least squares."""
     q, _ = np.linalg.qr(shapes)
-    return Errors(noise - q @ (q.T @ noise), q[:, None, :], np.zeros((len(q), 1, 0)), np.ones(1), np.full(1, np.nan),
-                  np.ones((len(q), 1), dtype=bool))
+    return Errors(
+        noise - q @ (q.T @ noise),
+        q[:, None, :],
+        np.zeros((len(q), 1, 0)),
+        np.ones(1),
+        np.full(1, np.nan),
+        np.ones((len(q), 1), dtype=bool),
+    )
 
 
 def test_coloured_covariance_is_that_of_an_autoregression():

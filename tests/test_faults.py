@@ -48,9 +48,14 @@ def hurt(file: Path, others: list[Path], rng: random.Random) -> str:
     text = file.read_bytes()
     place = rng.randrange(max(len(text), 1))
     kind = rng.choice(("cut", "flip", "zeros", "empty", "gone", "exchanged", "longer", "folder"))
-    new = {"cut": text[:place], "flip": text[:place] + bytes([text[place] ^ 1 << rng.randrange(8)]) + text[place + 1:],
-           "zeros": text[:place] + bytes(min(64, len(text) - place)) + text[place + 64:], "empty": b"",
-           "exchanged": rng.choice(others).read_bytes(), "longer": text + text[:place + 1]}
+    new = {
+        "cut": text[:place],
+        "flip": text[:place] + bytes([text[place] ^ 1 << rng.randrange(8)]) + text[place + 1 :],
+        "zeros": text[:place] + bytes(min(64, len(text) - place)) + text[place + 64 :],
+        "empty": b"",
+        "exchanged": rng.choice(others).read_bytes(),
+        "longer": text + text[: place + 1],
+    }
     file.unlink()
     if kind == "folder":
         file.mkdir()
@@ -84,7 +89,9 @@ def test_the_cache_of_kernels(tmp_path, monkeypatch, seed):
     libraries = [build.compiled(source(k)) for k in (1, 2)]
     done = hurt(libraries[0], libraries[1:], rng)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", CodegenWarning)    # a folder in the way: the library goes elsewhere, as is said once
+        warnings.simplefilter(
+            "ignore", CodegenWarning
+        )  # a folder in the way: the library goes elsewhere, as is said once
         assert build.load_library(source(1)).answer() == 1, done
     assert build.load_library(source(2)).answer() == 2
 
@@ -118,8 +125,12 @@ def test_a_disk_that_fills_up_at_any_write(finished, tmp_path, monkeypatch, writ
 def test_a_program_stopped_at_any_moment(finished, tmp_path, seed, how):
     """Some solves of eight starts are done, or none, or all; what is there is whole, and no process is left."""
     began = time.monotonic()
-    with subprocess.Popen([sys.executable, str(HERE / "study_problems.py"), str(tmp_path), "2"], stdout=subprocess.DEVNULL,
-                          stderr=subprocess.DEVNULL, start_new_session=True) as process:
+    with subprocess.Popen(
+        [sys.executable, str(HERE / "study_problems.py"), str(tmp_path), "2"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,
+    ) as process:
         time.sleep(random.Random(seed).uniform(1, 12))
         process.send_signal(how)
         process.wait(30)

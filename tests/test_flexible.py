@@ -24,7 +24,9 @@ def _ripple(model, place, p):
         model.redefine(sensor.name, sensor.expr + p.size_m * sm.sin(sensor.expr / p.wave_m))
 
 
-RIPPLE = Law("sensor_ripple", "sensor", (LawParameter("size_m", "m"), LawParameter("wave_m", "m")), _ripple).at("sensor:cart")
+RIPPLE = Law("sensor_ripple", "sensor", (LawParameter("size_m", "m"), LawParameter("wave_m", "m")), _ripple).at(
+    "sensor:cart"
+)
 
 
 def _bend(model, place, p):
@@ -35,10 +37,14 @@ def _bend(model, place, p):
 BENT = Law("bent_input", "excitation", (LawParameter("size_s2_m", "s^2/m"),), _bend).at("input")
 
 
-@pytest.mark.parametrize("term, values", [
-    (RIPPLE, {"size_m": 0.004, "wave_m": 0.02}), (BENT, {"size_s2_m": 0.3}),
-    (LIBRARY["stribeck_friction"].at("cart"), {"torque_Nm": 0.1, "excess_Nm": 0.4, "speed_rad_s": 0.1}),
-])
+@pytest.mark.parametrize(
+    "term, values",
+    [
+        (RIPPLE, {"size_m": 0.004, "wave_m": 0.02}),
+        (BENT, {"size_s2_m": 0.3}),
+        (LIBRARY["stribeck_friction"].at("cart"), {"torque_Nm": 0.1, "excess_Nm": 0.4, "speed_rad_s": 0.1}),
+    ],
+)
 def test_the_best_flexible_law_stands_where_something_acts(term, values):
     data = data_of(recorded(7, term, values))
     base = fit_model(cart(), data)
@@ -58,14 +64,24 @@ def integral():
     term = LIBRARY["integral_feedback"].at("hip")
     case = draw_case("standing", [(term.name, term.location, {})], (5, 0))
     model = case.setup.model
-    data = Data(segments_between(model, case.recording.time, dict(case.recording.channels), case.setup.windows[0]),
-                np.full(2, case.setup.sensor_noise), driven=True)
+    data = Data(
+        segments_between(model, case.recording.time, dict(case.recording.channels), case.setup.windows[0]),
+        np.full(2, case.setup.sensor_noise),
+        driven=True,
+    )
     return data, fit_model(model, data), term, case.terms[term]["gain_Nm_rad_s"]
 
 
 def test_a_joint_and_the_link_that_moves_alike_are_one_place():
     data, base, *_ = integral()
-    assert [t.location for t in flexible_terms(base, data)] == ["ankle", "hip", "trunk", "sensor:ankle", "sensor:hip", "input"]
+    assert [t.location for t in flexible_terms(base, data)] == [
+        "ankle",
+        "hip",
+        "trunk",
+        "sensor:ankle",
+        "sensor:hip",
+        "input",
+    ]
 
 
 def test_a_distorted_sensor_is_unexplained_and_placed():
@@ -86,8 +102,11 @@ def test_a_late_sensor_shows_what_was_before_the_episode():
     term = LIBRARY["sensor_delay"].at("sensor:link2")
     case = conceal(setup, {term: {"delay_s": 0.006}}, seed=3)
     model = setup.model.with_term(term)
-    data = Data(segments_between(model, case.recording.time, dict(case.recording.channels), setup.windows[0], setup.segment),
-                np.full(2, setup.sensor_noise), driven=False)
+    data = Data(
+        segments_between(model, case.recording.time, dict(case.recording.channels), setup.windows[0], setup.segment),
+        np.full(2, setup.sensor_noise),
+        driven=False,
+    )
     fitter = Fitter(model, data)
     start = fit_model(setup.model, data)
     fit = fitter.fit(start.values | {term.parameter_name("delay_s"): 0.005}, start.initial, start.process)
@@ -97,7 +116,7 @@ def test_a_late_sensor_shows_what_was_before_the_episode():
 
 def test_an_integral_is_found_although_it_hides_at_zero_gain():
     data, base, term, true = integral()
-    suspect, = [s for s in suspects(base.model) if str(s.term) == str(term)]
+    (suspect,) = [s for s in suspects(base.model) if str(s.term) == str(term)]
     assert suspect.bypasses
     best = explore(base, data, [suspect])[0]
     value, error = (d[term.parameter_name("gain_Nm_rad_s")] for d in (best.fit.values, best.fit.errors))

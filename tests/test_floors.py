@@ -30,8 +30,11 @@ SOLE_IMPORTERS = {
     "matplotlib": {"plots"},
 }
 BY_NAME = {"import_module", "__import__"}
-ALLOWED = {("symid.identification.solution", "symid.plots"), ("symid.optimization.plan", "symid.plots"),
-           ("symid.discrepancy.say.diagnosis", "symid.report")}
+ALLOWED = {
+    ("symid.identification.solution", "symid.plots"),
+    ("symid.optimization.plan", "symid.plots"),
+    ("symid.discrepancy.say.diagnosis", "symid.report"),
+}
 """A result may open the room that draws it or writes of it, figure by figure: fetched by name, when asked for."""
 NOT_IN = {"pandas": {"model", "nlp", "codegen"}, "scipy": {"model"}}
 
@@ -145,5 +148,9 @@ def test_the_verbs_of_the_diagnosis_stand_one_above_the_other():
     for module, path in modules():
         if room_of(module) == "discrepancy" and storey(module) is not None:
             used = [name for name in imports_of(path.read_text(), module) if name.startswith("symid.discrepancy.")]
-            broken += [f"{module} imports {name}" for name in used if storey(name) is not None and storey(name) < storey(module)]
+            broken += [
+                f"{module} imports {name}"
+                for name in used
+                if storey(name) is not None and storey(name) < storey(module)
+            ]
     assert broken == []

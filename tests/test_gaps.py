@@ -21,7 +21,9 @@ def test_missing_samples_have_no_weight():
     recording = pendulum_recording(noise=0.01)
     gappy = with_gaps(recording)
     solution = si.Identification(pendulum(), gappy).solve()
-    assert solution.solved and solution.values["damping"] == pytest.approx(0.4, abs=5 * solution.parameters.std_error["damping"])
+    assert solution.solved and solution.values["damping"] == pytest.approx(
+        0.4, abs=5 * solution.parameters.std_error["damping"]
+    )
     assert solution.fit["rms"]["measured"] == pytest.approx(0.01, rel=0.15)
     # The objective is the weighted sum over the samples that are there.
     t, z, missing = solution.transcription, solution.result.z, ~np.isfinite(gappy["angle"])
@@ -31,8 +33,9 @@ def test_missing_samples_have_no_weight():
 
 
 def test_derivatives_with_gaps_and_robust_loss_agree_with_central_differences():
-    problem = si.Identification(pendulum(), with_gaps(pendulum_recording(duration=0.6, step=0.05)), loss={"measured": 0.02},
-                                backend="numpy")
+    problem = si.Identification(
+        pendulum(), with_gaps(pendulum_recording(duration=0.6, step=0.05)), loss={"measured": 0.02}, backend="numpy"
+    )
     t = problem.transcription
     z = t.start(np.array([0.7])) + np.random.default_rng(1).normal(0, 0.1, t.layout.size)
     assert check_derivatives(t.nonlinear_program(t.start(np.array([0.7]))), z).worst_error < 1e-6
@@ -54,7 +57,9 @@ def test_outliers_hardly_move_a_robust_fit():
     angle = recording["angle"].copy()
     angle[100:130] += 1.0
     spoilt = replace(recording, channels=dict(recording.channels) | {"angle": angle})
-    plain, robust = (si.Identification(pendulum(), spoilt, loss=loss).solve().values["damping"] for loss in ({}, {"measured": 0.02}))
+    plain, robust = (
+        si.Identification(pendulum(), spoilt, loss=loss).solve().values["damping"] for loss in ({}, {"measured": 0.02})
+    )
     assert abs(plain - 0.4) > 4 * abs(robust - 0.4) and robust == pytest.approx(0.4, abs=0.02)
 
 

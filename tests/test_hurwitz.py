@@ -15,11 +15,21 @@ def nearest_to(target) -> NonlinearProgram:
     """Minimise |z - target|^2 without constraints."""
     n = len(target)
     return NonlinearProgram(
-        lower=np.full(n, -9.0), upper=np.full(n, 9.0), start=np.zeros(n), constraint_lower=[], constraint_upper=[],
-        objective=lambda z: float(np.sum((z - target) ** 2)), gradient=lambda z: 2 * (z - target),
-        constraints=lambda z: np.zeros(0), jacobian=lambda z: np.zeros(0), jacobian_rows=np.zeros(0, int),
-        jacobian_cols=np.zeros(0, int), hessian=lambda z, lam, f: np.full(n, 2.0 * f),
-        hessian_rows=np.arange(n), hessian_cols=np.arange(n))
+        lower=np.full(n, -9.0),
+        upper=np.full(n, 9.0),
+        start=np.zeros(n),
+        constraint_lower=[],
+        constraint_upper=[],
+        objective=lambda z: float(np.sum((z - target) ** 2)),
+        gradient=lambda z: 2 * (z - target),
+        constraints=lambda z: np.zeros(0),
+        jacobian=lambda z: np.zeros(0),
+        jacobian_rows=np.zeros(0, int),
+        jacobian_cols=np.zeros(0, int),
+        hessian=lambda z, lam, f: np.full(n, 2.0 * f),
+        hessian_rows=np.arange(n),
+        hessian_cols=np.arange(n),
+    )
 
 
 def test_derivatives_are_exact():
@@ -39,7 +49,9 @@ def test_the_closest_stable_oscillator_is_found(margin):
     """x'' = -z0 x - z1 x': stable only with z1 > 0, so that the closest to z1 = -1 is at the margin."""
     base = np.array([[0.0, 1.0], [0.0, 0.0]])
     slopes = np.array([[[0, 0], [-1, 0]], [[0, 0], [0, -1]]], float)
-    result = solve_nlp(with_hurwitz(nearest_to(np.array([4.0, -1.0])), np.arange(2), base, slopes, margin), max_iterations=300)
+    result = solve_nlp(
+        with_hurwitz(nearest_to(np.array([4.0, -1.0])), np.arange(2), base, slopes, margin), max_iterations=300
+    )
     growth = np.linalg.eigvals(base + np.tensordot(result.z[:2], slopes, 1)).real.max()
     assert growth < -margin + 1e-6
     assert growth == pytest.approx(-margin, abs=0.02)

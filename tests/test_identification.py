@@ -67,12 +67,16 @@ def standing(shared, law) -> si.Identification:
 
 @pytest.mark.elsewhere
 def test_backends_give_the_same_solution():
-    c, numpy = (si.Identification(pendulum(), pendulum_recording(noise=0.01), backend=b).solve() for b in ("c", "numpy"))
+    c, numpy = (
+        si.Identification(pendulum(), pendulum_recording(noise=0.01), backend=b).solve() for b in ("c", "numpy")
+    )
     assert c.values["damping"] == pytest.approx(numpy.values["damping"], rel=1e-9)
 
 
 def test_episodes_share_the_parameter_but_not_the_trajectory():
-    problem = si.Identification(pendulum(), pendulum_recording(noise=0.01), episodes=si.Episodes(3, amplitude=0.3, seed=1))
+    problem = si.Identification(
+        pendulum(), pendulum_recording(noise=0.01), episodes=si.Episodes(3, amplitude=0.3, seed=1)
+    )
     solution = problem.solve()
     assert solution.solved
     assert len(solution.trajectories) == 3
@@ -89,6 +93,7 @@ def test_parameters_hardly_depend_on_the_draw_of_multisines(episodes):
         solutions = [si.Identification(pendulum(), pendulum_recording(noise=0.01), episodes=e).solve() for e in draws]
         assert all(s.solved for s in solutions)
         return np.std([s.values["damping"] for s in solutions])
+
     assert scatter("multisine") < 0.3 * scatter("uniform")
 
 
@@ -102,10 +107,16 @@ def test_recordings_share_parameters_unless_told_otherwise():
 
 def test_a_solution_is_a_start_for_a_larger_model_and_a_longer_window():
     small = si.Identification(pendulum(), pendulum_recording(noise=0.01), window=(0, 3)).solve()
-    spring = si.Law("cubic", "joint", (si.LawParameter("k3_1", "1/s^2", (-5, 5)),),
-                    lambda m, place, p: m.add_effort(place, -p.k3_1 * m.angle**3))
+    spring = si.Law(
+        "cubic",
+        "joint",
+        (si.LawParameter("k3_1", "1/s^2", (-5, 5)),),
+        lambda m, place, p: m.add_effort(place, -p.k3_1 * m.angle**3),
+    )
     model = pendulum()
-    model.pivot = si.Port(position=model.angle, rate=model.rate, into={"balance": -1}, role="joint", at="pivot", unit="1/s^2")
+    model.pivot = si.Port(
+        position=model.angle, rate=model.rate, into={"balance": -1}, role="joint", at="pivot", unit="1/s^2"
+    )
     larger = si.Identification(model.with_term(spring.at("pivot")), pendulum_recording(noise=0.01))
     solution = larger.solve(start=small)
     assert solution.solved
@@ -151,16 +162,47 @@ def test_not_solved_says_so_and_names_the_worst_equation():
     assert np.isnan(solution.parameters["std_error"]).all()
 
 
-@pytest.mark.parametrize(("make", "error", "words"), [
-    (lambda: si.Identification(pendulum(), pendulum_recording()).solve(starts=0), SolveError, "at least 1"),
-    (lambda: si.Identification(pendulum(), pendulum_recording()).solve(start={"damp": 1}), SolveError, "did you mean 'damping'"),
-    (lambda: si.Identification(pendulum(), pendulum_recording()).solve(start={"damping": 9}), SolveError, "outside its bounds"),
-    (lambda: si.Identification(pendulum(), pendulum_recording(), weights={"x": 1}).solve(), TranscriptionError, "no output 'x'"),
-    (lambda: si.Identification(pendulum(), pendulum_recording(), per_recording=["x"]).solve(), TranscriptionError, "no parameter 'x'"),
-    (lambda: si.Identification(pendulum(), [pendulum_recording()] * 2, window=[(0, 1)] * 3).solve(), TranscriptionError, "3 windows"),
-    (lambda: si.Identification(si.Model("empty"), pendulum_recording()).solve(), TranscriptionError, "has no Output"),
-    (lambda: si.Identification(incomplete(), pendulum_recording()).solve(), ModelError, "no equation that contains its rate"),
-])
+@pytest.mark.parametrize(
+    ("make", "error", "words"),
+    [
+        (lambda: si.Identification(pendulum(), pendulum_recording()).solve(starts=0), SolveError, "at least 1"),
+        (
+            lambda: si.Identification(pendulum(), pendulum_recording()).solve(start={"damp": 1}),
+            SolveError,
+            "did you mean 'damping'",
+        ),
+        (
+            lambda: si.Identification(pendulum(), pendulum_recording()).solve(start={"damping": 9}),
+            SolveError,
+            "outside its bounds",
+        ),
+        (
+            lambda: si.Identification(pendulum(), pendulum_recording(), weights={"x": 1}).solve(),
+            TranscriptionError,
+            "no output 'x'",
+        ),
+        (
+            lambda: si.Identification(pendulum(), pendulum_recording(), per_recording=["x"]).solve(),
+            TranscriptionError,
+            "no parameter 'x'",
+        ),
+        (
+            lambda: si.Identification(pendulum(), [pendulum_recording()] * 2, window=[(0, 1)] * 3).solve(),
+            TranscriptionError,
+            "3 windows",
+        ),
+        (
+            lambda: si.Identification(si.Model("empty"), pendulum_recording()).solve(),
+            TranscriptionError,
+            "has no Output",
+        ),
+        (
+            lambda: si.Identification(incomplete(), pendulum_recording()).solve(),
+            ModelError,
+            "no equation that contains its rate",
+        ),
+    ],
+)
 def test_bad_input_is_refused_in_words(make, error, words):
     with pytest.raises(error, match=words):
         make()

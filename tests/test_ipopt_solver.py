@@ -235,6 +235,7 @@ def test_ctrl_c_stops_the_solve_and_the_handler_is_given_back(either_way, hears_
     def press_once(iteration):
         if iteration.number == 1:
             os.kill(os.getpid(), signal.SIGINT)
+
     with pytest.raises(KeyboardInterrupt):
         solve_nlp(tracking(), on_iteration=press_once)
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
@@ -246,9 +247,10 @@ def stuck(monkeypatch):
     goes_on = threading.Event()
 
     def factorise(nlp, evaluation, options, scales, point):
-        point["z"][:] = 7.0    # Ipopt may still write to its arrays
+        point["z"][:] = 7.0  # Ipopt may still write to its arrays
         goes_on.wait(30)
         return 0
+
     monkeypatch.setattr(ipopt_solver, "_runner", lambda interface: ("direct", factorise))
     yield goes_on
     goes_on.set()
@@ -262,7 +264,7 @@ def test_the_time_limit_holds_while_a_factorisation_goes_on(stuck):
     result = solve_nlp(nlp, time_limit_s=0.3, linear_solver="mumps")
     assert result.status_name == "Maximum_WallTime_Exceeded" and not result.solved and bounded.busy()
     np.testing.assert_array_equal(result.z, nlp.start)
-    assert result.seconds["total"] < 3.0    # far below the 30 s that the factorisation takes
+    assert result.seconds["total"] < 3.0  # far below the 30 s that the factorisation takes
 
 
 def test_ctrl_c_is_heard_while_a_factorisation_goes_on(stuck, hears_ctrl_c):
@@ -279,15 +281,23 @@ def test_the_deadline_of_a_block_holds_for_its_solves():
         assert remaining() <= 60 and solve_nlp(tracking()).solved
 
 
-@pytest.mark.parametrize("error, kind, words", [
-    (ModuleNotFoundError("No module named 'cyipopt'"), SolveError, "not installed"),
-    (ImportError("libmumps.so: failed to map segment"), MachineError, "cannot be loaded .*failed to map segment.*memory enough"),
-])
+@pytest.mark.parametrize(
+    "error, kind, words",
+    [
+        (ModuleNotFoundError("No module named 'cyipopt'"), SolveError, "not installed"),
+        (
+            ImportError("libmumps.so: failed to map segment"),
+            MachineError,
+            "cannot be loaded .*failed to map segment.*memory enough",
+        ),
+    ],
+)
 def test_why_cyipopt_is_not_there_is_told(monkeypatch, error, kind, words):
     def refuse(name, *_):
         if name == "cyipopt":
             raise error
         return real(name, *_)
+
     real = builtins.__import__
     ipopt_solver._runner.cache_clear()
     monkeypatch.setattr(builtins, "__import__", refuse)

@@ -30,8 +30,16 @@ def check(matrix: np.ndarray, threads: int = 1, tolerance: float = 1e-9) -> np.n
 
 
 @settings(max_examples=40, deadline=None)
-@given(seed=st.integers(0, 10**6), nodes=st.integers(1, 20), states=st.integers(1, 7), border=st.integers(0, 12),
-       episodes=st.integers(1, 4), linked=st.booleans(), window=st.integers(1, 4), threads=st.integers(1, 3))
+@given(
+    seed=st.integers(0, 10**6),
+    nodes=st.integers(1, 20),
+    states=st.integers(1, 7),
+    border=st.integers(0, 12),
+    episodes=st.integers(1, 4),
+    linked=st.booleans(),
+    window=st.integers(1, 4),
+    threads=st.integers(1, 3),
+)
 def test_any_chain_is_solved_with_the_right_inertia(seed, nodes, states, border, episodes, linked, window, threads):
     rng = np.random.default_rng(seed)
     check(chain(rng, nodes, states, border, episodes, linked=linked, window=window), threads)
@@ -46,8 +54,10 @@ def test_motion_that_grows_and_decays_beyond_all_digits_is_solved(growth, curvat
     check(chain(rng, nodes, 4, 6, step=turn @ np.diag(rates) @ turn.T, curvature=curvature))
 
 
-@pytest.mark.parametrize(("nodes", "states", "border", "episodes"), [
-    (1, 4, 0, 1), (1, 1, 0, 1), (2, 1, 1, 1), (60, 2, 0, 1), (1, 3, 5, 4), (200, 1, 3, 1), (3, 20, 0, 2)])
+@pytest.mark.parametrize(
+    ("nodes", "states", "border", "episodes"),
+    [(1, 4, 0, 1), (1, 1, 0, 1), (2, 1, 1, 1), (60, 2, 0, 1), (1, 3, 5, 4), (200, 1, 3, 1), (3, 20, 0, 2)],
+)
 def test_degenerate_chains(nodes, states, border, episodes):
     check(chain(np.random.default_rng(2), nodes, states, border, episodes))
 
@@ -59,9 +69,13 @@ def test_a_diagonal_matrix_and_noise_at_every_node():
     noise = np.zeros((len(base), rows))
     noise[-rows:] = np.eye(rows)
     n = len(base) - rows
-    full = np.block([[base[:n, :n], np.zeros((n, rows)), base[:n, n:]],
-                     [np.zeros((rows, n)), np.diag(rng.uniform(1, 2, rows)), np.eye(rows)],
-                     [base[n:, :n], np.eye(rows), np.zeros((rows, rows))]])
+    full = np.block(
+        [
+            [base[:n, :n], np.zeros((n, rows)), base[:n, n:]],
+            [np.zeros((rows, n)), np.diag(rng.uniform(1, 2, rows)), np.eye(rows)],
+            [base[n:, :n], np.eye(rows), np.zeros((rows, rows))],
+        ]
+    )
     check(full)
 
 

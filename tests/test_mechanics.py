@@ -37,28 +37,42 @@ def rates_function(model, **values):
     def rates(state):
         m, r = evaluate(state)
         return -np.linalg.solve(np.array(m, float), np.array(r, float)[:, 0])
+
     return rates
 
 
 def energy_function(model, chain):
     """State -> energy of a chain [J], from the masses stated in its model."""
-    links = [Link(*(model.find(role, k.name)[0].symbol for role in ("mass", "center_of_mass", "inertia")),
-                  *(c.symbol for c in model.find("length", k.name))) for k in chain.links]
+    links = [
+        Link(
+            *(model.find(role, k.name)[0].symbol for role in ("mass", "center_of_mass", "inertia")),
+            *(c.symbol for c in model.find("length", k.name)),
+        )
+        for k in chain.links
+    ]
     x = [s.symbol for s in model.states.values()]
-    q, dq = x[:len(links)], x[len(links):]
-    angles = q if chain.absolute else [sum(q[:i + 1]) for i in range(len(q))]
-    speeds = dq if chain.absolute else [sum(dq[:i + 1]) for i in range(len(q))]
+    q, dq = x[: len(links)], x[len(links) :]
+    angles = q if chain.absolute else [sum(q[: i + 1]) for i in range(len(q))]
+    speeds = dq if chain.absolute else [sum(dq[: i + 1]) for i in range(len(q))]
     kinetic, potential = chain_energies(links, angles, speeds, Surroundings(0, model.gravity.symbol, 0), chain.upright)
     return sm.lambdify([x], (kinetic + potential).xreplace(numbers(model)))
 
 
 def three_links(**options):
-    return Chain((ChainLink("link1", 0.4, 0.11, 2e-3, 0.3), ChainLink("link2", 0.3, 0.12, 1e-3, 0.2),
-                  ChainLink("link3", 0.2, 0.05, 5e-4)), **options)
+    return Chain(
+        (
+            ChainLink("link1", 0.4, 0.11, 2e-3, 0.3),
+            ChainLink("link2", 0.3, 0.12, 1e-3, 0.2),
+            ChainLink("link3", 0.2, 0.05, 5e-4),
+        ),
+        **options,
+    )
 
 
-@pytest.mark.parametrize("chain", [three_links(), three_links(absolute=True), three_links(upright=True),
-                                   three_links(absolute=True, upright=True)])
+@pytest.mark.parametrize(
+    "chain",
+    [three_links(), three_links(absolute=True), three_links(upright=True), three_links(absolute=True, upright=True)],
+)
 def test_energy_is_kept_without_forces(chain):
     model = chain.plant()
     energy, rates = energy_function(model, chain), rates_function(model)
@@ -73,8 +87,13 @@ def test_angular_momentum_about_the_pivot_is_kept_without_gravity():
     chain = three_links(absolute=True, gravity=0.0)
     model = chain.plant()
     x = [s.symbol for s in model.states.values()]
-    links = [Link(*(model.find(r, k.name)[0].symbol for r in ("mass", "center_of_mass", "inertia")),
-                  *(c.symbol for c in model.find("length", k.name))) for k in chain.links]
+    links = [
+        Link(
+            *(model.find(r, k.name)[0].symbol for r in ("mass", "center_of_mass", "inertia")),
+            *(c.symbol for c in model.find("length", k.name)),
+        )
+        for k in chain.links
+    ]
     kinetic, _ = chain_energies(links, x[:3], x[3:], Surroundings(0, 0, 0), False)
     momentum = sm.lambdify([x], sum(sm.diff(kinetic, w) for w in x[3:]).xreplace(numbers(model)))
     start = np.array([0.2, 1.0, -0.5, 3.0, -1.0, 2.0])
@@ -85,8 +104,7 @@ def test_angular_momentum_about_the_pivot_is_kept_without_gravity():
 
 def test_a_single_rod_swings_with_its_known_period():
     rates = rates_function(Chain.uniform(1, length=0.8, mass=2.0).plant())
-    run = solve_ivp(lambda t, x: rates(x), (0, 5), [1e-3, 0], rtol=1e-10, atol=1e-13,
-                    events=lambda t, x: x[0])
+    run = solve_ivp(lambda t, x: rates(x), (0, 5), [1e-3, 0], rtol=1e-10, atol=1e-13, events=lambda t, x: x[0])
     period = 2 * np.mean(np.diff(run.t_events[0]))
     assert period == pytest.approx(2 * np.pi * np.sqrt(2 * 0.8 / (3 * 9.81)), rel=1e-5)
 
@@ -99,7 +117,9 @@ def test_relative_and_absolute_angles_describe_one_motion():
 
 
 def test_two_link_chain_is_the_double_pendulum():
-    chain = Chain((ChainLink("link1", 0.094, 0.109, 4.4e-4, 0.173), ChainLink("link2", 0.138, 0.117, 1.27e-3)), absolute=True)
+    chain = Chain(
+        (ChainLink("link1", 0.094, 0.109, 4.4e-4, 0.173), ChainLink("link2", 0.138, 0.117, 1.27e-3)), absolute=True
+    )
     x = np.array([0.5, -0.3, 1.0, -2.0])
     assert np.allclose(rates_function(chain.plant())(x), rates_function(BENCH.plant())(x), rtol=1e-14)
 
@@ -159,9 +179,13 @@ def test_published_eigenvalues_follow_from_published_gains():
 
 
 @needs_shared
-@pytest.mark.parametrize(("controller", "law", "order"), [
-    ("PD", PD(), "kp_ankle kd_ankle kp_hip kd_hip ref_ankle ref_hip"),
-    ("FPD", FullStatePD(), "kp_aa kp_ah kd_aa kd_ah kp_ha kp_hh kd_ha kd_hh ref_ankle ref_hip")])
+@pytest.mark.parametrize(
+    ("controller", "law", "order"),
+    [
+        ("PD", PD(), "kp_ankle kd_ankle kp_hip kd_hip ref_ankle ref_hip"),
+        ("FPD", FullStatePD(), "kp_aa kp_ah kd_aa kd_ah kp_ha kp_hh kd_ha kd_hh ref_ankle ref_hip"),
+    ],
+)
 def test_equations_equal_an_independent_derivation(controller, law, order):
     spec = importlib.util.spec_from_file_location("anchor", SHARED / "anchors/standing.py")
     anchor = importlib.util.module_from_spec(spec)
@@ -169,17 +193,31 @@ def test_equations_equal_an_independent_derivation(controller, law, order):
     model = DoubleLinkPendulum.from_json(SHARED / "recordings/standing_subject05/body.json").with_feedback(law)
     rng = np.random.default_rng(4)
     for _ in range(5):
-        x, v, p, w, a = rng.normal(size=4), rng.normal(size=4), rng.normal(size=len(order.split())), rng.normal(size=2), rng.normal()
-        table = numbers(model, platform_acceleration=a, ankle_torque_noise=w[0], hip_torque_noise=w[1],
-                        **dict(zip(order.split(), p, strict=True)))
+        x, v, p, w, a = (
+            rng.normal(size=4),
+            rng.normal(size=4),
+            rng.normal(size=len(order.split())),
+            rng.normal(size=2),
+            rng.normal(),
+        )
+        table = numbers(
+            model,
+            platform_acceleration=a,
+            ankle_torque_noise=w[0],
+            hip_torque_noise=w[1],
+            **dict(zip(order.split(), p, strict=True)),
+        )
         for s, x_i, v_i in zip(model.states.values(), x, v, strict=True):
             table |= {s.symbol: x_i, s.dot: v_i}
         expected = anchor.residual(controller, x, v, p, -a, w, anchor.body(1.0), np.sin, np.cos)
         assert np.allclose([float(r.xreplace(table)) for r in model.residual()], expected, rtol=1e-12, atol=1e-12)
 
 
-@pytest.mark.parametrize("model", [BODY.plant(), BODY.with_feedback(PD()), BENCH.plant(("joint1", "joint2")),
-                                   Chain.uniform(4).plant()], ids=lambda m: m.name)
+@pytest.mark.parametrize(
+    "model",
+    [BODY.plant(), BODY.with_feedback(PD()), BENCH.plant(("joint1", "joint2")), Chain.uniform(4).plant()],
+    ids=lambda m: m.name,
+)
 def test_mechanisms_pass_the_model_check_and_keep_their_names(model):
     assert list(violations(model)) == []
     assert all(c.latex or c.role for c in model.states.values())
@@ -189,7 +227,9 @@ def test_names_of_the_standing_model_are_those_of_its_recording():
     model = BODY.with_feedback(PD())
     assert list(model.states) == ["ankle_angle", "hip_angle", "ankle_velocity", "hip_velocity"]
     assert {o.name: o.channel for o in model.outputs.values()} == {
-        "measured_ankle_angle": "ankle_angle", "measured_hip_angle": "hip_angle"}
+        "measured_ankle_angle": "ankle_angle",
+        "measured_hip_angle": "hip_angle",
+    }
     assert list(model.equations) == ["ankle_kinematics", "hip_kinematics", "ankle_balance", "hip_balance"]
     assert model.ankle_angle.bounds == (-1.0, 1.0)
     assert model.hip_velocity.bounds == (-2.0, 2.0)
@@ -205,12 +245,22 @@ def test_body_and_bench_files_are_refused_by_key(tmp_path):
 
 
 def test_bench_parameters_leave_identified_numbers_out():
-    keys = {"m1_kg": 0.1, "m2_kg": 0.1, "a1_m": 0.1, "a2_m": 0.1, "L1_m": 0.2, "I1_kg_m2": 1e-3, "I2_kg_m2": 1e-3, "g_m_s2": 9.8}
+    keys = {
+        "m1_kg": 0.1,
+        "m2_kg": 0.1,
+        "a1_m": 0.1,
+        "a2_m": 0.1,
+        "L1_m": 0.2,
+        "I1_kg_m2": 1e-3,
+        "I2_kg_m2": 1e-3,
+        "g_m_s2": 9.8,
+    }
     assert BenchDoublePendulum.from_parameters(keys | {"k1_N_m_s_rad": 1e-4}).g == 9.8
 
 
-@pytest.mark.parametrize(("links", "joints"), [((), ()), ((ChainLink("a", 1, 1, 1),), ("a",)),
-                                               ((ChainLink("a", 1, 1, 1),), ("b", "c"))])
+@pytest.mark.parametrize(
+    ("links", "joints"), [((), ()), ((ChainLink("a", 1, 1, 1),), ("a",)), ((ChainLink("a", 1, 1, 1),), ("b", "c"))]
+)
 def test_a_chain_with_confused_names_is_refused(links, joints):
     with pytest.raises(ModelError, match="one joint before each link"):
         Chain(links, joints)

@@ -15,8 +15,16 @@ from symid.model.check import violations
 
 SHARED = Path(__file__).parents[2] / "shared"
 BODY = DoubleLinkPendulum(0.84, 0.47, 0.33, 22.7, 48.4, 1.72, 3.29)
-LAWS = [PD(), FullStatePD(), FullStatePD(delay=(0, 0.3)), PD(muscle=(0.01, 0.3)), DelayedFullState(lags=(0.05, 0.1)),
-        NeuralNetwork(), NeuralNetwork(activation="as_printed", lags=(0.0, 0.1)), NeuralNetwork(delay=(0, 0.2), hidden=2)]
+LAWS = [
+    PD(),
+    FullStatePD(),
+    FullStatePD(delay=(0, 0.3)),
+    PD(muscle=(0.01, 0.3)),
+    DelayedFullState(lags=(0.05, 0.1)),
+    NeuralNetwork(),
+    NeuralNetwork(activation="as_printed", lags=(0.0, 0.1)),
+    NeuralNetwork(delay=(0, 0.2), hidden=2),
+]
 
 
 @pytest.mark.parametrize("law", LAWS, ids=lambda law: type(law).__name__)
@@ -34,7 +42,18 @@ def test_every_law_closes_every_loop(law, plant):
 def test_names_bounds_and_units_of_the_gains():
     pd, full = BODY.with_feedback(PD()), BODY.with_feedback(FullStatePD())
     assert set(pd.parameters) == {"kp_ankle", "kd_ankle", "kp_hip", "kd_hip", "ref_ankle", "ref_hip"}
-    assert set(full.parameters) == {"kp_aa", "kp_ah", "kd_aa", "kd_ah", "kp_ha", "kp_hh", "kd_ha", "kd_hh", "ref_ankle", "ref_hip"}
+    assert set(full.parameters) == {
+        "kp_aa",
+        "kp_ah",
+        "kd_aa",
+        "kd_ah",
+        "kp_ha",
+        "kp_hh",
+        "kd_ha",
+        "kd_hh",
+        "ref_ankle",
+        "ref_hip",
+    }
     assert full.kp_aa.bounds == full.kd_hh.bounds == (0.0, 5000.0)
     assert full.kp_ah.bounds == full.kd_ha.bounds == (-5000.0, 5000.0)
     assert full.ref_hip.bounds == (-0.5, 0.5)
@@ -59,7 +78,7 @@ def test_one_unknown_delay_makes_every_signal_late():
 def test_delayed_gains_read_the_state_at_their_own_lag():
     model = BODY.with_feedback(DelayedFullState(lags=(0.06, 0.12)))
     slope = sm.diff(model.inline(model.ankle_torque.symbol), model.kp_ah_2.symbol)
-    late, = (s for s in slope.free_symbols if s in model.delays)
+    (late,) = (s for s in slope.free_symbols if s in model.delays)
     assert (str(model.delays[late].of), float(model.delays[late].lag)) == ("hip_angle", 0.12)
 
 

@@ -11,7 +11,14 @@ from hypothesis import strategies as st
 import symid.model as si
 from symid.errors import ModelError
 from symid.mechanics import (
-    CANONICAL, LIBRARY, PD, BenchDoublePendulum, DoubleLinkPendulum, FullStatePD, lagrange_residuals, suspects,
+    CANONICAL,
+    LIBRARY,
+    PD,
+    BenchDoublePendulum,
+    DoubleLinkPendulum,
+    FullStatePD,
+    lagrange_residuals,
+    suspects,
 )
 from symid.model.check import violations
 
@@ -42,10 +49,15 @@ def cart_pole():
     m.x_kinematics = si.Equation(m.x.dot - m.v)
     m.angle_kinematics = si.Equation(m.angle.dot - m.rate)
     m.cart_balance = si.Equation(
-        m.drive - m.cart_force - (m.cart_mass + m.rod_mass.symbol) * m.v.dot - ml * (c * m.rate.dot - s * m.rate**2)
-        + (m.cart_mass + m.rod_mass.symbol) * m.g_forward)
-    m.rod_balance = si.Equation(-(m.rod_inertia + ml * m.rod_com) * m.rate.dot - ml * c * m.v.dot
-                                - ml * (s * m.g_down - c * m.g_forward))
+        m.drive
+        - m.cart_force
+        - (m.cart_mass + m.rod_mass.symbol) * m.v.dot
+        - ml * (c * m.rate.dot - s * m.rate**2)
+        + (m.cart_mass + m.rod_mass.symbol) * m.g_forward
+    )
+    m.rod_balance = si.Equation(
+        -(m.rod_inertia + ml * m.rod_com) * m.rate.dot - ml * c * m.v.dot - ml * (s * m.g_down - c * m.g_forward)
+    )
     m.cart = si.Port(position=m.x, rate=m.v, into={"cart_balance": 1}, unit="N", role="joint", at="cart")
     m.pin = si.Port(position=m.angle, rate=m.rate, into={"rod_balance": 1}, role="joint", at="pin")
     m.rod = si.Port(position=m.angle, rate=m.rate, into={"rod_balance": 1}, role="link", at="rod")
@@ -59,16 +71,23 @@ MODELS = {"standing": STANDING, "rig": RIG, "cart": CART}
 ALL = [pytest.param(model, term, id=f"{name}-{term}") for name, model in MODELS.items() for term in suspects(model)]
 LISTED = {
     "standing": {
-        "global": "feedback_delay muscle_lag", "input": "input_gain input_delay", "trunk": "extra_mass",
+        "global": "feedback_delay muscle_lag",
+        "input": "input_gain input_delay",
+        "trunk": "extra_mass",
         "ankle": "torque_saturation sensory_dead_zone coulomb_friction cubic_stiffness periodic_torque integral_feedback "
-                 "acceleration_feedback torque_feedback gain_change external_push viscous_friction torsional_spring",
-        "sensor:ankle": "sensor_gain", "sensor:hip": "sensor_gain",
+        "acceleration_feedback torque_feedback gain_change external_push viscous_friction torsional_spring",
+        "sensor:ankle": "sensor_gain",
+        "sensor:hip": "sensor_gain",
     },
     "rig": {
         "joint1": "viscous_friction coulomb_friction torsional_spring cubic_stiffness periodic_torque",
         "joint2": "viscous_friction coulomb_friction torsional_spring cubic_stiffness periodic_torque",
-        "link1": "quadratic_drag link_inertia_error", "link2": "quadratic_drag link_inertia_error", "global": "gravity_tilt",
-        "base": "base_motion", "sensor:link1": "sensor_offset", "sensor:link2": "sensor_offset sensor_delay",
+        "link1": "quadratic_drag link_inertia_error",
+        "link2": "quadratic_drag link_inertia_error",
+        "global": "gravity_tilt",
+        "base": "base_motion",
+        "sensor:link1": "sensor_offset",
+        "sensor:link2": "sensor_offset sensor_delay",
     },
 }
 LISTED["standing"]["hip"] = LISTED["standing"]["ankle"]
@@ -79,7 +98,9 @@ def test_every_canonical_name_is_at_its_places(name):
     there = {str(t) for t in suspects(MODELS[name])}
     wanted = {f"{law}@{place}" for place, laws in LISTED[name].items() for law in laws.split()}
     assert wanted <= there
-    assert {w.split("@")[0] for listed in LISTED.values() for laws in listed.values() for w in laws.split()} == set(CANONICAL)
+    assert {w.split("@")[0] for listed in LISTED.values() for laws in listed.values() for w in laws.split()} == set(
+        CANONICAL
+    )
 
 
 @pytest.mark.parametrize(("model", "term"), ALL)
@@ -96,7 +117,11 @@ def test_a_term_makes_another_sound_model_and_leaves_the_first_alone(model, term
 def at_null(model, term):
     """Residuals and outputs of the model with the term switched off, its own states solved for, or at rest if nothing moves them."""
     augmented = model.with_term(term)
-    table = {augmented[term.parameter_name(q.key)].symbol: sm.sympify(q.null) for q in term.law.parameters if q.null is not None}
+    table = {
+        augmented[term.parameter_name(q.key)].symbol: sm.sympify(q.null)
+        for q in term.law.parameters
+        if q.null is not None
+    }
     for late, delay in augmented.delays.items():
         if late not in model.delays and delay.lag.xreplace(table).is_zero:
             table[late] = delay.of
@@ -107,20 +132,28 @@ def at_null(model, term):
     if all(row.xreplace(rest) == 0 for row in own.values()):
         solved = rest
     else:
-        solved = {state.symbol: sm.solve(row, state.symbol)[0] for state, row in own.items() if state.dot not in row.free_symbols}
+        solved = {
+            state.symbol: sm.solve(row, state.symbol)[0]
+            for state, row in own.items()
+            if state.dot not in row.free_symbols
+        }
     for _ in added:
         rows = {k: r.xreplace(solved) for k, r in rows.items()}
     return rows
 
 
-@pytest.mark.parametrize(("model", "term"), [p for p in ALL if any(q.null is not None for q in p.values[1].law.parameters)])
+@pytest.mark.parametrize(
+    ("model", "term"), [p for p in ALL if any(q.null is not None for q in p.values[1].law.parameters)]
+)
 def test_a_term_at_its_null_changes_nothing(model, term):
     for name, row in at_null(model, term).items():
         assert sm.expand(row - model.inline(model[name].expr)) == 0, name
 
 
-@pytest.mark.parametrize(("law", "key", "value", "place"), [
-    ("torque_saturation", "limit_Nm", 1e9, "hip"), ("sensory_dead_zone", "width_rad", 1e-12, "hip")])
+@pytest.mark.parametrize(
+    ("law", "key", "value", "place"),
+    [("torque_saturation", "limit_Nm", 1e9, "hip"), ("sensory_dead_zone", "width_rad", 1e-12, "hip")],
+)
 def test_limits_far_away_change_nothing(law, key, value, place):
     term = LIBRARY[law].at(place)
     augmented = STANDING.with_term(term)
@@ -140,7 +173,9 @@ def effort(model, term):
     return (augmented[equation].expr - model[equation].expr) / coefficient, port, augmented
 
 
-@pytest.mark.parametrize("law", ["viscous_friction", "coulomb_friction", "stribeck_friction", "joint_drag", "quadratic_drag"])
+@pytest.mark.parametrize(
+    "law", ["viscous_friction", "coulomb_friction", "stribeck_friction", "joint_drag", "quadratic_drag"]
+)
 @given(rate=st.floats(-20, 20), size=st.floats(0, 50), excess=st.floats(0, 50))
 def test_friction_takes_energy_away(law, rate, size, excess):
     place = "link1" if law == "quadratic_drag" else "joint1"
@@ -151,14 +186,27 @@ def test_friction_takes_energy_away(law, rate, size, excess):
     assert float(force.xreplace(table)) * rate <= 0
 
 
-@pytest.mark.parametrize(("law", "expected"), [
-    ("coulomb_friction", -2.0 * np.tanh(0.03 / 0.05)), ("viscous_friction", -2.0 * 0.03), ("torsional_spring", -2.0 * 0.4),
-    ("cubic_stiffness", -2.0 * 0.4**3), ("joint_drag", -2.0 * 0.03**2), ("quadratic_stiffness", -2.0 * 0.4**2)])
+@pytest.mark.parametrize(
+    ("law", "expected"),
+    [
+        ("coulomb_friction", -2.0 * np.tanh(0.03 / 0.05)),
+        ("viscous_friction", -2.0 * 0.03),
+        ("torsional_spring", -2.0 * 0.4),
+        ("cubic_stiffness", -2.0 * 0.4**3),
+        ("joint_drag", -2.0 * 0.03**2),
+        ("quadratic_stiffness", -2.0 * 0.4**2),
+    ],
+)
 def test_sizes_and_signs_of_joint_forces(law, expected):
     term = LIBRARY[law].at("joint2")
     force, port, augmented = effort(RIG, term)
     table = {c.symbol: c.value for c in augmented.constants.values()}
-    table |= {RIG.link1_angle.symbol: 0.1, RIG.link2_angle.symbol: 0.5, RIG.link1_velocity.symbol: 0.02, RIG.link2_velocity.symbol: 0.05}
+    table |= {
+        RIG.link1_angle.symbol: 0.1,
+        RIG.link2_angle.symbol: 0.5,
+        RIG.link1_velocity.symbol: 0.02,
+        RIG.link2_velocity.symbol: 0.05,
+    }
     table[augmented[term.parameter_name(term.law.parameters[0].key)].symbol] = 2.0
     assert port.into == {"link2_balance": 1, "link1_balance": -1} or list(port.into.values()) == [1, -1]
     assert float(force.xreplace(table)) == pytest.approx(expected)
@@ -189,8 +237,11 @@ def test_a_gain_change_multiplies_the_whole_torque_after_its_time():
     term = LIBRARY["gain_change"].at("ankle")
     augmented = STANDING.with_term(term)
     ratio = sm.simplify(augmented.inline(augmented.ankle_torque.symbol) / STANDING.inline(STANDING.ankle_torque.symbol))
-    table = {augmented.gain_change_ankle_factor.symbol: 1.5, augmented.gain_change_ankle_time_s.symbol: 20.0,
-             augmented.gain_change_ankle_switching_time.symbol: augmented.gain_change_ankle_switching_time.value}
+    table = {
+        augmented.gain_change_ankle_factor.symbol: 1.5,
+        augmented.gain_change_ankle_time_s.symbol: 20.0,
+        augmented.gain_change_ankle_switching_time.symbol: augmented.gain_change_ankle_switching_time.value,
+    }
     assert [round(float(ratio.xreplace(table | {STANDING.time: t})), 6) for t in (19.8, 20.0, 20.2)] == [1.0, 1.25, 1.5]
 
 
@@ -206,14 +257,18 @@ def test_a_tilt_is_an_offset_of_both_sensors():
 
 def test_base_motion_is_the_second_derivative_of_its_displacement():
     moved = RIG.with_term(LIBRARY["base_motion"].at("base"))
-    amplitude, frequency, phase = (moved[f"base_motion_base_{k}"].symbol for k in ("amplitude_m", "frequency_Hz", "phase_rad"))
+    amplitude, frequency, phase = (
+        moved[f"base_motion_base_{k}"].symbol for k in ("amplitude_m", "frequency_Hz", "phase_rad")
+    )
     displacement = amplitude * sm.sin(2 * sm.pi * frequency * RIG.time + phase)
     assert sm.expand(moved.base_acceleration.expr - sm.diff(displacement, RIG.time, 2)) == 0
 
 
 def test_a_base_that_moves_up_and_down_adds_its_acceleration_to_gravity():
     moved = RIG.with_term(LIBRARY["vertical_base_motion"].at("base"))
-    amplitude, frequency, phase = (moved[f"vertical_base_motion_base_{k}"].symbol for k in ("amplitude_m", "frequency_Hz", "phase_rad"))
+    amplitude, frequency, phase = (
+        moved[f"vertical_base_motion_base_{k}"].symbol for k in ("amplitude_m", "frequency_Hz", "phase_rad")
+    )
     height = amplitude * sm.sin(2 * sm.pi * frequency * RIG.time + phase)
     forward, down = moved.find("gravity")
     assert sm.expand(down.expr - RIG.find("gravity")[1].expr - sm.diff(height, RIG.time, 2)) == 0
@@ -226,14 +281,20 @@ def test_extra_mass_composes_the_link_anew():
     com = (one * at_one + two * at_two) / (one + two)
     inertia = one * (at_one - com) ** 2 + two * (at_two - com) ** 2
     together = BenchDoublePendulum(5.0, one + two, 0.1, com, 0.3, 0.01, inertia).plant()
-    apart = BenchDoublePendulum(5.0, one, 0.1, at_one, 0.3, 0.01, 0.0).plant().with_term(LIBRARY["extra_mass"].at("link2"))
+    apart = (
+        BenchDoublePendulum(5.0, one, 0.1, at_one, 0.3, 0.01, 0.0).plant().with_term(LIBRARY["extra_mass"].at("link2"))
+    )
     values = [sm.Rational(k, 7) for k in range(1, 9)]
     state = {s: v for s, v in zip([y for x in RIG.states.values() for y in (x.symbol, x.dot)], values, strict=True)}
 
     def evaluated(m):
         table = {c.symbol: c.value for c in m.constants.values()} | {n.symbol: 0 for n in m.noises.values()} | state
-        table |= {sm.Symbol("extra_mass_link2_mass_kg", real=True): two, sm.Symbol("extra_mass_link2_height_m", real=True): at_two}
+        table |= {
+            sm.Symbol("extra_mass_link2_mass_kg", real=True): two,
+            sm.Symbol("extra_mass_link2_height_m", real=True): at_two,
+        }
         return [float(r.xreplace(table)) for r in m.residual()]
+
     assert np.allclose(evaluated(together), evaluated(apart))
 
 
@@ -243,11 +304,15 @@ def test_an_elastic_mount_equals_lagranges_equations_with_the_mount_as_a_coordin
     q, v, a = (sm.symbols(f"{k}0:3", real=True) for k in "qva")
     c = RIG.constants
     m1, m2, a1, a2, L1, I1, I2, g = (c[k].value for k in ("m1", "m2", "a1", "a2", "L1", "I1", "I2", "gravity"))
-    at = [(q[0] + a1 * sm.sin(q[1]), -a1 * sm.cos(q[1])),
-          (q[0] + L1 * sm.sin(q[1]) + a2 * sm.sin(q[2]), -L1 * sm.cos(q[1]) - a2 * sm.cos(q[2]))]
+    at = [
+        (q[0] + a1 * sm.sin(q[1]), -a1 * sm.cos(q[1])),
+        (q[0] + L1 * sm.sin(q[1]) + a2 * sm.sin(q[2]), -L1 * sm.cos(q[1]) - a2 * sm.cos(q[2])),
+    ]
     speeds = [[sum(sm.diff(e, x) * w for x, w in zip(q, v, strict=True)) for e in point] for point in at]
-    kinetic = sum(m * (x**2 + y**2) for m, (x, y) in zip((m1, m2), speeds, strict=True)) / 2 \
+    kinetic = (
+        sum(m * (x**2 + y**2) for m, (x, y) in zip((m1, m2), speeds, strict=True)) / 2
         + (I1 * v[1] ** 2 + I2 * v[2] ** 2 + mass * v[0] ** 2) / 2
+    )
     carried = mass + m1 + m2
     potential = g * (m1 * at[0][1] + m2 * at[1][1]) + carried * pace**2 * q[0] ** 2 / 2
     residual = sm.Matrix(lagrange_residuals(kinetic, potential, q, v, a))
@@ -255,14 +320,23 @@ def test_an_elastic_mount_equals_lagranges_equations_with_the_mount_as_a_coordin
     matrix, force = residual.jacobian(a).xreplace(start), residual.xreplace(dict.fromkeys(a, 0)).xreplace(start)
     expected = -np.linalg.solve(np.array(matrix, float), np.array(force, float)[:, 0])
 
-    states = ("elastic_mount_base_shift", "link1_angle", "link2_angle", "elastic_mount_base_speed", "link1_velocity", "link2_velocity")
+    states = (
+        "elastic_mount_base_shift",
+        "link1_angle",
+        "link2_angle",
+        "elastic_mount_base_speed",
+        "link1_velocity",
+        "link2_velocity",
+    )
     table = {k.symbol: k.value for k in model.constants.values()} | {k.symbol: 0 for k in model.noises.values()}
     table |= {model[name].symbol: x for name, x in zip(states, start.values(), strict=True)}
     for key, value in (("inverse_mass_1_kg", 1 / carried), ("frequency_Hz", 3.0), ("damping_ratio", 0.0)):
         table[model[f"elastic_mount_base_{key}"].symbol] = value
     dots = [model[name].dot for name in states]
     f = sm.Matrix(model.residual()).xreplace(table)
-    rates = -np.linalg.solve(np.array(f.jacobian(dots), float), np.array(f.xreplace(dict.fromkeys(dots, 0)), float)[:, 0])
+    rates = -np.linalg.solve(
+        np.array(f.jacobian(dots), float), np.array(f.xreplace(dict.fromkeys(dots, 0)), float)[:, 0]
+    )
     assert np.allclose(rates[3:], expected)
     assert np.allclose(rates[:3], [start[w] for w in v])
 
@@ -281,7 +355,7 @@ def test_input_gain_and_delay_reach_the_drive_in_either_order():
     for terms in ((gain, delay), (delay, gain)):
         model = STANDING.with_term(terms[0]).with_term(terms[1])
         drive = model.inline(model.base_acceleration.symbol)
-        late, = (s for s in drive.free_symbols if s in model.delays)
+        (late,) = (s for s in drive.free_symbols if s in model.delays)
         assert drive == model.input_gain_input_gain * late
         assert model.delays[late].lag == model.input_delay_input_delay_s.symbol
 
@@ -289,8 +363,9 @@ def test_input_gain_and_delay_reach_the_drive_in_either_order():
 def test_two_terms_act_on_one_torque():
     model = STANDING.with_term(LIBRARY["torque_saturation"].at("hip")).with_term(LIBRARY["muscle_lag"].at("global"))
     assert list(violations(model)) == []
-    assert sm.tanh in {type(a) for a in sm.preorder_traversal(model.inline(model.hip_torque_muscle_lag_equation.expr))} or \
-        model.hip_torque_muscle_lag_equation.expr.has(sm.tanh)
+    assert sm.tanh in {
+        type(a) for a in sm.preorder_traversal(model.inline(model.hip_torque_muscle_lag_equation.expr))
+    } or model.hip_torque_muscle_lag_equation.expr.has(sm.tanh)
     assert [str(t) for t in model.terms] == ["torque_saturation@hip", "muscle_lag@global"]
 
 
@@ -326,8 +401,14 @@ def test_laws_of_a_joint_need_its_port():
 
 
 def test_a_users_own_law_is_one_more_entry():
-    law = si.Law("magnet", "link", (si.LawParameter("pull_Nm", "N*m"),),
-                 lambda m, place, p: m.add_effort(place, p.pull_Nm * sm.sin(m[place].position)), "{pull_Nm}", "me")
+    law = si.Law(
+        "magnet",
+        "link",
+        (si.LawParameter("pull_Nm", "N*m"),),
+        lambda m, place, p: m.add_effort(place, p.pull_Nm * sm.sin(m[place].position)),
+        "{pull_Nm}",
+        "me",
+    )
     assert [str(t) for t in suspects(RIG, {"magnet": law})] == ["magnet@link1", "magnet@link2"]
     assert list(violations(RIG.with_term(law.at("link2")))) == []
 

@@ -4,8 +4,18 @@ import numpy as np
 import pytest
 import sympy as sm
 from sympy.physics.mechanics import (
-    Force, Inertia, KanesMethod, Lagrangian, LagrangesMethod, Particle, Point, PrismaticJoint, ReferenceFrame,
-    RigidBody, System, dynamicsymbols,
+    Force,
+    Inertia,
+    KanesMethod,
+    Lagrangian,
+    LagrangesMethod,
+    Particle,
+    Point,
+    PrismaticJoint,
+    ReferenceFrame,
+    RigidBody,
+    System,
+    dynamicsymbols,
 )
 
 from symid.errors import ModelError
@@ -61,10 +71,16 @@ def rates(model, x):
     return -np.linalg.solve(np.array(mass, float), np.array(force, float)[:, 0])
 
 
-@pytest.mark.parametrize("wrapped", [
-    lambda: from_kane(kane(), UNITS | STATE_UNITS, constants=VALUES),
-    lambda: from_lagrange(lagrange(), UNITS | {"q1": "rad", "q2": "rad", "q1_rate": "rad/s", "q2_rate": "rad/s"}, constants=VALUES),
-], ids=["kane", "lagrange"])
+@pytest.mark.parametrize(
+    "wrapped",
+    [
+        lambda: from_kane(kane(), UNITS | STATE_UNITS, constants=VALUES),
+        lambda: from_lagrange(
+            lagrange(), UNITS | {"q1": "rad", "q2": "rad", "q1_rate": "rad/s", "q2_rate": "rad/s"}, constants=VALUES
+        ),
+    ],
+    ids=["kane", "lagrange"],
+)
 def test_wrapped_equations_equal_our_own_derivation(wrapped):
     model, own = wrapped(), BenchDoublePendulum(*VALUES.values()).plant()
     assert list(violations(model)) == []
@@ -90,8 +106,12 @@ def driven(force):
 
 
 def test_functions_of_time_become_inputs_and_unknown_symbols_parameters():
-    model = from_kane(driven(dynamicsymbols("F")), {"x": "m", "v": "m/s", "F": "N", "k": "N/m", "m": "kg"},
-                      constants={"m": 2.0}, bounds={"k": (0, 50)})
+    model = from_kane(
+        driven(dynamicsymbols("F")),
+        {"x": "m", "v": "m/s", "F": "N", "k": "N/m", "m": "kg"},
+        constants={"m": 2.0},
+        bounds={"k": (0, 50)},
+    )
     assert (list(model.inputs), list(model.parameters), list(model.constants)) == (["F"], ["k"], ["m"])
     assert model.k.bounds == (0, 50)
     assert model.x_joint.unit == "N"
@@ -113,9 +133,21 @@ def test_a_system_of_joints_is_wrapped_with_its_place_for_a_force():
 
 def test_all_that_is_wrong_comes_in_one_error():
     with pytest.raises(ModelError) as caught:
-        from_kane(driven(dynamicsymbols("F")), {"x": "m", "v": "m/s", "kk": "N/m"}, constants={"mass": 2.0}, bounds={"y": (0, 1)})
+        from_kane(
+            driven(dynamicsymbols("F")),
+            {"x": "m", "v": "m/s", "kk": "N/m"},
+            constants={"mass": 2.0},
+            bounds={"y": (0, 1)},
+        )
     text = "\n".join(caught.value.violations)
-    for expected in ("'F' has no unit", "'k' has no unit", "'m' has no unit", "units has 'kk'", "constants has 'mass'", "bounds has 'y'"):
+    for expected in (
+        "'F' has no unit",
+        "'k' has no unit",
+        "'m' has no unit",
+        "units has 'kk'",
+        "constants has 'mass'",
+        "bounds has 'y'",
+    ):
         assert expected in text
 
 

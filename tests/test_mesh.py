@@ -33,8 +33,10 @@ def held_recording(a: float = 2.0, step: float = 0.1, seed: int = 0) -> Recordin
 
 def test_a_held_input_gives_the_parameter_that_linear_interpolation_misses():
     recording = held_recording()
-    held, linear = (si.Identification(lag(hold), recording, scheme=si.HermiteSimpson()).solve().values["a"]
-                    for hold in ("zero", "linear"))
+    held, linear = (
+        si.Identification(lag(hold), recording, scheme=si.HermiteSimpson()).solve().values["a"]
+        for hold in ("zero", "linear")
+    )
     assert held == pytest.approx(2.0, abs=1e-5)
     assert abs(linear - 2.0) > 0.02
 
@@ -69,8 +71,13 @@ def test_an_unknown_hold_is_refused():
 @pytest.mark.parametrize("scheme", [si.Midpoint(), si.Trapezoid(), si.HermiteSimpson()])
 def test_a_refined_mesh_has_the_order_of_its_scheme(scheme):
     def found(refine, scheme=scheme):
-        return si.Identification(pendulum(), pendulum_recording(step=0.2), scheme=scheme, refine=refine).solve().values["damping"]
-    limit = found(8, si.HermiteSimpson())       # what is left is the error of the input's spline, the same for all
+        return (
+            si.Identification(pendulum(), pendulum_recording(step=0.2), scheme=scheme, refine=refine)
+            .solve()
+            .values["damping"]
+        )
+
+    limit = found(8, si.HermiteSimpson())  # what is left is the error of the input's spline, the same for all
     assert 0.75 < np.log2((found(2) - limit) / (found(4) - limit)) / scheme.order < 1.25
 
 
@@ -78,8 +85,9 @@ def test_derivatives_on_a_refined_mesh_with_episodes_and_delay():
     m = pendulum()
     m.lag = si.Parameter(unit="s", bounds=(0.02, 0.3))
     m.components["balance"] = si.Equation(m.balance.expr + 0.5 * m.delayed(m.angle, m.lag), name="balance")
-    problem = si.Identification(m, pendulum_recording(duration=2), window=(0.5, 2), refine=3,
-                                episodes=si.Episodes(2, amplitude=0.1))
+    problem = si.Identification(
+        m, pendulum_recording(duration=2), window=(0.5, 2), refine=3, episodes=si.Episodes(2, amplitude=0.1)
+    )
     t = problem.transcription
     z = t.start(np.array([0.4, 0.1]))
     z[:-2] += 0.01 * np.random.default_rng(0).standard_normal(len(z) - 2)
@@ -88,8 +96,12 @@ def test_derivatives_on_a_refined_mesh_with_episodes_and_delay():
 
 
 def test_noise_stays_the_same_from_sample_to_sample_when_the_mesh_is_refined():
-    coarse, fine = (si.Identification(pendulum(), pendulum_recording(duration=1), refine=r,
-                                      episodes=si.Episodes(2, amplitude=0.1, seed=3)).transcription for r in (1, 2))
+    coarse, fine = (
+        si.Identification(
+            pendulum(), pendulum_recording(duration=1), refine=r, episodes=si.Episodes(2, amplitude=0.1, seed=3)
+        ).transcription
+        for r in (1, 2)
+    )
     assert np.array_equal(np.repeat(coarse.program.data[1].interval[:, -1], 2), fine.program.data[1].interval[:, -1])
 
 
@@ -108,7 +120,10 @@ def test_a_refined_mesh_agrees_with_an_adaptive_integrator():
 
     def rates(t, x):
         return [x[1], -4 * np.sin(x[0]) - solution.values["damping"] * x[1] + 1.5 * np.sin(2.1 * t) + np.cos(0.7 * t)]
-    run = solve_ivp(rates, (0, recording.time[-1]), frame[["angle", "rate"]].iloc[0], t_eval=recording.time, rtol=1e-10, atol=1e-10)
+
+    run = solve_ivp(
+        rates, (0, recording.time[-1]), frame[["angle", "rate"]].iloc[0], t_eval=recording.time, rtol=1e-10, atol=1e-10
+    )
     assert run.y[0] == pytest.approx(frame["angle"].to_numpy(), abs=1e-3)
 
 

@@ -16,7 +16,9 @@ def _breathing_spring(model, place, p):
     model.add_effort("cart", -p.size_N_m * port.position * sm.sin(2 * sm.pi * p.pace_Hz * model.time + 1.0))
 
 
-BREATHING = Law("breathing_spring", "joint", (LawParameter("size_N_m", "N/m"), LawParameter("pace_Hz", "Hz")), _breathing_spring)
+BREATHING = Law(
+    "breathing_spring", "joint", (LawParameter("size_N_m", "N/m"), LawParameter("pace_Hz", "Hz")), _breathing_spring
+)
 
 
 def breathing(seed, size):

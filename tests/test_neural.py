@@ -72,8 +72,9 @@ def test_search_of_a_single_episode_does_not_simulate(problem):
 
 
 def test_search_refuses_parameters_of_single_recordings(problem):
-    two = Identification(problem.model, [problem.recordings[0]] * 2, episodes=Episodes(2, amplitude=0.1),
-                         per_recording=("damping",))
+    two = Identification(
+        problem.model, [problem.recordings[0]] * 2, episodes=Episodes(2, amplitude=0.1), per_recording=("damping",)
+    )
     with pytest.raises(SolveError, match="search.*parameters of"):
         two.start("search")
 
@@ -87,10 +88,15 @@ def test_a_solve_is_given_up_where_multipliers_explode(problem):
 def _standing(shared, episodes: int) -> Identification:
     from symid import mechanics
     from symid.recording import read_recording
+
     folder = shared / "recordings" / "standing_subject05"
     model = mechanics.DoubleLinkPendulum.from_json(folder / "body.json").with_feedback(mechanics.PD())
-    return Identification(model, read_recording(folder / "recording_50hz.csv"), (160, 190),
-                          episodes=Episodes(episodes, torque=0.25, seed=1, distribution="uniform"))
+    return Identification(
+        model,
+        read_recording(folder / "recording_50hz.csv"),
+        (160, 190),
+        episodes=Episodes(episodes, torque=0.25, seed=1, distribution="uniform"),
+    )
 
 
 def test_two_episodes_let_an_unstable_loop_win_and_three_do_not(shared):
@@ -110,6 +116,7 @@ def test_default_start_of_several_episodes_is_searched_where_no_simulation_follo
 
 def test_many_starts_of_several_episodes_are_searched_for(problem):
     from symid.identification.study import start_kinds
+
     assert start_kinds(problem, 3) == ["search"] * 3
     assert start_kinds(replace(problem, episodes=Episodes()), 2) == ["random"] * 2
     assert start_kinds(problem, 1, "relaxed") == ["relaxed"]

@@ -17,13 +17,21 @@ def code_cells(notebook):
 @pytest.mark.parametrize("path", NOTEBOOKS)
 def test_runs_from_a_clean_kernel(path):
     from nbclient import NotebookClient
+
     if "shared/" in path.read_text() and not SHARED.is_dir():
         pytest.skip(f"no reference material at {SHARED}")
     notebook = nbformat.read(path, as_version=4)
     for cell in code_cells(notebook):
         cell.outputs, cell.execution_count = [], None
-    NotebookClient(notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(FOLDER)}}).execute()
-    shown = [output.data for cell in code_cells(notebook) for output in cell.outputs if output.output_type == "execute_result"]
+    NotebookClient(
+        notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(FOLDER)}}
+    ).execute()
+    shown = [
+        output.data
+        for cell in code_cells(notebook)
+        for output in cell.outputs
+        if output.output_type == "execute_result"
+    ]
     assert any("image/png" in data for data in shown)
     assert any("text/html" in data for data in shown)
 

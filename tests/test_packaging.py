@@ -11,7 +11,9 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["
 RECIPE = (ROOT / "packaging" / "conda" / "recipe.yaml").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("text", [RECIPE, (ROOT / "CITATION.cff").read_text(encoding="utf-8")], ids=["recipe", "citation"])
+@pytest.mark.parametrize(
+    "text", [RECIPE, (ROOT / "CITATION.cff").read_text(encoding="utf-8")], ids=["recipe", "citation"]
+)
 def test_the_version_is_that_of_the_package(text):
     (version,) = re.findall(r'^ *version: "?(\d[\w.]*)"?$', text, re.M)
     assert version == PROJECT["version"]
@@ -20,4 +22,9 @@ def test_the_version_is_that_of_the_package(text):
 def test_the_recipe_asks_for_what_the_package_asks_for():
     run = re.search(r"run: \[(.*?)\]", RECIPE, re.S).group(1)
     asked = {part.strip().replace(" ", "").replace("matplotlib-base", "matplotlib") for part in run.split(",")}
-    assert asked == {*PROJECT["dependencies"], *PROJECT["optional-dependencies"]["solver"], "python>=3.11", "c-compiler"}
+    assert asked == {
+        *PROJECT["dependencies"],
+        *PROJECT["optional-dependencies"]["solver"],
+        "python>=3.11",
+        "c-compiler",
+    }

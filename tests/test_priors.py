@@ -56,7 +56,9 @@ def informed() -> si.Model:
 @pytest.mark.parametrize("scheme", [si.Midpoint(), si.HermiteSimpson()])
 def test_derivatives_with_priors_and_process_noise_agree_with_central_differences(scheme):
     recordings = [pendulum_recording(duration=0.5, step=0.05), pendulum_recording(duration=0.3, step=0.05)]
-    t = si.Identification(informed(), recordings, scheme=scheme, per_recording=["damping"], backend="numpy").transcription
+    t = si.Identification(
+        informed(), recordings, scheme=scheme, per_recording=["damping"], backend="numpy"
+    ).transcription
     z = np.random.default_rng(0).uniform(0.2, 0.8, t.layout.size)
     start = np.clip(z, t.program.lower, t.program.upper)
     assert check_derivatives(t.nonlinear_program(start), z).worst_error < 1e-6
@@ -90,7 +92,7 @@ def test_a_prior_that_is_none_is_refused():
 def test_a_smooth_control_is_an_estimated_disturbance():
     recording = pendulum_recording(noise=0.001)
     m = pendulum().fixed(damping=0.4)
-    m.components["drive"] = si.Control(unit="1/s^2", smooth=1e-6, name="drive")       # the drive was not recorded
+    m.components["drive"] = si.Control(unit="1/s^2", smooth=1e-6, name="drive")  # the drive was not recorded
     m.gain = si.Parameter(unit="1", bounds=(0.5, 2))
     m.components["measured"] = replace(m.measured, expr=m.gain.symbol * m.angle.symbol, unit="rad", channel="angle")
     m.known_gain = si.Constraint(sm.Eq(m.gain, 1))

@@ -12,7 +12,9 @@ from symid.estimation.independence import independent_share
 
 def run(error, lengths=None):
     time, recorded = np.arange(len(error)) * 0.02, np.sin(np.arange(len(error)) * 0.05)[:, None]
-    return FreeRun(time, recorded, recorded + error[:, None], float(np.sqrt(np.mean(error**2))), lengths or (len(error),))
+    return FreeRun(
+        time, recorded, recorded + error[:, None], float(np.sqrt(np.mean(error**2))), lengths or (len(error),)
+    )
 
 
 @pytest.mark.parametrize("seed", range(3))

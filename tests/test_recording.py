@@ -31,9 +31,7 @@ SHARED = Path(__file__).parents[2] / "shared"
 STANDING = SHARED / "recordings" / "standing_subject05"
 RIG = SHARED / "recordings" / "double_pendulum_rig" / "recording_250hz.csv"
 CASES = sorted((SHARED / "concealed" / "cases").glob("*/recording.csv"))
-needs_shared = pytest.mark.skipif(
-    not SHARED.is_dir(), reason="no folder shared beside the checkout"
-)
+needs_shared = pytest.mark.skipif(not SHARED.is_dir(), reason="no folder shared beside the checkout")
 
 DEGREE = np.pi / 180
 
@@ -103,9 +101,7 @@ def test_byte_order_mark_spaces_blank_lines_and_commas_at_line_ends_do_no_harm(t
     assert recording["ankle_angle"].tolist() == [1, 2, 3]
 
 
-@settings(
-    max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
-)
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(
     data=st.data(),
     count=st.integers(2, 30),
@@ -113,9 +109,7 @@ def test_byte_order_mark_spaces_blank_lines_and_commas_at_line_ends_do_no_harm(t
     start=st.floats(-100, 100),
     segmented=st.booleans(),
 )
-def test_what_is_written_is_read_back_to_the_last_digit(
-    tmp_path, data, count, step, start, segmented
-):
+def test_what_is_written_is_read_back_to_the_last_digit(tmp_path, data, count, step, start, segmented):
     numbers = st.floats(-1e6, 1e6)
     column = st.lists(numbers, min_size=count, max_size=count)
     units = {"ankle_angle": "rad", "drive_torque": "N*m", "signal": "1", "damping": "N*m*s/rad"}
@@ -140,9 +134,7 @@ def test_what_is_written_is_read_back_to_the_last_digit(
 
 def test_segments_have_their_own_times_and_labels(tmp_path):
     rows = [
-        f"{s},{k},{0.01 * i:.2f},{100 * k + i}"
-        for s, k in (("fit", 0), ("fit", 1), ("held_out", 0))
-        for i in range(4)
+        f"{s},{k},{0.01 * i:.2f},{100 * k + i}" for s, k in (("fit", 0), ("fit", 1), ("held_out", 0)) for i in range(4)
     ]
     recording = read_recording(written(tmp_path, csv_text(rows, "split,segment,time_s,angle_deg")))
     assert len(recording.segments()) == 3 and len(recording.segments("fit")) == 2
@@ -216,15 +208,7 @@ def test_body_files_of_both_kinds():
     body = read_body(STANDING / "body.json", STANDING_BODY)
     assert body["leg_length"] == 0.8435298 and list(body) == list(STANDING_BODY)
     case = json.loads((CASES[-1].parent / "case.json").read_text())
-    letters = {
-        "l_L": "m",
-        "d_L": "m",
-        "d_T": "m",
-        "m_L": "kg",
-        "m_T": "kg",
-        "I_L": "kg*m^2",
-        "I_T": "kg*m^2",
-    }
+    letters = {"l_L": "m", "d_L": "m", "d_T": "m", "m_L": "kg", "m_T": "kg", "I_L": "kg*m^2", "I_T": "kg*m^2"}
     assert read_body(case["body"], letters)["m_T"] == case["body"]["m_T_kg"]
 
 
@@ -244,30 +228,15 @@ BAD_FILES = {
     "header_only": ("time_s,ankle_angle_deg\n", "a header but no row"),
     "no_header": ("0,1\n0.1,2\n", "the first line holds numbers"),
     "no_time": (csv_text(GOOD, "hip_angle_deg,ankle_angle_deg"), "no time column \\(time_s\\)"),
-    "time_misspelt": (
-        csv_text(GOOD, "tme_s,ankle_angle_deg"),
-        "no time column.*'tme_s' may be meant",
-    ),
-    "time_without_unit": (
-        csv_text(GOOD, "time,ankle_angle_deg"),
-        "column 'time' does not end in a known unit",
-    ),
-    "time_in_metres": (
-        csv_text(GOOD, "time_m,ankle_angle_deg"),
-        "'time_m' is in m, but time is measured in s",
-    ),
+    "time_misspelt": (csv_text(GOOD, "tme_s,ankle_angle_deg"), "no time column.*'tme_s' may be meant"),
+    "time_without_unit": (csv_text(GOOD, "time,ankle_angle_deg"), "column 'time' does not end in a known unit"),
+    "time_in_metres": (csv_text(GOOD, "time_m,ankle_angle_deg"), "'time_m' is in m, but time is measured in s"),
     "only_time": ("time_s\n0\n1\n", "no channel besides time"),
     "column_twice": (csv_text(["0,1,2"], "time_s,a_rad,a_rad"), "column 'a_rad' occurs twice"),
-    "quantity_twice": (
-        csv_text(["0,1,2"], "time_s,a_rad,a_deg"),
-        "'a_rad' and 'a_deg' both give a",
-    ),
+    "quantity_twice": (csv_text(["0,1,2"], "time_s,a_rad,a_deg"), "'a_rad' and 'a_deg' both give a"),
     "unnamed_column": (csv_text(["0,1,2"], "time_s,a_rad,"), "column 3 of 3 has no name"),
     "no_unit": (csv_text(GOOD, "time_s,ankle_angle"), "column 'ankle_angle' does not end"),
-    "unknown_unit": (
-        csv_text(GOOD, "time_s,ankle_angle_degs"),
-        "'ankle_angle_degs'.*nearest known units: .*deg",
-    ),
+    "unknown_unit": (csv_text(GOOD, "time_s,ankle_angle_degs"), "'ankle_angle_degs'.*nearest known units: .*deg"),
     "wrong_unit": (
         csv_text(GOOD, "time_s,ankle_angle_m"),
         "'ankle_angle_m' is in m, but angle is measured in rad or a multiple",
@@ -275,10 +244,7 @@ BAD_FILES = {
     "ambiguous_g": (csv_text(GOOD, "time_s,weight_g"), "gram or standard gravity"),
     "semicolons": ("time_s;a_deg\n0;1\n", "separated by semicolons; commas are expected"),
     "tabs": ("time_s\ta_deg\n0\t1\n", "separated by tabs"),
-    "text_cell": (
-        spoilt(7, "0.06,oops"),
-        "column 'ankle_angle_deg', row 7 \\(line 8\\): 'oops' is not a number",
-    ),
+    "text_cell": (spoilt(7, "0.06,oops"), "column 'ankle_angle_deg', row 7 \\(line 8\\): 'oops' is not a number"),
     "true_and_false": (
         csv_text(["0,True", "1,False"]),
         "column 'ankle_angle_deg', row 1 \\(line 2\\): 'True' is not a number",
@@ -291,14 +257,8 @@ BAD_FILES = {
         "a segment is a whole number, found '1e30'",
     ),
     "text_in_time": (spoilt(3, "x,1"), "column 'time_s', row 3 \\(line 4\\): 'x' is not a number"),
-    "nan": (
-        spoilt(7, "0.06,NaN"),
-        "'ankle_angle_deg', row 7 \\(line 8\\): a value is missing \\(found 'NaN'\\)",
-    ),
-    "blank_cell": (
-        spoilt(30, "0.29,"),
-        "row 30 \\(line 31\\): a value is missing \\(found nothing\\)",
-    ),
+    "nan": (spoilt(7, "0.06,NaN"), "'ankle_angle_deg', row 7 \\(line 8\\): a value is missing \\(found 'NaN'\\)"),
+    "blank_cell": (spoilt(30, "0.29,"), "row 30 \\(line 31\\): a value is missing \\(found nothing\\)"),
     "infinite": (spoilt(2, "0.01,inf"), "row 2 \\(line 3\\): 'inf' is not finite"),
     "overflow": (spoilt(2, "0.01,1e999"), "row 2 \\(line 3\\): '1e999' is not finite"),
     "row_too_short": (spoilt(5, "0.04"), "row 5 \\(line 6\\) has 1 cells, the header has 2"),
@@ -308,23 +268,11 @@ BAD_FILES = {
         csv_text(GOOD[:10] + GOOD[14:]),
         "row 11 \\(line 12\\): time jumps from 0.09 s to 0.14 s, about 4 sample.*allow_gaps=True",
     ),
-    "repeated_time": (
-        csv_text(GOOD[:10] + GOOD[9:]),
-        "row 11 \\(line 12\\): time 0.09 s is repeated",
-    ),
-    "backward_time": (
-        csv_text(GOOD[:10] + GOOD[5:]),
-        "row 11 \\(line 12\\): time goes back from 0.09 s to 0.05 s",
-    ),
-    "uneven_time": (
-        spoilt(9, "0.0834,1"),
-        "row 9 \\(line 10\\): time is uneven: 0.0834 s is 34 %.*allow_gaps=True",
-    ),
+    "repeated_time": (csv_text(GOOD[:10] + GOOD[9:]), "row 11 \\(line 12\\): time 0.09 s is repeated"),
+    "backward_time": (csv_text(GOOD[:10] + GOOD[5:]), "row 11 \\(line 12\\): time goes back from 0.09 s to 0.05 s"),
+    "uneven_time": (spoilt(9, "0.0834,1"), "row 9 \\(line 10\\): time is uneven: 0.0834 s is 34 %.*allow_gaps=True"),
     "one_sample": (csv_text(GOOD[:1]), "row 1 \\(line 2\\): there is only one sample"),
-    "fault_below_a_blank_line": (
-        csv_text([GOOD[0], "", GOOD[1], "0.02,x"]),
-        "row 3 \\(line 5\\): 'x'",
-    ),
+    "fault_below_a_blank_line": (csv_text([GOOD[0], "", GOOD[1], "0.02,x"]), "row 3 \\(line 5\\): 'x'"),
     "fraction_as_segment": (
         csv_text(["0.5,0,1", "0.5,1,2"], "segment,time_s,a_deg"),
         "a segment is a whole number, found '0.5'",
@@ -363,9 +311,7 @@ def test_all_faults_of_a_header_are_told_at_once(tmp_path):
 
 def test_a_missing_file_is_answered_with_its_neighbour(tmp_path):
     written(tmp_path, csv_text(GOOD), "recording_50hz.csv")
-    with pytest.raises(
-        RecordingError, match="no such file; in the same folder there is recording_50hz.csv"
-    ):
+    with pytest.raises(RecordingError, match="no such file; in the same folder there is recording_50hz.csv"):
         read_recording(tmp_path / "recording_50.csv")
     with pytest.raises(RecordingError, match="nor a folder"):
         read_recording(tmp_path / "nowhere" / "r.csv")
@@ -410,9 +356,7 @@ def test_degrees_called_radians_raise_a_warning(tmp_path):
 @settings(max_examples=60, deadline=None)
 @given(st.integers(1, 298), st.sampled_from([-1, 1]), st.integers(0, 10**6), st.floats(0, 0.3))
 def test_one_spike_is_found_wherever_it_is_and_nothing_else(place, sign, seed, noise):
-    values = np.sin(0.05 * np.arange(300)) + noise * np.random.default_rng(seed).standard_normal(
-        300
-    )
+    values = np.sin(0.05 * np.arange(300)) + noise * np.random.default_rng(seed).standard_normal(300)
     values[place] += sign * (1 + 40 * noise)
     index, ratio = find_spikes(values)
     assert index.tolist() == [place] and ratio[0] > 5
@@ -469,9 +413,7 @@ def test_window_edges(start, end, first, last):
     assert wave().window(start, end).interval == pytest.approx((first, last))
 
 
-@pytest.mark.parametrize(
-    "window", [(4.9, 6), (5, 7.01), (6, 5.5), (6, 6), (float("nan"), 6), (5, float("inf"))]
-)
+@pytest.mark.parametrize("window", [(4.9, 6), (5, 7.01), (6, 5.5), (6, 6), (float("nan"), 6), (5, float("inf"))])
 def test_windows_that_are_refused(window):
     with pytest.raises(RecordingError, match="runs from 5 s to 6.99 s"):
         wave().window(*window)
@@ -499,9 +441,7 @@ def test_verbs_return_new_recordings_and_say_so():
 
 
 def test_a_channel_is_asked_for_by_name():
-    with pytest.raises(
-        RecordingError, match="wave: has no channel 'ankle_angel'; it has ankle_angle"
-    ):
+    with pytest.raises(RecordingError, match="wave: has no channel 'ankle_angel'; it has ankle_angle"):
         wave()["ankle_angel"]
     with pytest.raises(RecordingError, match="has no channel 'hop'"):
         wave().rename({"hop": "hip"})
@@ -612,9 +552,7 @@ def test_missing_samples_stay_where_they_were_measured(tmp_path):
 
 
 def test_gaps_that_are_too_long_or_at_an_end_are_refused(tmp_path):
-    with pytest.raises(
-        RecordingError, match="no value from 0.29 s to 0.33 s, longer than max_gap_s = 0.035 s"
-    ):
+    with pytest.raises(RecordingError, match="no value from 0.29 s to 0.33 s, longer than max_gap_s = 0.035 s"):
         fill_gaps(with_holes(tmp_path), max_gap_s=0.035)
     rows = [*GOOD[:-1], "0.29,"]
     recording = read_recording(written(tmp_path, csv_text(rows)), allow_gaps=True)
@@ -626,11 +564,7 @@ def test_an_incomplete_recording_is_refused_by_the_other_verbs(tmp_path):
     holed = with_holes(tmp_path)
     with pytest.raises(RecordingError, match="window needs evenly spaced samples; use fill_gaps"):
         holed.window(0, 0.5)
-    for verb in (
-        lambda r: lowpass(r, 5),
-        lambda r: resample(r, 50),
-        lambda r: differentiate(r, "ankle_angle"),
-    ):
+    for verb in (lambda r: lowpass(r, 5), lambda r: resample(r, 50), lambda r: differentiate(r, "ankle_angle")):
         with pytest.raises(RecordingError, match="'ankle_angle' has none at 0.6 s; use fill_gaps"):
             verb(holed)
 
@@ -669,9 +603,7 @@ def test_uneven_times_are_put_onto_a_grid(tmp_path):
 def test_low_pass_has_no_phase_shift_and_6_db_at_the_cut_off():
     time = 0.01 * np.arange(2000)
     tone = np.sin(2 * np.pi * 5 * time)
-    recording = Recording(
-        "r", time, {"a": tone, "b": tone}, {"a": "m", "b": "m"}, noise={"a": 1, "b": 1}
-    )
+    recording = Recording("r", time, {"a": tone, "b": tone}, {"a": "m", "b": "m"}, noise={"a": 1, "b": 1})
     new = lowpass(recording, 5.0, "a")
     inner = slice(500, 1500)
     assert np.abs(new["a"][inner] - 0.5 * tone[inner]).max() < 1e-4
@@ -783,11 +715,7 @@ PLAIN_JSON = {"leg_length_mm": 840, "leg_mass_kg": 20.5, "tilt_deg": -2, "source
 
 def test_a_body_is_converted_to_si(tmp_path):
     body = read_body(written(tmp_path, json.dumps(PLAIN_JSON), "body.json"), PLAIN)
-    assert body == {
-        "leg_length": pytest.approx(0.84),
-        "leg_mass": 20.5,
-        "tilt": pytest.approx(-2 * DEGREE),
-    }
+    assert body == {"leg_length": pytest.approx(0.84), "leg_mass": 20.5, "tilt": pytest.approx(-2 * DEGREE)}
     assert read_body(PLAIN_JSON, PLAIN) == body
 
 
@@ -800,14 +728,8 @@ def test_a_body_is_converted_to_si(tmp_path):
         ({"leg_mass_kg": float("nan")}, "'leg_mass_kg' must be finite, found nan"),
         ({"leg_mass_kg": 0}, "'leg_mass_kg' must be greater than zero, found 0"),
         ({"leg_length_mm": -840}, "'leg_length_mm' must be greater than zero"),
-        (
-            {"leg_mass_kg": ..., "leg_mass_m": 20},
-            "'leg_mass_m' is in m, but leg_mass is measured in kg",
-        ),
-        (
-            {"leg_mass_kg": ..., "leg_mass": 20},
-            "'leg_mass' has no unit; write 'leg_mass_<unit>' \\(kg\\)",
-        ),
+        ({"leg_mass_kg": ..., "leg_mass_m": 20}, "'leg_mass_m' is in m, but leg_mass is measured in kg"),
+        ({"leg_mass_kg": ..., "leg_mass": 20}, "'leg_mass' has no unit; write 'leg_mass_<unit>' \\(kg\\)"),
         ({"leg_mass_kg": ...}, "'leg_mass' \\[kg\\] is missing"),
         (
             {"leg_mass_kg": ..., "leg_mas_kg": 2},
@@ -846,10 +768,7 @@ def test_a_body_file_that_is_not_there(tmp_path):
 
 
 def test_all_faults_of_a_body_are_told_at_once():
-    with pytest.raises(
-        RecordingError,
-        match="'leg_mass_kg' must be finite.*'leg_length' \\[m\\] is missing.*'tilt'",
-    ):
+    with pytest.raises(RecordingError, match="'leg_mass_kg' must be finite.*'leg_length' \\[m\\] is missing.*'tilt'"):
         read_body({"leg_mass_kg": float("inf")}, PLAIN)
 
 

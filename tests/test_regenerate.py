@@ -61,6 +61,7 @@ def test_all_current_is_said_and_exits_0(monkeypatch, capsys):
 def test_a_folder_that_cannot_be_written_is_said(monkeypatch, capsys):
     def refuse(check):
         raise PermissionError(13, "Permission denied", "/usr/lib/symid/generated")
+
     monkeypatch.setattr(subject, "regenerate", refuse)
     assert main([]) == 2
     assert "cannot write /usr/lib/symid/generated (Permission denied)" in capsys.readouterr().err

@@ -71,7 +71,9 @@ def test_parameters_show_value_and_95_percent_interval(solution):
     (axes,) = plots.plot_parameters(solution, {"damping": 0.4}).axes
     row = solution.parameters.loc["damping"]
     (interval,) = [line for line in axes.lines if line.get_linewidth() == 2 and len(line.get_xdata()) == 2]
-    np.testing.assert_allclose(interval.get_xdata(), [row.value - 1.96 * row.std_error, row.value + 1.96 * row.std_error])
+    np.testing.assert_allclose(
+        interval.get_xdata(), [row.value - 1.96 * row.std_error, row.value + 1.96 * row.std_error]
+    )
     assert [line.get_xdata()[0] for line in axes.lines if line.get_marker() == "x"] == [0.4]
     assert with_error(row.value, row.std_error, digits=4) in [t.get_text() for t in axes.texts]
 
@@ -117,8 +119,20 @@ def test_report_is_one_whole_file(solution, tmp_path):
     assert tags.open == []
     assert len(tags.sources) == 2 * 5 and all(s.startswith("data:image/png;base64,") for s in tags.sources)
     text = path.read_text()
-    for part in ("Parameters", "Fit", "Starts", "Solver", "Provenance", "held out, free run", "midpoint", "damping", "<math",
-                 "Held out, 3 to 6 s", "doi:10.1016/j.jneumeth.2020.108580", f"symid {si.__version__}"):
+    for part in (
+        "Parameters",
+        "Fit",
+        "Starts",
+        "Solver",
+        "Provenance",
+        "held out, free run",
+        "midpoint",
+        "damping",
+        "<math",
+        "Held out, 3 to 6 s",
+        "doi:10.1016/j.jneumeth.2020.108580",
+        f"symid {si.__version__}",
+    ):
         assert part in text
 
 
@@ -130,7 +144,7 @@ def test_report_of_a_failed_solve_says_so_and_has_all_starts(not_solved):
 
 def test_report_shows_a_few_episodes_not_fifty():
     problem = si.Identification(pendulum(), pendulum_recording(), episodes=si.Episodes(5, push=0.1))
-    assert report_html(problem.solve()).count("recorded, model and residual") == 2 * 3    # caption and alt text
+    assert report_html(problem.solve()).count("recorded, model and residual") == 2 * 3  # caption and alt text
 
 
 def test_a_report_that_cannot_be_drawn_leaves_the_old_one(solution, tmp_path, monkeypatch):
@@ -166,33 +180,62 @@ def test_in_a_browser_nothing_is_wider_than_the_page_and_no_figure_is_empty(solu
     write_report(solution, tmp_path / "report.html")
     # A frame as wide as the screen: a window of Chromium itself is never as narrow as a phone.
     (tmp_path / "frame.html").write_text(
-        f'''<iframe id="f" src="report.html" style="width:{width}px;height:3000px"></iframe><p id="out"></p><script>
+        f"""<iframe id="f" src="report.html" style="width:{width}px;height:3000px"></iframe><p id="out"></p><script>
         window.onload = () => {{ const d = document.getElementById("f").contentDocument, e = d.documentElement;
           const empty = [...d.images].filter(i => !i.naturalWidth).length;
           document.getElementById("out").textContent = `overflow ${{e.scrollWidth - e.clientWidth}} empty ${{empty}}`; }};
-        </script>''')
-    done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files",
-                           "--virtual-time-budget=5000", "--dump-dom", f"file://{tmp_path}/frame.html"],
-                          capture_output=True, text=True)
+        </script>"""
+    )
+    done = subprocess.run(
+        [
+            "chromium",
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--allow-file-access-from-files",
+            "--virtual-time-budget=5000",
+            "--dump-dom",
+            f"file://{tmp_path}/frame.html",
+        ],
+        capture_output=True,
+        text=True,
+    )
     assert "overflow 0 empty 0" in done.stdout
 
 
 def test_text_is_escaped():
-    assert "<script>" not in page.page("<script>", page.paragraph("<script>"), page.table(["<script>"], [["<script>"]]),
-                                       page.facts({"<script>": "<script>"}))
+    assert "<script>" not in page.page(
+        "<script>",
+        page.paragraph("<script>"),
+        page.table(["<script>"], [["<script>"]]),
+        page.facts({"<script>": "<script>"}),
+    )
 
 
-@pytest.mark.parametrize(("value", "shown"), [(float("nan"), "none"), (float("inf"), "∞"), (-1234.567, "−1234.6"),
-                                              (True, "yes"), (12, "12")])
+@pytest.mark.parametrize(
+    ("value", "shown"), [(float("nan"), "none"), (float("inf"), "∞"), (-1234.567, "−1234.6"), (True, "yes"), (12, "12")]
+)
 def test_numbers(value, shown):
     assert page.number(value) == shown
 
 
 def test_a_problem_shows_what_will_be_solved_and_builds_nothing():
-    problem = si.Identification(pendulum(), pendulum_recording(), window=(0, 2), episodes=si.Episodes(3, push=0.1, seed=5),
-                                weights={"measured": 2.0})
+    problem = si.Identification(
+        pendulum(),
+        pendulum_recording(),
+        window=(0, 2),
+        episodes=si.Episodes(3, push=0.1, seed=5),
+        weights={"measured": 2.0},
+    )
     assert "transcription" not in vars(problem)
     for text in (repr(problem), problem._repr_html_()):
-        for part in ("driven pendulum", "damping", "0 s to 2 s", "angle (weight 2)", "midpoint", "3, multisine noise, seed 5"):
+        for part in (
+            "driven pendulum",
+            "damping",
+            "0 s to 2 s",
+            "angle (weight 2)",
+            "midpoint",
+            "3, multisine noise, seed 5",
+        ):
             assert part in text
     assert "transcription" not in vars(problem)

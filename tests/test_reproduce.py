@@ -14,7 +14,20 @@ from symid.reproduce.run import Finding, problem
 
 
 def test_there_are_the_twelve_cases_of_the_article():
-    assert list(CASES) == ["PD-1", "PD-2", "PD-3", "PD-4", "FPD-1", "FPD-2", "FPD-3", "FPD-4", "NN-1", "NN-6", "NN-8", "NN-10"]
+    assert list(CASES) == [
+        "PD-1",
+        "PD-2",
+        "PD-3",
+        "PD-4",
+        "FPD-1",
+        "FPD-2",
+        "FPD-3",
+        "FPD-4",
+        "NN-1",
+        "NN-6",
+        "NN-8",
+        "NN-10",
+    ]
     assert all(len(c.rms_deg) == 10 and list(c.rms_deg) == sorted(c.rms_deg) for c in CASES.values())
 
 
@@ -23,7 +36,10 @@ def test_facts_are_those_of_the_reference(shared):
     for row in reference:
         case = CASES[f"{row['controller']}-{row['episodes']}"]
         assert case.rms_deg == tuple(row["rms_deg_sorted"])
-        assert (case.eigenvalue_percent, case.forward_percent) == (row["eigenvalue_stable_percent"], row["forward_stable_percent"])
+        assert (case.eigenvalue_percent, case.forward_percent) == (
+            row["eigenvalue_stable_percent"],
+            row["forward_stable_percent"],
+        )
         assert {k: v[0] for k, v in case.gains.items()} == row.get("gains_mean", {})
 
 
@@ -45,6 +61,7 @@ def test_gains_of_the_article_are_parameters_of_the_models(shared):
 def _material(shared):
     from symid import mechanics
     from symid.recording import read_recording
+
     folder = shared / "recordings" / "standing_subject05"
     return mechanics.DoubleLinkPendulum.from_json(folder / "body.json"), read_recording(folder / "recording_50hz.csv")
 
@@ -64,8 +81,10 @@ def test_every_number_stands_beside_the_articles(shared):
     case = CASES["PD-3"]
     model = problem(case, *_material(shared)).model
     best = _Best(model, {k: mean + 2 * spread for k, (mean, spread) in case.gains.items()})
-    starts = pd.DataFrame({"solved": [True, False, True, True], "rms_deg": [1.1, np.nan, 1.2, 1.105]}
-                          | {k: [v, v, 2 * v, case.gains[k][0]] for k, v in best.values.items()})
+    starts = pd.DataFrame(
+        {"solved": [True, False, True, True], "rms_deg": [1.1, np.nan, 1.2, 1.105]}
+        | {k: [v, v, 2 * v, case.gains[k][0]] for k, v in best.values.items()}
+    )
     table = comparison(Reproduction((Finding(case, 4, starts, best, _Stability()),), {}, "multisine"))
     assert np.allclose(table["deviation"].dropna(), (table["here"] - table["article"]).dropna())
     gains = table[table["quantity"].isin(case.gains)]
@@ -73,13 +92,20 @@ def test_every_number_stands_beside_the_articles(shared):
     assert np.allclose(gains["deviation"] / gains["spread"], 1) and set(gains["where"]) == {"table 1"}
     assert np.allclose(gains["best"], list(best.values.values())) and np.allclose(gains["sd"], gains["spread"])
     here = table.set_index("quantity")["here"]
-    assert here["solved starts"] == pytest.approx(75) and here["median rms of the solved starts"] == pytest.approx(1.105)
+    assert here["solved starts"] == pytest.approx(75) and here["median rms of the solved starts"] == pytest.approx(
+        1.105
+    )
     assert set(table["noise_seed"]) == {4} and "table 3" in set(table["where"])
 
 
-@pytest.mark.parametrize(("distribution", "words"), [
-    ("multisine", "used here: orthogonal random-phase multisines"), ("uniform", "used here: uniform\n"),
-    ("gaussian", "used here: Gaussian with a standard deviation of 0.25 N m")])
+@pytest.mark.parametrize(
+    ("distribution", "words"),
+    [
+        ("multisine", "used here: orthogonal random-phase multisines"),
+        ("uniform", "used here: uniform\n"),
+        ("gaussian", "used here: Gaussian with a standard deviation of 0.25 N m"),
+    ],
+)
 def test_what_was_chosen_is_said(distribution, words):
     said = notes(distribution)
     for word in (words, "uniform", "Gaussian", "activation", "initial state", "3.1416", "ridge"):

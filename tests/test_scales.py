@@ -14,13 +14,15 @@ EXPONENT = st.floats(-9, 9)
 
 def oscillator(length: float, time: float, speed: float, bounded: bool) -> si.Model:
     """x'' + c x' + k x = force, with units of length, time and, apart from these, of the speed state."""
+
     def bounds(upper):
         return (0, upper) if bounded else (-np.inf, np.inf)
+
     m = si.Model("oscillator")
     m.x = si.State(unit="1")
     m.v = si.State(unit="1")
     m.force = si.Input(unit="1")
-    m.ratio = si.Constant(length / time / speed, unit="1")      # the speed state is x' divided by it
+    m.ratio = si.Constant(length / time / speed, unit="1")  # the speed state is x' divided by it
     m.c = si.Parameter(unit="1", bounds=bounds(20 / time))
     m.k = si.Parameter(unit="1", bounds=bounds(100 / time**2))
     m.kinematics = si.Equation(m.x.dot - m.v * m.ratio)
@@ -39,8 +41,12 @@ def motion():
 
 def solve(motion, length=1.0, time=1.0, speed=1.0, bounded=True, **options):
     t, u, y = motion
-    recording = Recording("oscillator", t * time, {"x": y * length, "force": u * length / time**2}, {"x": "1", "force": "1"})
-    return si.Identification(oscillator(length, time, speed * length / time, bounded), recording, **options).solve(check=False)
+    recording = Recording(
+        "oscillator", t * time, {"x": y * length, "force": u * length / time**2}, {"x": "1", "force": "1"}
+    )
+    return si.Identification(oscillator(length, time, speed * length / time, bounded), recording, **options).solve(
+        check=False
+    )
 
 
 @pytest.fixture(scope="module", params=[True, False], ids=["bounded", "unbounded"])
@@ -71,8 +77,10 @@ def test_a_motion_of_micrometres_gives_the_parameter_of_one_of_metres(motion):
 
 
 def test_wide_bounds_do_not_push_a_good_start_away(motion):
-    wide = si.Identification(oscillator(1, 1, 1, True).with_bounds(k=(0, 1e9), c=(0, 1e9)),
-                             Recording("wide", motion[0], {"x": motion[2], "force": motion[1]}, {"x": "1", "force": "1"}))
+    wide = si.Identification(
+        oscillator(1, 1, 1, True).with_bounds(k=(0, 1e9), c=(0, 1e9)),
+        Recording("wide", motion[0], {"x": motion[2], "force": motion[1]}, {"x": "1", "force": "1"}),
+    )
     wide = wide.solve(start={"k": 3.5, "c": 0.6})
     assert wide.values == pytest.approx(solve(motion).values, rel=1e-5)
 
@@ -99,6 +107,9 @@ def test_the_unit_of_a_hidden_state_does_not_matter(exponent):
     u = np.sign(np.sin(1.3 * t + 0.2 * t**1.5))
     run = simulator(hidden(1.0)).simulate([3.0, 1.0], [0.0, 0.0], t, {"u": u}, substeps=10)
     recording = Recording("hidden", t, {"x": run.y[:, 0], "u": u}, {"x": "1", "u": "1"})
-    here, there = (si.Identification(hidden(unit), recording).solve(start={"a": 2.0, "b": 0.5}, check=False) for unit in (1.0, 10**exponent))
+    here, there = (
+        si.Identification(hidden(unit), recording).solve(start={"a": 2.0, "b": 0.5}, check=False)
+        for unit in (1.0, 10**exponent)
+    )
     assert here.solved and there.values == pytest.approx(here.values, rel=1e-6)
     assert abs(there.result.iterations - here.result.iterations) <= 3

@@ -18,7 +18,19 @@ from symid.errors import ModelError, RecordingError, SolveError
 from symid.files import read_json
 from symid.identification.store import StudyDirectory
 
-BREAKS_OUT = ("a\nint planted = 1; //", "a\rint planted;", "a\\", "a b", "a;b", "", "1a", "a\u2028b", "a\0b", "../a", "a" * 9 + "*/")
+BREAKS_OUT = (
+    "a\nint planted = 1; //",
+    "a\rint planted;",
+    "a\\",
+    "a b",
+    "a;b",
+    "",
+    "1a",
+    "a\u2028b",
+    "a\0b",
+    "../a",
+    "a" * 9 + "*/",
+)
 
 
 @pytest.fixture
@@ -41,7 +53,9 @@ def test_no_symbol_leaves_its_comment(name):
     """Programs are made by symid alone, and still."""
     if not name:
         return
-    plain, odd = (generate(Program(n, (sm.Symbol(n, real=True) ** 2,), (sm.Symbol(n, real=True),))).text for n in ("x", name))
+    plain, odd = (
+        generate(Program(n, (sm.Symbol(n, real=True) ** 2,), (sm.Symbol(n, real=True),))).text for n in ("x", name)
+    )
     assert len(odd.split("\n")) == len(plain.split("\n"))
     code = [[line for line in text.splitlines() if not line.startswith("//")] for text in (plain, odd)]
     assert code[0] == code[1]
@@ -49,12 +63,18 @@ def test_no_symbol_leaves_its_comment(name):
 
 
 def test_a_text_is_no_expression(planted):
-    for declare in (lambda m: setattr(m, "e", si.Equation(planted)), lambda m: setattr(m, "y", si.Output(planted)),
-                    lambda m: setattr(m, "z", si.Expression(planted)), lambda m: m.angle + planted,
-                    lambda m: m.add_effort("angle", planted), lambda m: m.delayed(planted, 0.1),
-                    lambda m: m.delayed(m.angle, planted), lambda m: setattr(m, "c", si.Constraint(planted)),
-                    lambda m: setattr(m, "o", si.Objective(running=planted)),
-                    lambda m: setattr(m, "b", si.Boundary(initial={planted: 0}))):
+    for declare in (
+        lambda m: setattr(m, "e", si.Equation(planted)),
+        lambda m: setattr(m, "y", si.Output(planted)),
+        lambda m: setattr(m, "z", si.Expression(planted)),
+        lambda m: m.angle + planted,
+        lambda m: m.add_effort("angle", planted),
+        lambda m: m.delayed(planted, 0.1),
+        lambda m: m.delayed(m.angle, planted),
+        lambda m: setattr(m, "c", si.Constraint(planted)),
+        lambda m: setattr(m, "o", si.Objective(running=planted)),
+        lambda m: setattr(m, "b", si.Boundary(initial={planted: 0})),
+    ):
         with pytest.raises((ModelError, TypeError)):
             declare(pendulum())
 
@@ -76,8 +96,18 @@ def test_json_that_is_none(tmp_path, text):
     assert len(str(told.value)) < 400
 
 
-@pytest.mark.parametrize("content", ['{"format": "symid study 1", "solves": []}', '{"format": "symid study 1", "solves": {"a": 1}}',
-                                     '{"format": "symid study 1"}', "[]", "[" * 100_000, '{"format": [[]], "solves": {}}', "\0"])
+@pytest.mark.parametrize(
+    "content",
+    [
+        '{"format": "symid study 1", "solves": []}',
+        '{"format": "symid study 1", "solves": {"a": 1}}',
+        '{"format": "symid study 1"}',
+        "[]",
+        "[" * 100_000,
+        '{"format": [[]], "solves": {}}',
+        "\0",
+    ],
+)
 def test_a_register_of_solves_that_is_none(tmp_path, content):
     (tmp_path / "study.json").write_text(content)
     with pytest.raises(SolveError, match="study.json .*give another directory") as told:
@@ -102,16 +132,23 @@ def test_a_pickle_in_a_store_is_not_opened(tmp_path):
     assert StudyDirectory(tmp_path, {"a": {"key": "k"}}).get("k") is None
     assert not (tmp_path / "ran").exists()
     pickle.loads(pickle.dumps(Touch()))
-    assert (tmp_path / "ran").exists()    # the trap works
+    assert (tmp_path / "ran").exists()  # the trap works
 
 
-@pytest.mark.parametrize("arguments", [
-    ["identify", "r", "--body", "b", "--episodes", "99999999999999999999"], ["identify", "r", "--body", "b", "--starts", "9" * 300],
-    ["identify", "r", "--body", "b", "--time-limit", "nan"], ["identify", "r", "--body", "b", "--seed", "-1"],
-    ["simulate", "o", "--body", "b", "--parameters", "p", "--duration", "1e300"], ["identify", "r", "--body", "b", "--noise", "inf"],
-    ["simulate", "o", "--body", "b", "--parameters", "p", "--duration", "1e6", "--rate", "1e6"], ["conceal", "o", "--count", "9" * 20],
-    ["diagnose", "r", "--threads", "9" * 20],
-])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["identify", "r", "--body", "b", "--episodes", "99999999999999999999"],
+        ["identify", "r", "--body", "b", "--starts", "9" * 300],
+        ["identify", "r", "--body", "b", "--time-limit", "nan"],
+        ["identify", "r", "--body", "b", "--seed", "-1"],
+        ["simulate", "o", "--body", "b", "--parameters", "p", "--duration", "1e300"],
+        ["identify", "r", "--body", "b", "--noise", "inf"],
+        ["simulate", "o", "--body", "b", "--parameters", "p", "--duration", "1e6", "--rate", "1e6"],
+        ["conceal", "o", "--count", "9" * 20],
+        ["diagnose", "r", "--threads", "9" * 20],
+    ],
+)
 def test_numbers_beyond_all_use_are_refused_at_once(arguments, capsys):
     assert main(arguments) == BAD_INPUT
     told = capsys.readouterr().err

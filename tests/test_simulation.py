@@ -79,7 +79,10 @@ def test_order_of_accuracy(method, order, lag):
     sim = AnySimulator(oscillator(lag))
     values = VALUES | ({} if lag is None else {"lag": lag})
     history = (np.linspace(-0.2, 0, 3), np.outer(np.ones(3), [0.4, 0.0]))
-    run = lambda k, how: sim.simulate(values, [0.4, 0.0], t, {"push": 0 * t}, substeps=k, method=how, history=history).x[-1]  # noqa: E731
+
+    def run(k, how):
+        return sim.simulate(values, [0.4, 0.0], t, {"push": 0 * t}, substeps=k, method=how, history=history).x[-1]
+
     best = run(2048, "rk4")
     errors = [np.abs(run(k, method) - best).max() for k in (8, 16)]
     # A lag that is no multiple of the step meets the kinks of the derivative, which cost part of an order.
@@ -95,11 +98,20 @@ def test_both_loops_give_the_same_results(method, lag, hold):
     rng = np.random.default_rng(4)
     seen = rng.normal(size=(81, 2)) * 0.1
     seen[7, 0] = np.nan
-    given = {"parameters": VALUES | ({} if lag is None else {"lag": lag}), "initial_state": [0.4, 0.0], "time": t,
-             "inputs": {"push": np.sin(5 * t)}, "noise": {"jolt": rng.normal(size=81)}, "substeps": 3, "method": method,
-             "history": (np.linspace(-0.2, 0, 3), np.outer([0.9, 1.2, 1.0], [0.4, 0.0])), "recorded": seen,
-             "gain": rng.uniform(0, 0.1, (1 if lag is None else 8, 2, 2)), "sensitivity": ("damping",),
-             "initial_sensitivity": ("rate",)}
+    given = {
+        "parameters": VALUES | ({} if lag is None else {"lag": lag}),
+        "initial_state": [0.4, 0.0],
+        "time": t,
+        "inputs": {"push": np.sin(5 * t)},
+        "noise": {"jolt": rng.normal(size=81)},
+        "substeps": 3,
+        "method": method,
+        "history": (np.linspace(-0.2, 0, 3), np.outer([0.9, 1.2, 1.0], [0.4, 0.0])),
+        "recorded": seen,
+        "gain": rng.uniform(0, 0.1, (1 if lag is None else 8, 2, 2)),
+        "sensitivity": ("damping",),
+        "initial_sensitivity": ("rate",),
+    }
     c, python = (AnySimulator(oscillator(lag, hold), backend).simulate(**given) for backend in ("c", "numpy"))
     for name in ("x", "y", "dx", "dy"):
         np.testing.assert_allclose(getattr(python, name), getattr(c, name), rtol=1e-11, atol=1e-12)
@@ -111,7 +123,9 @@ def test_delayed_system_matches_the_method_of_steps(Simulator):
     m.decay = Equation(m.x.dot + m.delayed(m.x, 1.0))
     m.seen = Output(m.x)
     t = np.linspace(0, 3, 301)
-    exact = np.where(t < 1, 1 - t, np.where(t < 2, 1 - t + (t - 1) ** 2 / 2, 1 - t + (t - 1) ** 2 / 2 - (t - 2) ** 3 / 6))
+    exact = np.where(
+        t < 1, 1 - t, np.where(t < 2, 1 - t + (t - 1) ** 2 / 2, 1 - t + (t - 1) ** 2 / 2 - (t - 2) ** 3 / 6)
+    )
     np.testing.assert_allclose(Simulator(m).simulate({}, [1.0], t).x[:, 0], exact, atol=1e-12)
 
 
@@ -156,8 +170,13 @@ def test_sensitivities_follow_the_sample_corrections(Simulator):
     t = np.linspace(0, 4, 201)
     sim = Simulator(oscillator())
     rng = np.random.default_rng(2)
-    common = {"time": t, "inputs": {"push": np.sin(2 * t)}, "gain": np.array([[0.3, 0.01], [1.0, 0.1]]),
-              "recorded": rng.normal(size=(201, 2)) * 0.1, "initial_state": [0.1, 0.0]}
+    common = {
+        "time": t,
+        "inputs": {"push": np.sin(2 * t)},
+        "gain": np.array([[0.3, 0.01], [1.0, 0.1]]),
+        "recorded": rng.normal(size=(201, 2)) * 0.1,
+        "initial_state": [0.1, 0.0],
+    }
     got = sim.simulate(VALUES, sensitivity=["stiffness"], **common)
     slope = central(lambda v: sim.simulate(v, **common).y, VALUES, "stiffness", 1e-3)
     np.testing.assert_allclose(got.dy[:, :, 0], slope, atol=1e-7 * np.abs(slope).max() + 1e-12)
@@ -186,7 +205,7 @@ def test_a_run_that_diverges_is_reported_and_ends(Simulator):
     t = np.linspace(0, 100, 1001)
     run = Simulator(oscillator()).simulate({"stiffness": -50.0, "damping": 0.0}, [1.0, 0.0], t, {"push": 0 * t})
     assert run.diverged and 0 < run.reached < 1001
-    assert np.isfinite(run.x[: run.reached]).all() and np.isnan(run.x[run.reached:]).all()
+    assert np.isfinite(run.x[: run.reached]).all() and np.isnan(run.x[run.reached :]).all()
 
 
 def test_linearisation_and_pade(Simulator):
@@ -200,14 +219,17 @@ def test_linearisation_and_pade(Simulator):
     assert abs(s**2 + 0.3 * s + 9 * np.exp(-0.1 * s)) < 1e-4
 
 
-@pytest.mark.parametrize("change, words", [
-    ({"parameters": {"stiffness": 1.0}}, "parameter 'damping'"),
-    ({"initial_state": [0.0]}, "initial state must be 2"),
-    ({"inputs": None}, "needs the input 'push'"),
-    ({"inputs": {"push": np.full(11, np.nan)}}, "11 not finite"),
-    ({"time": np.zeros(11)}, "increasing"),
-    ({"sensitivity": ["stifness"]}, "did you mean 'stiffness'"),
-])
+@pytest.mark.parametrize(
+    "change, words",
+    [
+        ({"parameters": {"stiffness": 1.0}}, "parameter 'damping'"),
+        ({"initial_state": [0.0]}, "initial state must be 2"),
+        ({"inputs": None}, "needs the input 'push'"),
+        ({"inputs": {"push": np.full(11, np.nan)}}, "11 not finite"),
+        ({"time": np.zeros(11)}, "increasing"),
+        ({"sensitivity": ["stifness"]}, "did you mean 'stiffness'"),
+    ],
+)
 def test_messages(change, words, Simulator):
     t = np.linspace(0, 1, 11)
     given = {"parameters": VALUES, "initial_state": [0.0, 0.0], "time": t, "inputs": {"push": 0 * t}} | change
@@ -239,8 +261,11 @@ def test_platform_motion_is_that_of_the_article():
 
 
 def test_synthetic_recording_is_seeded_and_noisy():
-    make = lambda seed: synthetic_recording(oscillator(), VALUES, duration=30, rate=50, seed=seed,  # noqa: E731
-                                            process_noise={"jolt": 1.0}, sensor_noise={"angle": 0.01})
+    noise = dict(process_noise={"jolt": 1.0}, sensor_noise={"angle": 0.01})
+
+    def make(seed):
+        return synthetic_recording(oscillator(), VALUES, duration=30, rate=50, seed=seed, **noise)
+
     a, b, c = make(1), make(1), make(2)
     assert len(a) == 1501 and a.time[0] == 0
     np.testing.assert_array_equal(a["angle"], b["angle"])
@@ -255,10 +280,22 @@ def test_corrections_of_the_past_reach_delayed_signals_and_sensitivities(Simulat
     t = np.linspace(0, 4, 201)
     sim = Simulator(oscillator(0.07))
     rng = np.random.default_rng(2)
-    gain = np.array([[[0.3, 0.01], [1.0, 0.1]], [[0.2, 0.0], [0.5, 0.1]], [[0.1, 0.0], [0.3, 0.0]], [[0.0, 0.0], [0.1, 0.0]],
-                     [[0.0, 0.0], [0.1, 0.0]]])
-    common = {"time": t, "inputs": {"push": np.sin(2 * t)}, "gain": gain, "recorded": rng.normal(size=(201, 2)) * 0.1,
-              "initial_state": [0.1, 0.0]}
+    gain = np.array(
+        [
+            [[0.3, 0.01], [1.0, 0.1]],
+            [[0.2, 0.0], [0.5, 0.1]],
+            [[0.1, 0.0], [0.3, 0.0]],
+            [[0.0, 0.0], [0.1, 0.0]],
+            [[0.0, 0.0], [0.1, 0.0]],
+        ]
+    )
+    common = {
+        "time": t,
+        "inputs": {"push": np.sin(2 * t)},
+        "gain": gain,
+        "recorded": rng.normal(size=(201, 2)) * 0.1,
+        "initial_state": [0.1, 0.0],
+    }
     values = VALUES | {"lag": 0.073}
     got = sim.simulate(values, sensitivity=["stiffness", "lag"], **common)
     for key, h in (("stiffness", 1e-3), ("lag", 1e-6)):

@@ -64,7 +64,9 @@ def test_roots_of_a_delayed_decay_are_those_of_lambert(product):
 def test_no_delay_is_a_delay_of_zero():
     late = BODY.with_feedback(PD(delay=(0.0, 0.3)))
     points = grid([-0.1] * 4, [0.1] * 4, 2)
-    assert np.allclose(growth(late, points, GAINS | {"feedback_delay": 0.0}), growth(BODY.with_feedback(PD()), points, GAINS))
+    assert np.allclose(
+        growth(late, points, GAINS | {"feedback_delay": 0.0}), growth(BODY.with_feedback(PD()), points, GAINS)
+    )
 
 
 def test_a_late_person_falls():
@@ -133,9 +135,17 @@ def test_euler_steps_use_the_models_own_rates():
     rng = np.random.default_rng(2)
     states = rng.normal(size=(7, 4)) * 0.3
     step, slopes = compile_program(step_program(model)), compile_program(slopes_program(model))
-    uniform = np.concatenate([rng.normal(size=3), rng.normal(size=len(model.parameters)) * 100,
-                              [c.value for c in model.constants.values()], [0.0]])
-    new = step.residual(np.zeros((7, 0)), np.zeros(0), np.hstack([states, np.zeros((7, 1))]), np.r_[uniform, 0.0, 0.0, 0.01])
+    uniform = np.concatenate(
+        [
+            rng.normal(size=3),
+            rng.normal(size=len(model.parameters)) * 100,
+            [c.value for c in model.constants.values()],
+            [0.0],
+        ]
+    )
+    new = step.residual(
+        np.zeros((7, 0)), np.zeros(0), np.hstack([states, np.zeros((7, 1))]), np.r_[uniform, 0.0, 0.0, 0.01]
+    )
     rates = (new[:, :4] - states) / 0.01
     left = slopes.residual(np.hstack([rates, states]), np.zeros(0), np.zeros((7, 0)), uniform)
     assert np.abs(left).max() < 1e-9
@@ -144,9 +154,13 @@ def test_euler_steps_use_the_models_own_rates():
 
 def recording(seconds=4.0):
     time = 0.02 * np.arange(int(seconds / 0.02) + 1)
-    wave = {"ankle_angle": 0.05 * np.sin(2 * time), "hip_angle": 0.1 * np.sin(3 * time),
-            "ankle_velocity": 0.1 * np.cos(2 * time), "hip_velocity": 0.3 * np.cos(3 * time),
-            "platform_acceleration": 0.2 * np.sin(5 * time)}
+    wave = {
+        "ankle_angle": 0.05 * np.sin(2 * time),
+        "hip_angle": 0.1 * np.sin(3 * time),
+        "ankle_velocity": 0.1 * np.cos(2 * time),
+        "hip_velocity": 0.3 * np.cos(3 * time),
+        "platform_acceleration": 0.2 * np.sin(5 * time),
+    }
     units = {k: "rad" if "angle" in k else "rad/s" if "velocity" in k else "m/s^2" for k in wave}
     return Recording("waves", time, wave, units)
 

@@ -21,8 +21,9 @@ def mild_recording():
 
 @pytest.fixture(scope="module")
 def problem():
-    return Identification(pendulum(), mild_recording(), episodes=Episodes(3, amplitude=0.3, seed=1),
-                          ridge=1e-2, ridge_about="start")
+    return Identification(
+        pendulum(), mild_recording(), episodes=Episodes(3, amplitude=0.3, seed=1), ridge=1e-2, ridge_about="start"
+    )
 
 
 def test_displaced_states_fill_the_widened_box():
@@ -60,7 +61,7 @@ def test_a_damped_loop_survives_and_one_that_gains_energy_falls():
 
 
 def test_a_loop_has_to_survive_the_larger_input_too(monkeypatch):
-    t = Identification(pendulum(), pendulum_recording(noise=0.01)).transcription    # twice the drive turns it over
+    t = Identification(pendulum(), pendulum_recording(noise=0.01)).transcription  # twice the drive turns it over
     monkeypatch.setattr(stable, "WIDE", (1.0, 1.0))
     monkeypatch.setattr(stable, "LOUD", (1.0,))
     quiet = survival(t, np.array([0.4]))
@@ -72,7 +73,7 @@ def test_stable_start_survives_follows_and_is_solved(problem):
     z = stable_start(problem, seed=0, number=0)
     t = problem.transcription
     assert t.layout.parameters(z)[0] == pytest.approx(0.4, abs=0.1)
-    assert not np.allclose(t.layout.states(z, 0), t.layout.states(z, 1))    # each episode has its own noise
+    assert not np.allclose(t.layout.states(z, 0), t.layout.states(z, 1))  # each episode has its own noise
     result = problem.solve_from(z)
     assert result.solved and survival(t, t.layout.parameters(result.z)) == 1.0
 

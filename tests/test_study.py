@@ -98,7 +98,8 @@ def test_solve_is_a_study(undisturbed, pool, tmp_path, solved):
     assert solved == []
     assert sorted(row.number for row in seen) == list(range(STARTS)) == [row.number for row in one.starts]
     assert [(r.objective, r.iterations) for r in one.starts] == [
-        undisturbed[f"light/1/{k}"][1:4:2] for k in range(STARTS)]
+        undisturbed[f"light/1/{k}"][1:4:2] for k in range(STARTS)
+    ]
     assert one.best == again.best and np.array_equal(one.result.z, again.result.z)
     assert one.result.objective == min(r.objective for r in one.starts)
 
@@ -108,7 +109,7 @@ def test_solve_is_a_study(undisturbed, pool, tmp_path, solved):
 
 def test_a_problem_pickles_small_and_without_its_transcription():
     big = problem()
-    assert big.model.fingerprint    # which the model remembers from here on
+    assert big.model.fingerprint  # which the model remembers from here on
     before = len(pickle.dumps(big))
     assert big.transcription.layout.size > 0
     assert len(pickle.dumps(big)) == before < 20_000
@@ -119,9 +120,15 @@ def test_a_model_with_terms_made_of_lambdas_is_sent(pool):
     from symid.model import Law, LawParameter, Port
 
     model = pendulum()
-    model.pivot = Port(position=model.angle, rate=model.rate, into={"balance": -1.0}, role="joint", at="pivot", unit="1/s^2")
-    spring = Law("spring", "joint", (LawParameter("k", "1/s^2", (-1, 1)),),
-                 lambda m, place, p: m.add_effort("pivot", -p.k * m.angle))
+    model.pivot = Port(
+        position=model.angle, rate=model.rate, into={"balance": -1.0}, role="joint", at="pivot", unit="1/s^2"
+    )
+    spring = Law(
+        "spring",
+        "joint",
+        (LawParameter("k", "1/s^2", (-1, 1)),),
+        lambda m, place, p: m.add_effort("pivot", -p.k * m.angle),
+    )
     sprung = Identification(model.with_term(spring.at("pivot")), pendulum_recording())
     with pytest.raises((AttributeError, pickle.PicklingError)):
         pickle.dumps(sprung)
@@ -150,8 +157,10 @@ def test_a_call_that_raises_or_returns_what_cannot_be_sent_leaves_the_worker_ali
 
 def test_a_script_without_main_guard_is_told_so(tmp_path):
     script = tmp_path / "unguarded.py"
-    script.write_text(f"import sys\nsys.path.insert(0, {str(HERE)!r})\nfrom study_problems import study\n"
-                      "study().run(jobs=1, on_finished=None)\n")
+    script.write_text(
+        f"import sys\nsys.path.insert(0, {str(HERE)!r})\nfrom study_problems import study\n"
+        "study().run(jobs=1, on_finished=None)\n"
+    )
     ended = subprocess.run([sys.executable, script], capture_output=True, text=True)
     assert ended.returncode == 1
     assert "under `if __name__ == '__main__':`" in ended.stderr.splitlines()[-1]
@@ -191,8 +200,9 @@ def test_kill_9_of_a_worker_five_times(seed, undisturbed):
 
 
 def start_study(store) -> subprocess.Popen:
-    return subprocess.Popen([sys.executable, HERE / "study_problems.py", store, "2"], stderr=subprocess.DEVNULL,
-                            start_new_session=True)
+    return subprocess.Popen(
+        [sys.executable, HERE / "study_problems.py", store, "2"], stderr=subprocess.DEVNULL, start_new_session=True
+    )
 
 
 def kill_study(store: Path, chance: random.Random) -> None:
@@ -229,8 +239,11 @@ def test_workers_end_with_a_killed_study(tmp_path):
     process = start_study(tmp_path / "study")
     while len(kept(tmp_path / "study")) < 1 and process.poll() is None:
         time.sleep(0.002)
-    children = [int(pid) for task in Path(f"/proc/{process.pid}/task").iterdir()
-                for pid in (task / "children").read_text().split()]
+    children = [
+        int(pid)
+        for task in Path(f"/proc/{process.pid}/task").iterdir()
+        for pid in (task / "children").read_text().split()
+    ]
     process.kill()
     process.wait()
     assert len(children) >= 2
@@ -255,10 +268,13 @@ def test_a_solve_that_kills_two_workers_is_lost_and_no_other(pool, tmp_path, und
     assert row.message.startswith("its worker was killed by SIGKILL, 2 times")
     assert not result.complete
     assert {n: s for n, s in result.table["status"].items() if n != "poison"} == {
-        n: s[0] for n, s in numbers_of(undisturbed, 2).items()}
+        n: s[0] for n, s in numbers_of(undisturbed, 2).items()
+    }
     again = []
     Study(solves, tmp_path).run(pool, on_finished=again.append)
-    assert [f.row.status for f in again].count("lost") == 1 and again[-1].name == "poison", "only the lost one is repeated"
+    assert [f.row.status for f in again].count("lost") == 1 and again[-1].name == "poison", (
+        "only the lost one is repeated"
+    )
 
 
 def test_a_broken_foreign_pool_ends_in_rows_not_in_a_crash(tmp_path):
@@ -312,8 +328,13 @@ def test_a_damaged_result_is_done_again(finished_store, undisturbed, solved, suf
         file.unlink()
     else:
         middle = whole.index(b'"objective": ') + 15 if suffix == "json" else len(whole) // 2
-        file.write_bytes({"truncated": whole[:-20], "emptied": b"",
-                          "one byte changed": whole[:middle] + bytes([whole[middle] ^ 1]) + whole[middle + 1:]}[damage])
+        file.write_bytes(
+            {
+                "truncated": whole[:-20],
+                "emptied": b"",
+                "one byte changed": whole[:middle] + bytes([whole[middle] ^ 1]) + whole[middle + 1 :],
+            }[damage]
+        )
     result = study(finished_store, starts=2).run_here(on_finished=None)
     assert solved == [file.stem]
     assert numbers(result) == numbers_of(undisturbed, 2)
@@ -343,6 +364,7 @@ def test_a_result_that_vanishes_later_is_named(finished_store):
 )
 def test_a_directory_of_another_study_is_refused(tmp_path, change, part):
     from dataclasses import replace
+
     Study({"a": Solve(problem())}, tmp_path)
     other = replace(problem(), **change(problem()))
     with pytest.raises(SolveError, match=f"belongs to another study: its solve 'a' differs in .*{part}"):
@@ -365,11 +387,13 @@ def longer_pendulum():
 
 def scheme(name):
     from symid.transcription import scheme_by_name
+
     return scheme_by_name(name)
 
 
 def episodes(*arguments, **words):
     from symid.transcription import Episodes
+
     return Episodes(*arguments, **words)
 
 
@@ -386,6 +410,7 @@ def test_other_starts_and_options_are_another_study(tmp_path, change, part):
 
 def test_what_does_not_matter_is_no_other_study(tmp_path):
     from dataclasses import replace
+
     p = problem()
     Study({"a": Solve(p)}, tmp_path)
     renamed = replace(p.recordings[0], name="a copy elsewhere", source="/elsewhere", history=("read",))
@@ -462,11 +487,18 @@ def test_what_an_earlier_version_kept_is_read(tmp_path, solved):
     assert np.array_equal(again.best().result.z, first.best().result.z)
 
 
-@pytest.mark.parametrize("error", [MachineError("cyipopt cannot be loaded (no memory)."), MemoryError("1 GiB"),
-                                   ImportError("libmumps.so: failed to map segment")])
+@pytest.mark.parametrize(
+    "error",
+    [
+        MachineError("cyipopt cannot be loaded (no memory)."),
+        MemoryError("1 GiB"),
+        ImportError("libmumps.so: failed to map segment"),
+    ],
+)
 def test_what_the_machine_is_to_blame_for_is_done_again(tmp_path, monkeypatch, error):
     def short_of_memory(*_, **__):
         raise error
+
     solves = {"a": Solve(problem())}
     with monkeypatch.context() as patch:
         patch.setattr(Identification, "solve_from", short_of_memory)
@@ -478,7 +510,12 @@ def test_what_the_machine_is_to_blame_for_is_done_again(tmp_path, monkeypatch, e
 
 def test_a_solve_that_ran_out_of_time_is_done_again_with_more_of_it(tmp_path, solved):
     def limited(limit):
-        return Study({"a": Solve(problem(), options={"time_limit_s": limit})}, tmp_path).run_here(on_finished=None).rows["a"]
+        return (
+            Study({"a": Solve(problem(), options={"time_limit_s": limit})}, tmp_path)
+            .run_here(on_finished=None)
+            .rows["a"]
+        )
+
     for limit in (1e-6, 1e-6, 60.0, 60.0):
         row = limited(limit)
     assert row.solved and len(solved) == 2
@@ -489,8 +526,12 @@ def test_a_solve_that_ran_out_of_time_is_done_again_with_more_of_it(tmp_path, so
 
 
 def test_failed_solves_are_rows_and_hold_up_no_other(pool, solved):
-    solves = {"bad window": Solve(problem(window=(50, 60))), "bad start": Solve(problem(), start={"damping": 9.0}),
-              "stopped": Solve(problem(), options={"max_iterations": 1}), "good": Solve(problem())}
+    solves = {
+        "bad window": Solve(problem(window=(50, 60))),
+        "bad start": Solve(problem(), start={"damping": 9.0}),
+        "stopped": Solve(problem(), options={"max_iterations": 1}),
+        "good": Solve(problem()),
+    }
     for result in (Study(solves).run(pool, on_finished=None), Study(solves).run_here(on_finished=None)):
         table = result.table
         assert table["solved"].to_dict() == {"bad window": False, "bad start": False, "stopped": False, "good": True}
@@ -575,11 +616,27 @@ def test_the_command_line_resumes(shared, tmp_path, capsys, solved):
     parser = ArgumentParser()
     identify.add_arguments(parser)
     folder = shared / "recordings" / "standing_subject05"
-    line = [str(folder / "recording_50hz.csv"), "--body", str(folder / "body.json"), "--controller", "pd", "--window",
-            "160", "165", "--starts", "2", "--max-iterations", "20", "--store", str(tmp_path)]
+    line = [
+        str(folder / "recording_50hz.csv"),
+        "--body",
+        str(folder / "body.json"),
+        "--controller",
+        "pd",
+        "--window",
+        "160",
+        "165",
+        "--starts",
+        "2",
+        "--max-iterations",
+        "20",
+        "--store",
+        str(tmp_path),
+    ]
     codes = [identify.run(parser.parse_args(line)) for _ in range(2)]
     assert codes[0] == codes[1] and len(solved) == 2 == len(kept(tmp_path))
     assert [text.split()[:2] for text in capsys.readouterr().err.splitlines() if text.startswith("start")] == [
-        ["start", "1"], ["start", "2"]] * 2
+        ["start", "1"],
+        ["start", "2"],
+    ] * 2
     with chosen_executor(2, None) as pool:
         assert isinstance(pool, LocalPool) and pool.jobs == 2

@@ -31,13 +31,27 @@ class Processes:
             self.add_worker()
 
     def _dask(self, *arguments: str) -> subprocess.Popen:
-        return subprocess.Popen([sys.executable, "-m", "dask", *arguments], cwd=self.folder,
-                                env=os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
-                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return subprocess.Popen(
+            [sys.executable, "-m", "dask", *arguments],
+            cwd=self.folder,
+            env=os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
 
     def add_worker(self) -> None:
-        self.workers.append(self._dask("worker", self.address, "--no-nanny", "--nthreads", "1", "--no-dashboard",
-                                       "--local-directory", str(self.folder)))
+        self.workers.append(
+            self._dask(
+                "worker",
+                self.address,
+                "--no-nanny",
+                "--nthreads",
+                "1",
+                "--no-dashboard",
+                "--local-directory",
+                str(self.folder),
+            )
+        )
 
     def kill_a_worker(self, chance: random.Random) -> None:
         victim = self.workers.pop(chance.randrange(len(self.workers)))
@@ -116,8 +130,9 @@ def test_kill_9_of_a_dask_worker_five_times(cluster, client, seed, undisturbed):
 
 def kill_the_client_and_resume(cluster, client, store: Path, seed: int, undisturbed) -> None:
     here = Path(__file__).parent
-    process = subprocess.Popen([sys.executable, here / "study_problems.py", store, cluster.address],
-                               stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        [sys.executable, here / "study_problems.py", store, cluster.address], stderr=subprocess.DEVNULL
+    )
     while len(kept(store)) < 2 and process.poll() is None:
         time.sleep(0.002)
     time.sleep(random.Random(seed).uniform(0, 0.03))
@@ -145,7 +160,8 @@ def test_a_lost_scheduler_ends_in_rows_and_the_study_resumes(tmp_path, undisturb
     try:
         with distributed.Client(processes.address, timeout=60, set_as_default=False) as own:
             result = study(tmp_path / "study").run(
-                own, on_finished=lambda f: f.done == 3 and processes.scheduler.send_signal(signal.SIGKILL))
+                own, on_finished=lambda f: f.done == 3 and processes.scheduler.send_signal(signal.SIGKILL)
+            )
     finally:
         processes.end()
     lost = [row for row in result.rows.values() if row.status == "lost"]

@@ -38,7 +38,10 @@ def test_shipped_recording_reads_without_a_warning(recwarn):
 
 def test_platform_columns_are_derivatives_of_each_other():
     recording = read_recording(SHIPPED / "recording.csv")
-    for lower, upper, share in (("platform_position", "platform_velocity", 0.02), ("ankle_angle", "ankle_velocity", 1e-3)):
+    for lower, upper, share in (
+        ("platform_position", "platform_velocity", 0.02),
+        ("ankle_angle", "ankle_velocity", 1e-3),
+    ):
         difference = np.gradient(recording[lower], recording.time) - recording[upper]
         assert np.sqrt(np.mean(difference[1:-1] ** 2)) < share * recording[upper].std()
 

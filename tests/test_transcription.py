@@ -16,15 +16,22 @@ from symid.transcription.delays import SUPPORT, weights
 
 
 def transcribed(model, recording, scheme="midpoint", episodes=None, backend="numpy", window=None):
-    return transcribe(model, [measure(model, recording, window)], scheme_by_name(scheme), episodes or Episodes(),
-                      np.ones((1, len(model.outputs))), (), backend)
+    return transcribe(
+        model,
+        [measure(model, recording, window)],
+        scheme_by_name(scheme),
+        episodes or Episodes(),
+        np.ones((1, len(model.outputs))),
+        (),
+        backend,
+    )
 
 
 def follow(model, recording, scheme, values) -> np.ndarray:
     """The states at the nodes that satisfy the constraints from the recorded initial state (Newton)."""
     t = transcribed(model, recording, scheme)
     z, p = t.start(np.array(values)), t.program
-    free = np.r_[t.layout.n:t.layout.offsets[-1]]
+    free = np.r_[t.layout.n : t.layout.offsets[-1]]
     for _ in range(8):
         jacobian = sparse.csc_matrix((p.jacobian(z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, t.layout.size))
         z[free] -= spsolve(jacobian[:, free], p.constraints(z))
@@ -59,7 +66,9 @@ def late_pendulum(lag) -> si.Model:
     m.redefine("measured", m.angle)
     late = m.copy("late pendulum")
     late.components["balance"] = si.Equation(
-        m.balance.expr + late.gain * late.delayed(late.angle, late.lag) - 0.3 * late.delayed(late.drive, late.lag), name="balance")
+        m.balance.expr + late.gain * late.delayed(late.angle, late.lag) - 0.3 * late.delayed(late.drive, late.lag),
+        name="balance",
+    )
     return late
 
 
@@ -68,7 +77,7 @@ def late_pendulum(lag) -> si.Model:
 def test_derivatives_with_delays_agree_with_central_differences(name, lag):
     model = late_pendulum(lag)
     t = transcribed(model, pendulum_recording(duration=1.5, step=0.05), name, window=(0.3, 1.5))
-    values = np.array([0.7, 2.0, 0.083][:len(model.parameters)])
+    values = np.array([0.7, 2.0, 0.083][: len(model.parameters)])
     z = t.start(values) + np.random.default_rng(1).normal(0, 0.02, t.layout.size)
     assert check_derivatives(t.nonlinear_program(t.start(values)), z).worst_error < 1e-6
 
@@ -129,10 +138,12 @@ def test_multisines_are_alike_sum_to_zero_and_are_orthogonal(count, noises, inte
         setattr(model, f"push_{j}", si.Noise(unit="m/s"))
     drawn = np.array(Episodes(count, amplitude=0.3, seed=seed).draw(model, intervals))
     assert drawn.shape == (count, intervals, noises)
-    assert np.allclose((drawn ** 2).mean(axis=1), 0.03) and np.allclose(drawn.sum(axis=0), 0)
+    assert np.allclose((drawn**2).mean(axis=1), 0.03) and np.allclose(drawn.sum(axis=0), 0)
     lines = intervals // 2
     twice = np.fft.fft(np.concatenate([drawn, -drawn], axis=1), axis=1)
-    power = np.abs(twice[:, 1:2 * lines:2]) ** 2    # with its sign changed it goes on: lines half way between the window's
+    power = (
+        np.abs(twice[:, 1 : 2 * lines : 2]) ** 2
+    )  # with its sign changed it goes on: lines half way between the window's
     assert np.allclose(power, power[0, 0, 0]) and np.allclose(twice[:, ::2], 0)
     # Noises beyond episodes - 1 take turns over neighbouring lines: what is left of the last turn is not orthogonal.
     together = -(-noises // (count - 1))
@@ -148,21 +159,28 @@ def test_the_mean_of_a_multisine_varies_as_that_of_white_noise():
 def test_multisines_follow_their_seed():
     def draw(seed):
         return np.array(Episodes(3, amplitude=0.3, seed=seed).draw(pendulum(), 50))
+
     assert np.array_equal(draw(4), draw(4)) and not np.allclose(draw(4), draw(5))
 
 
-@pytest.mark.parametrize(("make", "words"), [
-    (lambda: Episodes(0), "whole number of at least 1"),
-    (lambda: Episodes(2, distribution="cauchy"), "no distribution 'cauchy'"),
-    (lambda: Episodes(2, amplitude=-1), "finite amplitude"),
-    (lambda: Episodes(2).draw(pendulum(), 5), "without any noise"),
-    (lambda: Episodes(2, torque=1.0).draw(pendulum(), 5), "no noise of model 'driven pendulum' has 'torque'"),
-    (lambda: scheme_by_name("euler"), "no collocation scheme 'euler'"),
-    (lambda: transcribed(pendulum(), pendulum_recording(), window=(1, 100)), "does not lie in pendulum"),
-    (lambda: transcribed(pendulum(), pendulum_recording(), window=(1, 1.02)), "holds only 2 samples"),
-    (lambda: transcribed(pendulum(), pendulum_recording().rename({"drive": "driver"})), "did you mean 'driver'"),
-    (lambda: transcribed(late_pendulum(si.Parameter(unit="s")), pendulum_recording()), "needs bounds of at least 0 s"),
-])
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Episodes(0), "whole number of at least 1"),
+        (lambda: Episodes(2, distribution="cauchy"), "no distribution 'cauchy'"),
+        (lambda: Episodes(2, amplitude=-1), "finite amplitude"),
+        (lambda: Episodes(2).draw(pendulum(), 5), "without any noise"),
+        (lambda: Episodes(2, torque=1.0).draw(pendulum(), 5), "no noise of model 'driven pendulum' has 'torque'"),
+        (lambda: scheme_by_name("euler"), "no collocation scheme 'euler'"),
+        (lambda: transcribed(pendulum(), pendulum_recording(), window=(1, 100)), "does not lie in pendulum"),
+        (lambda: transcribed(pendulum(), pendulum_recording(), window=(1, 1.02)), "holds only 2 samples"),
+        (lambda: transcribed(pendulum(), pendulum_recording().rename({"drive": "driver"})), "did you mean 'driver'"),
+        (
+            lambda: transcribed(late_pendulum(si.Parameter(unit="s")), pendulum_recording()),
+            "needs bounds of at least 0 s",
+        ),
+    ],
+)
 def test_bad_input_is_refused_in_words(make, words):
     with pytest.raises(TranscriptionError, match=words):
         make()

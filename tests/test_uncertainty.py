@@ -50,7 +50,10 @@ def test_profile_is_a_parabola_of_the_standard_error(plain):
 def test_profile_of_one_recording_and_of_a_ridge():
     model, first, _, _ = oscillator(seed=1)
     both = si.Identification(model, [first, oscillator(seed=2)[1]], per_recording=["c"]).solve()
-    table, row = profile(both, "c[2]", np.array([-1, 1]) * both.parameters["std_error"]["c[2]"] + both.values["c[2]"]), both.values
+    table, row = (
+        profile(both, "c[2]", np.array([-1, 1]) * both.parameters["std_error"]["c[2]"] + both.values["c[2]"]),
+        both.values,
+    )
     np.testing.assert_allclose(table["deviance"], [1, 0, 1], atol=0.05)
     assert table.index[1] == row["c[2]"]
     model, recording = two_dampings()
@@ -58,21 +61,25 @@ def test_profile_of_one_recording_and_of_a_ridge():
     table = profile(ridge, "c")
     low, high = table.attrs["interval"]
     total, error = ridge.determined["c + c2"]
-    assert low == -np.inf and high == pytest.approx(total + 1.96 * error, abs=2 * error)    # all of it, where c2 is zero
+    assert low == -np.inf and high == pytest.approx(total + 1.96 * error, abs=2 * error)  # all of it, where c2 is zero
     assert table["deviance"].iloc[0] < 0.1
 
 
 def test_bootstrap_agrees_with_the_closed_form():
     model, recording, _, closed = integrator(seed=3)
     drawn = bootstrap(si.Identification(model, recording).solve(), 60, on_finished=None)
-    assert drawn.parameters["std_error"]["b"] == pytest.approx(closed["b"], rel=0.3) and "blocks of 1 samples" in repr(drawn)
+    assert drawn.parameters["std_error"]["b"] == pytest.approx(closed["b"], rel=0.3) and "blocks of 1 samples" in repr(
+        drawn
+    )
     low, high = drawn.parameters.loc["b", ["lower", "upper"]]
     assert low < 2 < high
 
 
 def test_combinations_are_named_before_there_are_data():
     found = identifiability(two_dampings()[0])
-    assert found.combinations == {"c + c2": True} and found.undetermined == ("c", "c2") and found.unobserved == ("unseen",)
+    assert (
+        found.combinations == {"c + c2": True} and found.undetermined == ("c", "c2") and found.unobserved == ("unseen",)
+    )
     assert "c + c2 (exact" in repr(found) and found.rank == 2
     assert identifiability(pendulum()).identifiable
 
@@ -88,7 +95,7 @@ def test_ratios_and_products_are_named_before_there_are_data():
     m.g, m.f = si.Parameter(unit="1", bounds=(0.1, 10)), si.Input(unit="N")
     forced = m.copy()
     forced.components["balance"] = si.Equation(m.m * m.v.dot + m.c * m.v + m.k * m.x - m.f, name="balance")
-    forced.redefine("y", m.g * m.x)                       # a gain of the sensor: the motion may be larger instead
+    forced.redefine("y", m.g * m.x)  # a gain of the sensor: the motion may be larger instead
     assert identifiability(forced).undetermined == ("m", "k", "c", "g")
     assert set(identifiability(forced).combinations) == {"m / g", "k / g", "c / g"}
 
@@ -124,7 +131,11 @@ def test_a_term_that_is_not_there_is_not_preferred(plain, cubic):
 def test_a_term_that_is_there_is_preferred(plain):
     wrong = solved(pendulum().fixed(damping=0.9))
     table = compare({"free": plain, "wrong": wrong})
-    assert list(table.index) == ["free", "wrong"] and table["aic"]["wrong"] > 10 and table["evidence"]["wrong"] == "refuted"
+    assert (
+        list(table.index) == ["free", "wrong"]
+        and table["aic"]["wrong"] > 10
+        and table["evidence"]["wrong"] == "refuted"
+    )
     assert likelihood_ratio("wrong", "free", table)["p_value"] < 1e-6
 
 
@@ -147,16 +158,30 @@ def test_independent_samples_of_white_and_of_coloured_noise():
     assert independent_samples(coloured)[0] == pytest.approx(20000 / 9.53, rel=0.25)
 
 
-@pytest.mark.parametrize(("make", "words"), [
-    (lambda a, b: profile(a, "dampin"), "no parameter 'dampin'"),
-    (lambda a, b: likelihood_ratio("one", "two", compare({"one": a, "two": a})), "must be the smaller model"),
-    (lambda a, b: likelihood_ratio("one", "three", compare({"one": a})), "no model 'three' was compared"),
-    (lambda a, b: compare({"a": a, "b": solved(with_damping(), seed=4)}), "different recordings, windows or outputs"),
-    (lambda a, b: compare({"a": si.Identification(pendulum(), pendulum_recording(),
-                                                  episodes=si.Episodes(2, amplitude=0.01)).solve()}), "has 2 episodes"),
-    (lambda a, b: compare({"a": unsolved()}), "'a' was not solved"),
-    (lambda a, b: uncertainty(unsolved()), "the problem was not solved"),
-])
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda a, b: profile(a, "dampin"), "no parameter 'dampin'"),
+        (lambda a, b: likelihood_ratio("one", "two", compare({"one": a, "two": a})), "must be the smaller model"),
+        (lambda a, b: likelihood_ratio("one", "three", compare({"one": a})), "no model 'three' was compared"),
+        (
+            lambda a, b: compare({"a": a, "b": solved(with_damping(), seed=4)}),
+            "different recordings, windows or outputs",
+        ),
+        (
+            lambda a, b: compare(
+                {
+                    "a": si.Identification(
+                        pendulum(), pendulum_recording(), episodes=si.Episodes(2, amplitude=0.01)
+                    ).solve()
+                }
+            ),
+            "has 2 episodes",
+        ),
+        (lambda a, b: compare({"a": unsolved()}), "'a' was not solved"),
+        (lambda a, b: uncertainty(unsolved()), "the problem was not solved"),
+    ],
+)
 def test_bad_questions_are_refused_in_words(make, words, plain, cubic):
     with pytest.raises(ModelError, match=words):
         make(plain, cubic)

@@ -10,14 +10,7 @@ from hypothesis import strategies as st
 
 from symid import units
 from symid.errors import RecordingError, UnitError
-from symid.units import (
-    column_name,
-    dimension,
-    known_unit,
-    same_dimension,
-    si_factor,
-    split_column_name,
-)
+from symid.units import column_name, dimension, known_unit, same_dimension, si_factor, split_column_name
 
 
 @pytest.mark.parametrize("suffix", units.si.SUFFIXES)

@@ -23,7 +23,9 @@ def swing(rate: float, seed: int = 0) -> si.Identification:
     m.y = si.Output(m.x)
     t = np.arange(0, 50, 1 / rate)
     x = solve_ivp(lambda t, x: [x[1], -10 * np.sin(x[0])], (0, 50), [1.0, 0.0], t_eval=t, rtol=1e-10, atol=1e-12).y[0]
-    return si.Identification(m, Recording("swing", t, {"x": x + 0.03 * np.random.default_rng(seed).standard_normal(len(t))}, {"x": "rad"}))
+    return si.Identification(
+        m, Recording("swing", t, {"x": x + 0.03 * np.random.default_rng(seed).standard_normal(len(t))}, {"x": "rad"})
+    )
 
 
 def test_a_mesh_that_is_too_coarse_is_said_and_refined():
@@ -53,7 +55,9 @@ def test_a_motion_that_no_integrator_reproduces_is_said():
     x = 0.1 * np.sin(2 * t) + 0.05 * np.sin(3.3 * t)
     u = -0.4 * np.sin(2 * t) - 0.05 * 3.3**2 * np.sin(3.3 * t) - 20 * x
     noisy = x + 0.003 * np.random.default_rng(0).standard_normal(len(t))
-    solution = si.Identification(m, Recording("held by nobody", t, {"x": noisy, "u": u}, {"x": "m", "u": "m/s^2"})).solve()
+    solution = si.Identification(
+        m, Recording("held by nobody", t, {"x": noisy, "u": u}, {"x": "m", "u": "m/s^2"})
+    ).solve()
     assert solution.solved and solution.values["k"] == pytest.approx(20, abs=0.5)
     assert solution.verification.departs
     assert "No integrator reproduces this motion" in str(solution)

@@ -14,20 +14,36 @@ from symid.errors import ModelError, SymidError, TranscriptionError
 RECORDING = pendulum_recording(duration=1)
 
 
-@pytest.mark.parametrize(("recording", "words"), [
-    ("data.csv", "read_recording"), (Path("data.csv"), "read_recording"), (pd.DataFrame({"time_s": [0, 1]}), "write the table"),
-    (None, "a Recording is needed, not None"), ([], "no recording"), ([RECORDING, 3], "not 3"), (np.zeros(3), "a ndarray"),
-])
+@pytest.mark.parametrize(
+    ("recording", "words"),
+    [
+        ("data.csv", "read_recording"),
+        (Path("data.csv"), "read_recording"),
+        (pd.DataFrame({"time_s": [0, 1]}), "write the table"),
+        (None, "a Recording is needed, not None"),
+        ([], "no recording"),
+        ([RECORDING, 3], "not 3"),
+        (np.zeros(3), "a ndarray"),
+    ],
+)
 def test_what_is_no_recording_is_refused(recording, words):
     with pytest.raises(TranscriptionError, match=words):
         si.Identification(pendulum(), recording)
 
 
-@pytest.mark.parametrize(("arguments", "words"), [
-    ({"scheme": "midpoint"}, "give one of Midpoint"), ({"episodes": 3}, "give Episodes"), ({"weights": [1]}, "dictionary"),
-    ({"per_recording": "damping"}, "list of names"), ({"window": 5}, "give \\(t0, t1\\)"), ({"window": (1, 2, 3)}, "give \\(t0, t1\\)"),
-    ({"window": "all"}, "give \\(t0, t1\\)"), ({"loss": 0.1}, "dictionary"),
-])
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"scheme": "midpoint"}, "give one of Midpoint"),
+        ({"episodes": 3}, "give Episodes"),
+        ({"weights": [1]}, "dictionary"),
+        ({"per_recording": "damping"}, "list of names"),
+        ({"window": 5}, "give \\(t0, t1\\)"),
+        ({"window": (1, 2, 3)}, "give \\(t0, t1\\)"),
+        ({"window": "all"}, "give \\(t0, t1\\)"),
+        ({"loss": 0.1}, "dictionary"),
+    ],
+)
 def test_options_of_a_wrong_type_are_refused(arguments, words):
     with pytest.raises(TranscriptionError, match=words):
         si.Identification(pendulum(), RECORDING, **arguments)
@@ -38,13 +54,22 @@ def test_a_model_is_needed_first():
         si.Identification(RECORDING, RECORDING)
 
 
-@pytest.mark.parametrize(("part", "words"), [
-    (lambda m: si.State(), "has no unit"), (lambda m: si.Constant("heavy", unit="kg"), "'heavy'; give a number"),
-    (lambda m: si.Equation("x + y"), "is no expression"), (lambda m: si.Equation(m.angle <= 1), "belongs into a Constraint"),
-    (lambda m: m.angle <= 1, "becomes a Constraint"), (lambda m: m.angle + 1, "becomes an Equation"), (lambda m: 3, "cannot attach"),
-    (lambda m: si.Expression(None, unit="m"), "is no expression"), (lambda m: si.Objective(running="x"), "is no expression"),
-    (lambda m: si.Output([1, 2]), "is no expression"), (lambda m: si.Parameter(unit=None), "has no unit"),
-])
+@pytest.mark.parametrize(
+    ("part", "words"),
+    [
+        (lambda m: si.State(), "has no unit"),
+        (lambda m: si.Constant("heavy", unit="kg"), "'heavy'; give a number"),
+        (lambda m: si.Equation("x + y"), "is no expression"),
+        (lambda m: si.Equation(m.angle <= 1), "belongs into a Constraint"),
+        (lambda m: m.angle <= 1, "becomes a Constraint"),
+        (lambda m: m.angle + 1, "becomes an Equation"),
+        (lambda m: 3, "cannot attach"),
+        (lambda m: si.Expression(None, unit="m"), "is no expression"),
+        (lambda m: si.Objective(running="x"), "is no expression"),
+        (lambda m: si.Output([1, 2]), "is no expression"),
+        (lambda m: si.Parameter(unit=None), "has no unit"),
+    ],
+)
 def test_parts_of_a_wrong_type_are_refused(part, words):
     m = pendulum()
     with pytest.raises(ModelError, match=words):

@@ -6,8 +6,12 @@ Source: Betts (2010), example 10.103: 12.8738850.
 import symid as si
 
 m = si.Model("pendulum as a DAE")
-m.x, m.y, m.vx, m.vy = (si.State(unit="m", bounds=(-5, 5)), si.State(unit="m", bounds=(-5, 5)),
-                        si.State(unit="m/s", bounds=(-5, 5)), si.State(unit="m/s", bounds=(-5, 5)))
+m.x, m.y, m.vx, m.vy = (
+    si.State(unit="m", bounds=(-5, 5)),
+    si.State(unit="m", bounds=(-5, 5)),
+    si.State(unit="m/s", bounds=(-5, 5)),
+    si.State(unit="m/s", bounds=(-5, 5)),
+)
 m.tension, m.u = si.Algebraic(unit="1/s^2", bounds=(-1, 15)), si.Control(unit="1/s^2")
 m.kx, m.ky = si.Equation(m.x.dot - m.vx), si.Equation(m.y.dot - m.vy)
 m.dx = si.Equation(m.vx.dot + 2 * m.tension * m.x - m.u * m.y)

@@ -16,7 +16,7 @@ m.mixed = si.Constraint({k: x[k] + u[k] >= 0.3 for k in m.x})
 m.begin = si.Boundary(initial={x[1]: 1})
 m.join = si.Boundary(*(x[k].initial - x[k - 1].terminal for k in range(2, 7)))
 m.smooth = si.Boundary(*(x[k].initial + u[k].initial - 0.5 for k in m.x))
-m.cost = si.Objective(running=sum(x[k]**2 + u[k]**2 for k in m.x))
-plan = si.Optimization(m, duration=1, nodes=np.linspace(0, 1, 101)**2).solve()
+m.cost = si.Objective(running=sum(x[k] ** 2 + u[k] ** 2 for k in m.x))
+plan = si.Optimization(m, duration=1, nodes=np.linspace(0, 1, 101) ** 2).solve()
 
 answers = {"objective": (plan.objective, 3.10812211, 1e-4)}

@@ -19,7 +19,9 @@ m.k1, m.k2 = si.Equation(m.left.dot - m.w_left), si.Equation(m.right.dot - m.w_r
 m.swing_left = si.Equation(m.w_left.dot + 9.81 * sm.sin(m.left) + 0.3 * m.w_left - m.hip)
 m.swing_right = si.Equation(m.w_right.dot + 9.81 * sm.sin(m.right) + 0.3 * m.w_right + m.hip)
 m.start = si.Boundary(initial={m.left: 0.4})
-m.gait = si.Boundary(periodic={m.left: m.right, m.right: m.left, m.w_left: m.w_right, m.w_right: m.w_left, m.hip: -m.hip})
+m.gait = si.Boundary(
+    periodic={m.left: m.right, m.right: m.left, m.w_left: m.w_right, m.w_right: m.w_left, m.hip: -m.hip}
+)
 m.effort = si.Objective(running=m.hip**2)
 plan, fine = (si.Optimization(m, duration=0.8, nodes=n).solve() for n in (41, 161))
 
@@ -31,5 +33,7 @@ def swing(t, x):
 
 begin = plan.trajectories.iloc[0, :4].to_numpy()
 end = solve_ivp(swing, (0, 1.6), begin, rtol=1e-8, atol=1e-10, max_step=0.02).y[:, -1]
-answers = {"effort": (plan.objective, fine.objective, 1e-3 * fine.objective),
-           "return [rad, rad/s]": (float(np.abs(end - begin).max()), 0.0, 1e-3)}
+answers = {
+    "effort": (plan.objective, fine.objective, 1e-3 * fine.objective),
+    "return [rad, rad/s]": (float(np.abs(end - begin).max()), 0.0, 1e-3),
+}

@@ -12,7 +12,9 @@ import symid as si
 time, rng = np.linspace(0, 20, 500), np.random.default_rng(123)
 trials = []
 for k in range(4):
-    x = solve_ivp(lambda t, x: [x[1], -0.25 * x[1] - (x[0] - 1)], (0, 20), 4 * rng.standard_normal(2), t_eval=time, rtol=1e-9).y[0]
+    x = solve_ivp(
+        lambda t, x: [x[1], -0.25 * x[1] - (x[0] - 1)], (0, 20), 4 * rng.standard_normal(2), t_eval=time, rtol=1e-9
+    ).y[0]
     trials.append(si.Recording(f"trial {k + 1}", time, {"x": x + 2 * rng.standard_normal(500)}, {"x": "m"}))
 
 m = si.Model("mass, spring and damper")

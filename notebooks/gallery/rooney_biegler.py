@@ -11,7 +11,7 @@ import sympy as sm
 import symid as si
 
 hour, y = np.array([1.0, 2, 3, 4, 5, 7]), np.array([8.3, 10.3, 19.0, 16.0, 15.6, 19.8])
-data = si.Recording("bates_watts", hour, {"y": y}, {"y": "1"})      # hours stand for seconds
+data = si.Recording("bates_watts", hour, {"y": y}, {"y": "1"})  # hours stand for seconds
 
 m = si.Model("saturation")
 m.asymptote = si.Parameter(unit="1", bounds=(1, 100), guess=15)
@@ -20,5 +20,8 @@ m.y = si.Output(m.asymptote * (1 - sm.exp(-m.rate * m.time)), unit="1")
 solution = si.Identification(m, data).solve()
 
 a, k = solution.values["asymptote"], solution.values["rate"]
-answers = {"asymptote": (a, 19.1426, 1e-3), "rate": (k, 0.5311, 1e-4),
-           "mean square": (np.mean((y - a * (1 - np.exp(-k * hour)))**2), 4.33171, 1e-3)}
+answers = {
+    "asymptote": (a, 19.1426, 1e-3),
+    "rate": (k, 0.5311, 1e-4),
+    "mean square": (np.mean((y - a * (1 - np.exp(-k * hour))) ** 2), 4.33171, 1e-3),
+}

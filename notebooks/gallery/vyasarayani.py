@@ -10,7 +10,9 @@ from scipy.integrate import solve_ivp
 import symid as si
 
 time, rng = np.linspace(0, 50, 2001), np.random.default_rng(0)
-motion = solve_ivp(lambda t, x: [x[1], -10 * np.sin(x[0])], (0, 50), [np.pi / 6, 0], t_eval=time, rtol=1e-10, atol=1e-12).y
+motion = solve_ivp(
+    lambda t, x: [x[1], -10 * np.sin(x[0])], (0, 50), [np.pi / 6, 0], t_eval=time, rtol=1e-10, atol=1e-12
+).y
 noisy = motion + rng.normal(0, [[0.05], [0.1]], motion.shape)
 data = si.Recording("noisy pendulum", time, {"y1": noisy[0], "y2": noisy[1]}, {"y1": "rad", "y2": "rad/s"})
 

@@ -7,5 +7,17 @@ from symid.analysis.profile import profile
 from symid.analysis.stability import Stability, stability, stability_of
 from symid.analysis.uncertainty import Uncertainty, uncertainty
 
-__all__ = ["Bootstrap", "Identifiability", "Stability", "Uncertainty", "bootstrap", "compare", "identifiability",
-           "likelihood_ratio", "profile", "stability", "stability_of", "uncertainty"]
+__all__ = [
+    "Bootstrap",
+    "Identifiability",
+    "Stability",
+    "Uncertainty",
+    "bootstrap",
+    "compare",
+    "identifiability",
+    "likelihood_ratio",
+    "profile",
+    "stability",
+    "stability_of",
+    "uncertainty",
+]

@@ -40,12 +40,22 @@ class Bootstrap:
     def __repr__(self) -> str:
         lost = f", {self.failed} more were not solved" if self.failed else ""
         blocks = ", ".join(map(str, sorted(set(self.block))))
-        return (f"{self.parameters.to_string(float_format='%.5g')}\n"
-                f"Error model: bootstrap, {len(self.draws)} draws of blocks of {blocks} samples{lost}.")
+        return (
+            f"{self.parameters.to_string(float_format='%.5g')}\n"
+            f"Error model: bootstrap, {len(self.draws)} draws of blocks of {blocks} samples{lost}."
+        )
 
 
-def bootstrap(solution: Solution, count: int = 200, *, seed: int = 0, block: int | None = None,
-              executor: Executor | None = None, store: str | Path | None = None, on_finished: Callable[[Finished], None] | None = tell) -> Bootstrap:
+def bootstrap(
+    solution: Solution,
+    count: int = 200,
+    *,
+    seed: int = 0,
+    block: int | None = None,
+    executor: Executor | None = None,
+    store: str | Path | None = None,
+    on_finished: Callable[[Finished], None] | None = tell,
+) -> Bootstrap:
     """Standard errors and intervals from `count` identifications of drawn recordings.
 
     A draw is the fitted motion plus the residual in another order: circular blocks of it begin at random
@@ -77,8 +87,10 @@ def bootstrap(solution: Solution, count: int = 200, *, seed: int = 0, block: int
     table = ended.table
     draws = table.loc[table["solved"], list(solution.values)]
     if len(draws) < min(LEAST_DRAWS, count):
-        raise ModelError(f"bootstrap: only {len(draws)} of {count} draws were solved; the first that was not says: "
-                         f"{table.loc[~table['solved'], 'message'].iloc[0]}")
+        raise ModelError(
+            f"bootstrap: only {len(draws)} of {count} draws were solved; the first that was not says: "
+            f"{table.loc[~table['solved'], 'message'].iloc[0]}"
+        )
     low, high = draws.quantile(0.025), draws.quantile(0.975)
     parameters = pd.DataFrame({"value": solution.values, "std_error": draws.std(), "lower": low, "upper": high})
     return Bootstrap(draws, parameters.loc[list(solution.values)], count - len(draws), blocks)
@@ -93,6 +105,10 @@ def _drawn(solution: Solution, r: int, residual: Errors, block: int, rng) -> Rec
     error = residual.error / np.sqrt(residual.freedom / np.maximum(residual.present.sum(axis=0), 1))
     for j, y in enumerate(solution.model.outputs.values()):
         values = recording[y.channel].copy()
-        values[m.nodes] = values[m.nodes] + residual.error[:, j] - error[order, j]    # recorded + (model - recorded) - noise
-        recording = recording.with_channel(y.channel, values, recording.units[y.channel], noise=recording.noise.get(y.channel))
+        values[m.nodes] = (
+            values[m.nodes] + residual.error[:, j] - error[order, j]
+        )  # recorded + (model - recorded) - noise
+        recording = recording.with_channel(
+            y.channel, values, recording.units[y.channel], noise=recording.noise.get(y.channel)
+        )
     return recording

@@ -49,8 +49,13 @@ def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] 
     for name, s in solutions.items():
         free = int((~s.parameters["at_bound"]).sum())
         likelihood = -0.5 * float(np.sum(count * (np.log(2 * np.pi * np.mean(errors[name] ** 2, axis=0)) + 1)))
-        rows[name] = {"parameters": free, "log_likelihood": likelihood, "aic": 2 * free - 2 * likelihood,
-                      "bic": free * np.log(count.sum()) - 2 * likelihood, "rms": s.fit["rms"]["all"]}
+        rows[name] = {
+            "parameters": free,
+            "log_likelihood": likelihood,
+            "aic": 2 * free - 2 * likelihood,
+            "bic": free * np.log(count.sum()) - 2 * likelihood,
+            "rms": s.fit["rms"]["all"],
+        }
         if held_out is not None:
             rows[name]["held_out_rms"] = s.fit_on(held_out)["rms"]["all"]
     table = pd.DataFrame.from_dict(rows, orient="index").sort_values("aic")
@@ -71,8 +76,10 @@ def likelihood_ratio(smaller: str, larger: str, table: pd.DataFrame) -> dict[str
             raise ModelError(f"likelihood ratio: no model '{name}' was compared; there are {', '.join(table.index)}")
     degrees = int(table["parameters"][larger] - table["parameters"][smaller])
     if degrees < 1:
-        raise ModelError(f"likelihood ratio: '{larger}' has {table['parameters'][larger]} free parameters and '{smaller}' "
-                         f"{table['parameters'][smaller]}: the first must be the smaller model, nested in the second")
+        raise ModelError(
+            f"likelihood ratio: '{larger}' has {table['parameters'][larger]} free parameters and '{smaller}' "
+            f"{table['parameters'][smaller]}: the first must be the smaller model, nested in the second"
+        )
     statistic = max(0.0, 2 * float(table["log_likelihood"][larger] - table["log_likelihood"][smaller]))
     return {"statistic": statistic, "degrees": degrees, "p_value": float(chdtrc(degrees, statistic))}
 
@@ -85,7 +92,7 @@ def independent_samples(error: np.ndarray) -> np.ndarray:
     """
     n = len(error)
     spectrum = np.abs(np.fft.rfft(error, 2 * n, axis=0)) ** 2
-    covariance = np.fft.irfft(spectrum, axis=0)[:n // 4]
+    covariance = np.fft.irfft(spectrum, axis=0)[: n // 4]
     rho = covariance[1:] / covariance[0]
     count = np.full(error.shape[1], float(n))
     for _ in range(5):
@@ -98,8 +105,10 @@ def _errors(name: str, s: Solution) -> np.ndarray:
     if not s.solved:
         raise ModelError(f"compare: '{name}' was not solved: {s.message}")
     if s.problem.episodes.count > 1:
-        raise ModelError(f"compare: '{name}' has {s.problem.episodes.count} episodes, which repeat the same data; "
-                         "compare fits of one episode")
+        raise ModelError(
+            f"compare: '{name}' has {s.problem.episodes.count} episodes, which repeat the same data; "
+            "compare fits of one episode"
+        )
     errors = np.concatenate([y - d for y, d in outputs_and_targets(s.transcription, s.result.z)])
     return errors[np.isfinite(errors).all(axis=1)]
 
@@ -116,5 +125,7 @@ def _refuse_other_data(solutions: Mapping[str, Solution]) -> None:
     names = list(solutions)
     for other in names[1:]:
         if data(solutions[other]) != data(solutions[names[0]]):
-            raise ModelError(f"compare: '{other}' and '{names[0]}' were fitted to different recordings, windows or outputs, "
-                             "so that their likelihoods cannot be compared")
+            raise ModelError(
+                f"compare: '{other}' and '{names[0]}' were fitted to different recordings, windows or outputs, "
+                "so that their likelihoods cannot be compared"
+            )

@@ -33,13 +33,16 @@ def slopes_at(model: Model, states: FloatArray, values: Mapping[str, float]) -> 
     kernel = kernel_of(model, slopes_program)
     count, n = states.shape
     names, late = list(model.states), late_of(model, values)
-    lagged = np.stack([states[:, names.index(of)] if of in names else np.zeros(count) for of, _ in late], axis=1) \
-        if late else np.zeros((count, 0))
+    lagged = (
+        np.stack([states[:, names.index(of)] if of in names else np.zeros(count) for of, _ in late], axis=1)
+        if late
+        else np.zeros((count, 0))
+    )
     local = np.hstack([np.zeros((count, n)), states, lagged])
     arguments = (local, np.zeros(0), np.zeros((count, 0)), uniform_values(model, values))
     slopes = np.zeros((count, n, local.shape[1]))
     slopes[:, kernel.jacobian_rows, kernel.jacobian_cols] = kernel.jacobian(*arguments)
-    return Slopes(kernel.residual(*arguments), slopes[:, :, :n], slopes[:, :, n:2 * n], slopes[:, :, 2 * n:])
+    return Slopes(kernel.residual(*arguments), slopes[:, :, :n], slopes[:, :, n : 2 * n], slopes[:, :, 2 * n :])
 
 
 def complete(model: Model, points: FloatArray, values: Mapping[str, float]) -> FloatArray:
@@ -57,8 +60,9 @@ def complete(model: Model, points: FloatArray, values: Mapping[str, float]) -> F
     added = [k for k, s in enumerate(model.states.values()) if s.role == "memory"]
     if points.ndim != 2 or points.shape[1] != len(names) - len(added):
         given = [n for k, n in enumerate(names) if k not in added]
-        raise ModelError(f"model '{model.name}': operating points need a column for each of {given}, found shape "
-                         f"{points.shape}")
+        raise ModelError(
+            f"model '{model.name}': operating points need a column for each of {given}, found shape {points.shape}"
+        )
     states = np.zeros((len(points), len(names)))
     states[:, [k for k in range(len(names)) if k not in added]] = points
     if added:

@@ -31,13 +31,22 @@ class Drive:
         """Linear between samples, every `step` [s] from the first to the last."""
         count = round((self.time[-1] - self.time[0]) / step) + 1
         time = self.time[0] + step * np.arange(count)
+
         def at(signals):
             return {k: np.interp(time, self.time, v) for k, v in signals.items()}
+
         return Drive(time, at(self.inputs), at(self.recorded))
 
 
-def forward_rms(model: Model, states: FloatArray, values: Mapping[str, float], drive: Drive, limit: float,
-                step: float = 0.005, threads: int = 2) -> FloatArray:
+def forward_rms(
+    model: Model,
+    states: FloatArray,
+    values: Mapping[str, float],
+    drive: Drive,
+    limit: float,
+    step: float = 0.005,
+    threads: int = 2,
+) -> FloatArray:
     """(K,) root mean square [SI] over all outputs and steps of simulated minus recorded.
 
     Explicit Euler, as in Wang & van den Bogert 2020. A run whose squares already add up to more
@@ -70,8 +79,15 @@ def forward_rms(model: Model, states: FloatArray, values: Mapping[str, float], d
         return np.concatenate(list(runs))
 
 
-def _run(model: Model, kernel: Kernel, states: FloatArray, values: Mapping[str, float], drive: Drive, limit: float,
-         step: float) -> FloatArray:
+def _run(
+    model: Model,
+    kernel: Kernel,
+    states: FloatArray,
+    values: Mapping[str, float],
+    drive: Drive,
+    limit: float,
+    step: float,
+) -> FloatArray:
     count, n = states.shape
     steps, m = len(drive.time) - 1, len(model.outputs)
     allowed = limit**2 * steps * m
@@ -83,11 +99,11 @@ def _run(model: Model, kernel: Kernel, states: FloatArray, values: Mapping[str, 
     now = np.hstack([states, np.zeros((count, 1))])
     nothing, none = np.zeros((count, 0)), np.zeros(0)
     for i in range(steps):
-        uniform[:signals.shape[1]] = signals[i]
-        uniform[-1 - m - 1], uniform[-1 - m:-1] = drive.time[i], recorded[i]
-        now = kernel.residual(nothing[:len(now)], none, late.beside(now, i), uniform)
+        uniform[: signals.shape[1]] = signals[i]
+        uniform[-1 - m - 1], uniform[-1 - m : -1] = drive.time[i], recorded[i]
+        now = kernel.residual(nothing[: len(now)], none, late.beside(now, i), uniform)
         if (i + 1) % _SWEEP == 0:
-            alive = now[:, n] <= allowed          # NaN is not alive
+            alive = now[:, n] <= allowed  # NaN is not alive
             if not alive.all():
                 runs, now = runs[alive], np.ascontiguousarray(now[alive])
                 late.keep(alive)
@@ -116,7 +132,7 @@ class _Late:
         if self.past is None:
             return now
         depth = len(self.past)
-        self.past[i % depth] = now[:, :self.n]
+        self.past[i % depth] = now[:, : self.n]
         columns = np.empty((len(now), len(self.late)))
         for j, (k, of, back) in enumerate(self.late):
             whole, part = int(back), back - int(back)

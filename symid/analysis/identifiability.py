@@ -48,8 +48,10 @@ class Identifiability:
     def __repr__(self) -> str:
         said = ["All parameters are determined by the outputs."] if self.identifiable else []
         if self.undetermined:
-            said.append(f"{', '.join(self.undetermined)}: not determined one by one; together {len(self.parameters) - self.rank} "
-                        "of their numbers can be chosen freely.")
+            said.append(
+                f"{', '.join(self.undetermined)}: not determined one by one; together {len(self.parameters) - self.rank} "
+                "of their numbers can be chosen freely."
+            )
         for text, exact in self.combinations.items():
             said.append(f"Determined: {text} ({'exact, by the equations' if exact else 'at random points'}).")
         if self.unobserved:
@@ -81,8 +83,13 @@ def identifiability(model: Model, seed: int = 0) -> Identifiability:
     same = [text for text in told[0] if all(text in other for other in told)]
     unseen = set.intersection(*(set(u) for _, _, u in found))
     exact = _proved(model, found[0][1], found[0][0], names) if same and len(same) == len(told[0]) else False
-    return Identifiability(tuple(names), len(names) - freedom, tuple(n for n, x in zip(names, lost, strict=True) if x),
-                           dict.fromkeys(same, exact), tuple(s for s in model.states if s in unseen))
+    return Identifiability(
+        tuple(names),
+        len(names) - freedom,
+        tuple(n for n, x in zip(names, lost, strict=True) if x),
+        dict.fromkeys(same, exact),
+        tuple(s for s in model.states if s in unseen),
+    )
 
 
 def _unit(null: np.ndarray) -> np.ndarray:
@@ -100,8 +107,10 @@ def _at_point(model: Model, rng) -> tuple[np.ndarray, np.ndarray, list[str]]:
         if not any(run.diverged or not np.all(np.isfinite(run.dy)) for run in runs):
             break
     else:
-        raise ModelError(f"identifiability: the motion of model '{model.name}' is unbounded at random parameters; give its "
-                         "parameters bounds or guesses")
+        raise ModelError(
+            f"identifiability: the motion of model '{model.name}' is unbounded at random parameters; give its "
+            "parameters bounds or guesses"
+        )
     unit = np.concatenate([np.abs(values), np.ones(len(states))])
     scale = np.max([np.abs(run.dy * unit).max(axis=(0, 2)) for run in runs], axis=0)
     q, size = len(values), np.zeros(len(values))
@@ -135,10 +144,23 @@ def _run(model: Model, values: np.ndarray, rng):
     slow, fast = (speeds.min(), speeds.max()) if len(speeds) else (1.0, 1.0)
     length = min(6 / np.sqrt(slow * fast), GROWN / max(roots.real.max(initial=0.0), 1e-9 * fast))
     time = np.linspace(0, length, SAMPLES)
-    inputs = {name: sum(rng.uniform(0.3, 1) * np.sin(2 * np.pi * rng.uniform(0.3, 6) * time / length + rng.uniform(0, 6))
-                        for _ in range(4)) for name in model.inputs}
-    return simulator(model).simulate(values, start, time, inputs, sensitivity=names, initial_sensitivity=list(model.states),
-                                     substeps=int(np.clip(np.ceil(2 * fast * length / SAMPLES), 1, 50)), limit=1e6)
+    inputs = {
+        name: sum(
+            rng.uniform(0.3, 1) * np.sin(2 * np.pi * rng.uniform(0.3, 6) * time / length + rng.uniform(0, 6))
+            for _ in range(4)
+        )
+        for name in model.inputs
+    }
+    return simulator(model).simulate(
+        values,
+        start,
+        time,
+        inputs,
+        sensitivity=names,
+        initial_sensitivity=list(model.states),
+        substeps=int(np.clip(np.ceil(2 * fast * length / SAMPLES), 1, 50)),
+        limit=1e6,
+    )
 
 
 def _draw(parts, rng, centred: bool = False) -> np.ndarray:

@@ -100,7 +100,7 @@ class _Profile:
             if outside or self._deviance(rows[value]) > FAR:
                 break
         inner = max((v for v in rows if self._deviance(rows[v]) <= FAR), key=lambda v: sign * v, default=centre)
-        for _ in range(HALVINGS):                        # a wall at the end of a ridge, or a step that was too long
+        for _ in range(HALVINGS):  # a wall at the end of a ridge, or a step that was too long
             if not rows or self._deviance(rows[value]) <= 4 * FAR:
                 break
             middle = 0.5 * (inner + value)

@@ -77,8 +77,9 @@ class Stability:
 
     def __repr__(self) -> str:
         forward = "" if self.rms is None else f", {self.forward_percent:.2f} % by forward simulation"
-        return (f"<Stability: {self.eigenvalue_percent:.2f} % stable by eigenvalues{forward}, "
-                f"of {len(self.points)} points>")
+        return (
+            f"<Stability: {self.eigenvalue_percent:.2f} % stable by eigenvalues{forward}, of {len(self.points)} points>"
+        )
 
     def _repr_html_(self) -> str:
         rows = [("by eigenvalues", self.eigenvalue_percent)]
@@ -87,8 +88,9 @@ class Stability:
         return f"<table>{cells}<tr><td>points</td><td>{len(self.points)}</td></tr></table>"
 
 
-def stability(solution: Solution, *, held_out: tuple[float, float] | None = None, which: int = 0,
-              **options) -> Stability:
+def stability(
+    solution: Solution, *, held_out: tuple[float, float] | None = None, which: int = 0, **options
+) -> Stability:
     """Both tests of an identified controller over the states recorded in its window.
 
     Parameters
@@ -103,9 +105,17 @@ def stability(solution: Solution, *, held_out: tuple[float, float] | None = None
     return stability_of(solution.model, solution.values, recording, held_out=held_out, **options)
 
 
-def stability_of(model: Model, values: Mapping[str, float], recording: Recording, *, window: tuple[float, float],
-                 held_out: tuple[float, float] | None = None, per_state: int = 11, step: float = 0.005,
-                 threads: int = 2) -> Stability:
+def stability_of(
+    model: Model,
+    values: Mapping[str, float],
+    recording: Recording,
+    *,
+    window: tuple[float, float],
+    held_out: tuple[float, float] | None = None,
+    per_state: int = 11,
+    step: float = 0.005,
+    threads: int = 2,
+) -> Stability:
     """Both tests over a grid that spans the states recorded in `window`.
 
     Parameters
@@ -137,8 +147,11 @@ def stability_of(model: Model, values: Mapping[str, float], recording: Recording
     if held_out is None:
         return Stability(chosen, points, per_state, rates, None, limit)
     within = np.flatnonzero((recording.time >= held_out[0] - 1e-9) & (recording.time <= held_out[1] + 1e-9))
-    drive = Drive(recording.time[within], {k: recording[u.channel][within] for k, u in model.inputs.items()},
-                  {k: v[within] for k, v in outputs.items()})
+    drive = Drive(
+        recording.time[within],
+        {k: recording[u.channel][within] for k, u in model.inputs.items()},
+        {k: v[within] for k, v in outputs.items()},
+    )
     rms = forward_rms(model, states, values, drive, limit, step, threads)
     return Stability(chosen, points, per_state, rates, rms, limit)
 
@@ -147,8 +160,10 @@ def recording_rows(recording: Recording, window: tuple[float, float]) -> np.ndar
     """Rows from the start of `window` up to, but without, its end."""
     rows = np.flatnonzero((recording.time >= window[0] - 1e-9) & (recording.time < window[1] - 1e-9))
     if len(rows) < 2:
-        raise ModelError(f"the window {window} s holds {len(rows)} samples of the recording, which lasts from "
-                         f"{recording.time[0]:g} to {recording.time[-1]:g} s")
+        raise ModelError(
+            f"the window {window} s holds {len(rows)} samples of the recording, which lasts from "
+            f"{recording.time[0]:g} to {recording.time[-1]:g} s"
+        )
     return rows
 
 

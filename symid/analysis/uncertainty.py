@@ -88,8 +88,7 @@ def uncertainty(solution: Solution, errors: str = "auto") -> Uncertainty:
     correlation = covariance / np.outer(error, error)
     table.loc[inner, "explained"] = 1 - 1 / np.diag(np.linalg.pinv(correlation, hermitian=True))
     columns = ["value", "std_error", "relative_error", "explained", "at_bound"]
-    return Uncertainty(table[columns],
-                       tuple(_combinations(inner, correlation)), solution.errors, solution.determined)
+    return Uncertainty(table[columns], tuple(_combinations(inner, correlation)), solution.errors, solution.determined)
 
 
 def _combinations(names: list[str], correlation: np.ndarray):
@@ -99,5 +98,7 @@ def _combinations(names: list[str], correlation: np.ndarray):
     for variance, direction in zip(variances[::-1], directions.T[::-1], strict=True):
         if variance > 1.5 and variance > variances[0] / (1 - ALIKE):
             step = direction * np.sign(direction[np.argmax(np.abs(direction))])
-            members = sorted(((n, float(s)) for n, s in zip(names, step, strict=True) if abs(s) >= 0.2), key=lambda m: -abs(m[1]))
+            members = sorted(
+                ((n, float(s)) for n, s in zip(names, step, strict=True) if abs(s) >= 0.2), key=lambda m: -abs(m[1])
+            )
             yield float(variance), dict(members)

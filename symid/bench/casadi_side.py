@@ -13,10 +13,20 @@ from symid.bench.peers import PeerTask, for_peers
 from symid.bench.task import Task
 
 SETUPS = ("map + JIT", "expand")
-OPTIONS = {"ipopt.tol": 1e-6, "ipopt.mu_strategy": "adaptive", "ipopt.linear_solver": "mumps",
-           "ipopt.print_level": 0, "ipopt.sb": "yes", "print_time": False}
-COMPILED = {"jit": True, "compiler": "shell", "jit_temp_suffix": True,
-            "jit_options": {"flags": ["-O3", "-march=native"], "verbose": False}}
+OPTIONS = {
+    "ipopt.tol": 1e-6,
+    "ipopt.mu_strategy": "adaptive",
+    "ipopt.linear_solver": "mumps",
+    "ipopt.print_level": 0,
+    "ipopt.sb": "yes",
+    "print_time": False,
+}
+COMPILED = {
+    "jit": True,
+    "compiler": "shell",
+    "jit_temp_suffix": True,
+    "jit_options": {"flags": ["-O3", "-march=native"], "verbose": False},
+}
 
 
 def identification(task: Task, setup: str) -> dict:
@@ -27,14 +37,21 @@ def identification(task: Task, setup: str) -> dict:
     began = processor_seconds()
     solver = build(peer, setup)
     built = processor_seconds()
-    lower, upper = (np.concatenate([np.tile(s, peer.nodes), p])
-                    for s, p in zip(peer.state_bounds, peer.parameter_bounds, strict=True))
+    lower, upper = (
+        np.concatenate([np.tile(s, peer.nodes), p])
+        for s, p in zip(peer.state_bounds, peer.parameter_bounds, strict=True)
+    )
     found = solver(x0=start(peer), lbx=lower, ubx=upper, lbg=0, ubg=0)
     ended = processor_seconds()
-    states = np.array(found["x"]).ravel()[:-len(peer.start)].reshape(len(peer.noises), *peer.recorded.shape)
-    return {"build": built - began, "solve": ended - built, "total": ended - began,
-            "iterations": solver.stats()["iter_count"], "status": solver.stats()["return_status"],
-            "rms": peer.rms(states)}
+    states = np.array(found["x"]).ravel()[: -len(peer.start)].reshape(len(peer.noises), *peer.recorded.shape)
+    return {
+        "build": built - began,
+        "solve": ended - built,
+        "total": ended - began,
+        "iterations": solver.stats()["iter_count"],
+        "status": solver.stats()["return_status"],
+        "rms": peer.rms(states),
+    }
 
 
 def evaluations(task: Task, setup: str) -> dict:
@@ -42,10 +59,15 @@ def evaluations(task: Task, setup: str) -> dict:
     peer = for_peers(task)
     solver = build(peer, setup)
     z, multipliers = start(peer), np.ones(solver.size1_in("lbg"))
-    functions = {"residual": ("nlp_g", (z, [])), "jacobian": ("nlp_jac_g", (z, [])),
-                 "hessian": ("nlp_hess_l", (z, [], 1.0, multipliers))}
-    return {f"{kind}_ms": _evaluation_ms(solver.get_function(name), arguments)
-            for kind, (name, arguments) in functions.items()}
+    functions = {
+        "residual": ("nlp_g", (z, [])),
+        "jacobian": ("nlp_jac_g", (z, [])),
+        "hessian": ("nlp_hess_l", (z, [], 1.0, multipliers)),
+    }
+    return {
+        f"{kind}_ms": _evaluation_ms(solver.get_function(name), arguments)
+        for kind, (name, arguments) in functions.items()
+    }
 
 
 def build(peer: PeerTask, setup: str):
@@ -73,7 +95,11 @@ def _interval(ca, peer: PeerTask):
     parameters, known = ca.SX.sym("p", len(model.parameters)), ca.SX.sym("known", 1 + len(model.noises))
     middle, rate = (left + right) / 2, (right - left) / peer.step
     values = [*ca.vertsplit(middle), *ca.vertsplit(rate), *ca.vertsplit(parameters), *ca.vertsplit(known)]
-    return ca.vertcat(left, right, parameters), known, ca.vertcat(*peer.function({"sin": ca.sin, "cos": ca.cos})(*values))
+    return (
+        ca.vertcat(left, right, parameters),
+        known,
+        ca.vertcat(*peer.function({"sin": ca.sin, "cos": ca.cos})(*values)),
+    )
 
 
 def _known(peer: PeerTask, episode: int) -> np.ndarray:
@@ -84,9 +110,9 @@ def _known(peer: PeerTask, episode: int) -> np.ndarray:
 def _unknowns(ca, peer: PeerTask, z):
     """Per episode (2 n + q, intervals): what each interval sees of the free vector."""
     nodes, n = peer.recorded.shape
-    parameters = ca.repmat(z[-len(peer.start):], 1, nodes - 1)
+    parameters = ca.repmat(z[-len(peer.start) :], 1, nodes - 1)
     for e in range(len(peer.noises)):
-        x = ca.reshape(z[e * n * nodes:(e + 1) * n * nodes], n, nodes)
+        x = ca.reshape(z[e * n * nodes : (e + 1) * n * nodes], n, nodes)
         yield ca.vertcat(x[:, :-1], x[:, 1:], parameters)
 
 
@@ -98,9 +124,9 @@ def _program(ca, peer: PeerTask) -> dict:
     constraints, objective = [], 0
     for e, seen in enumerate(_unknowns(ca, peer, z)):
         constraints.append(ca.vec(rows(seen, _known(peer, e))))
-        outputs = ca.reshape(z[e * n * nodes:(e + 1) * n * nodes], n, nodes)[:peer.targets.shape[1], :]
+        outputs = ca.reshape(z[e * n * nodes : (e + 1) * n * nodes], n, nodes)[: peer.targets.shape[1], :]
         objective += peer.step * ca.sumsqr(outputs - peer.targets.T)
-    constraints += [z[e * n * nodes:][:n] - z[(e + 1) * n * nodes:][:n] for e in range(len(peer.noises) - 1)]
+    constraints += [z[e * n * nodes :][:n] - z[(e + 1) * n * nodes :][:n] for e in range(len(peer.noises) - 1)]
     return {"x": z, "f": objective, "g": ca.vertcat(*constraints)}
 
 
@@ -123,7 +149,7 @@ def _mapped_derivatives(ca, peer: PeerTask, program: dict) -> tuple:
         at = e * n * (nodes - 1)
         own = at + n * np.arange(nodes - 1)
         jacobian.append((ca.vec(slopes(seen, _known(peer, e))), own + row[:, None], columns[col]))
-        multipliers = ca.reshape(lam[at:at + n * (nodes - 1)], n, nodes - 1)
+        multipliers = ca.reshape(lam[at : at + n * (nodes - 1)], n, nodes - 1)
         hessian.append((ca.vec(bends(seen, _known(peer, e), multipliers)), columns[upper], columns[lower]))
         outputs = e * n * nodes + np.add.outer(np.arange(peer.targets.shape[1]), n * np.arange(nodes))
         hessian.append((ca.repmat(2 * peer.step * factor, outputs.size, 1), outputs, outputs))
@@ -132,9 +158,16 @@ def _mapped_derivatives(ca, peer: PeerTask, program: dict) -> tuple:
         both = e * n * nodes + np.array([[0], [n * nodes]]) + np.arange(n)
         jacobian.append((ca.DM(np.tile([1.0, -1.0], n)), np.vstack([own, own]), both))
     constraints = ca.Function("rows", [program["x"]], [program["g"]])(z)
-    return (ca.Function("jac_g", [z, p], [constraints, _sparse(ca, jacobian, rows, size)], ["x", "p"], ["g", "jac_g_x"]),
-            ca.Function("hess_lag", [z, p, factor, lam], [_sparse(ca, hessian, size, size)],
-                        ["x", "p", "lam_f", "lam_g"], ["triu_hess_gamma_x_x"]))
+    return (
+        ca.Function("jac_g", [z, p], [constraints, _sparse(ca, jacobian, rows, size)], ["x", "p"], ["g", "jac_g_x"]),
+        ca.Function(
+            "hess_lag",
+            [z, p, factor, lam],
+            [_sparse(ca, hessian, size, size)],
+            ["x", "p", "lam_f", "lam_g"],
+            ["triu_hess_gamma_x_x"],
+        ),
+    )
 
 
 def _columns(peer: PeerTask, episode: int) -> np.ndarray:
@@ -156,8 +189,9 @@ def _sparse(ca, parts: list, rows: int, columns: int):
     if len(places) == len(key):
         values = values[np.argsort(target).tolist()]
     else:
-        values = ca.mtimes(ca.DM.triplet(target.tolist(), list(range(len(key))), ca.DM.ones(len(key)), len(places), len(key)),
-                           values)
+        values = ca.mtimes(
+            ca.DM.triplet(target.tolist(), list(range(len(key))), ca.DM.ones(len(key)), len(places), len(key)), values
+        )
     return ca.MX(ca.Sparsity.triplet(rows, columns, (places % rows).tolist(), (places // rows).tolist()), values)
 
 

@@ -51,8 +51,13 @@ def person() -> Model:
     return BODY.with_feedback(FullStatePD()).with_bounds(**wide)
 
 
-def head_to_head(seeds: Iterable[int], names: Sequence[str] | None = None, *, torque_noise: float = TORQUE_NOISE,
-                 on_row: Callable[[dict], None] = lambda row: None) -> pd.DataFrame:
+def head_to_head(
+    seeds: Iterable[int],
+    names: Sequence[str] | None = None,
+    *,
+    torque_noise: float = TORQUE_NOISE,
+    on_row: Callable[[dict], None] = lambda row: None,
+) -> pd.DataFrame:
     """One row per recording and formulation.
 
     Parameters
@@ -70,7 +75,9 @@ def head_to_head(seeds: Iterable[int], names: Sequence[str] | None = None, *, to
     rows = []
     for seed in seeds:
         model = person()
-        recording = standing_recording(model, TRUE, duration=MORE * FIT + HELD_OUT, seed=seed, torque_noise=torque_noise)
+        recording = standing_recording(
+            model, TRUE, duration=MORE * FIT + HELD_OUT, seed=seed, torque_noise=torque_noise
+        )
         for name in names or FORMULATIONS:
             row = {"seed": seed, "formulation": name} | _tried(FORMULATIONS[name], model, recording, seed, torque_noise)
             on_row(row)
@@ -81,10 +88,15 @@ def head_to_head(seeds: Iterable[int], names: Sequence[str] | None = None, *, to
 def summary(rows: pd.DataFrame) -> pd.DataFrame:
     """Per formulation: stable and solved share [%], medians of gain error [%], held-out RMS [deg] and seconds."""
     groups = rows.groupby("formulation", sort=False)
-    return pd.DataFrame({
-        "stable_percent": 100 * groups["stable"].mean(), "solved_percent": 100 * groups["solved"].mean(),
-        "gain_error_percent": 100 * groups["gain_error"].median(), "held_out_deg": groups["held_out_deg"].median(),
-        "seconds": groups["seconds"].median()})
+    return pd.DataFrame(
+        {
+            "stable_percent": 100 * groups["stable"].mean(),
+            "solved_percent": 100 * groups["solved"].mean(),
+            "gain_error_percent": 100 * groups["gain_error"].median(),
+            "held_out_deg": groups["held_out_deg"].median(),
+            "seconds": groups["seconds"].median(),
+        }
+    )
 
 
 @one_blas_thread
@@ -94,15 +106,26 @@ def _tried(formulation, model: Model, recording, seed: int, torque_noise: float)
         problem = Identification(model, recording, (0.0, FIT), episodes=Episodes(seed=seed))
         values, solved = formulation(problem, torque_noise)
     except SymidError:
-        return {"solved": False, "growth_1_s": np.nan, "stable": False, "gain_error": np.nan,
-                "held_out_deg": FALLEN_DEG, "seconds": time.process_time() - began}
+        return {
+            "solved": False,
+            "growth_1_s": np.nan,
+            "stable": False,
+            "gain_error": np.nan,
+            "held_out_deg": FALLEN_DEG,
+            "seconds": time.process_time() - began,
+        }
     seconds = time.process_time() - began
     gains = [k for k in TRUE if k.startswith("k")]
     error = np.array([values[k] - TRUE[k] for k in gains])
     rate = float(growth(model, np.zeros((1, 4)), values)[0])
-    return {"solved": solved, "growth_1_s": rate, "stable": rate < 0,
-            "gain_error": float(np.linalg.norm(error) / np.linalg.norm([TRUE[k] for k in gains])),
-            "held_out_deg": held_out_deg(model, values, recording), "seconds": seconds}
+    return {
+        "solved": solved,
+        "growth_1_s": rate,
+        "stable": rate < 0,
+        "gain_error": float(np.linalg.norm(error) / np.linalg.norm([TRUE[k] for k in gains])),
+        "held_out_deg": held_out_deg(model, values, recording),
+        "seconds": seconds,
+    }
 
 
 def held_out_deg(model: Model, values: dict[str, float], recording) -> float:
@@ -110,10 +133,15 @@ def held_out_deg(model: Model, values: dict[str, float], recording) -> float:
     last = recording.time >= MORE * FIT
     initial = [recording[name][last][0] for name in model.states]
     channels = [y.channel for y in model.outputs.values()]
-    run = simulator(model).simulate(values, initial, recording.time[last],
-                                    {u.channel: recording[u.channel][last] for u in model.inputs.values()}, limit=100.0)
+    run = simulator(model).simulate(
+        values,
+        initial,
+        recording.time[last],
+        {u.channel: recording[u.channel][last] for u in model.inputs.values()},
+        limit=100.0,
+    )
     error = run.y - np.stack([recording[c][last] for c in channels], axis=1)
-    rms = np.degrees(np.sqrt(np.mean(error ** 2)))
+    rms = np.degrees(np.sqrt(np.mean(error**2)))
     return float(rms) if rms < FALLEN_DEG else FALLEN_DEG
 
 
@@ -124,7 +152,7 @@ def _solved(problem: Identification) -> tuple[dict[str, float], bool]:
 
 def _values(problem: Identification, result) -> dict[str, float]:
     layout = problem.transcription.layout
-    return dict(zip(layout.parameter_names, layout.parameters(result.z[:layout.size]).tolist(), strict=True))
+    return dict(zip(layout.parameter_names, layout.parameters(result.z[: layout.size]).tolist(), strict=True))
 
 
 def _alone(problem: Identification, torque_noise: float):
@@ -155,11 +183,15 @@ def _eigenvalue_constraint(problem: Identification, torque_noise: float):
         return -np.linalg.solve(found.mass[0], found.state[0])
 
     place = [layout.parameter_names.index(k) for k in gains]
-    slopes = np.stack([(matrix(zero | {k: 1.0}) - matrix(zero)) * layout.parameter_scale[i]
-                       for k, i in zip(gains, place, strict=True)])
+    slopes = np.stack(
+        [
+            (matrix(zero | {k: 1.0}) - matrix(zero)) * layout.parameter_scale[i]
+            for k, i in zip(gains, place, strict=True)
+        ]
+    )
     columns, base, z = layout.offsets[-1] + np.array(place), matrix(zero), problem.start()
     own = columns[[gains.index(k) for k in OWN]]
-    for _ in range(STIFFER):    # the equations of stability are best begun where they hold
+    for _ in range(STIFFER):  # the equations of stability are best begun where they hold
         if np.linalg.eigvals(base + np.tensordot(z[columns], slopes, 1)).real.max() < -2 * MARGIN:
             break
         z[own] = np.minimum(1.1 * z[own], 0.9)
@@ -184,9 +216,10 @@ def _constraint_per_noise(problem: Identification) -> float:
     t = problem.transcription
     local, parameters, data, constants = t.program.interval_arguments(problem.start("random"), 0)
     louder = np.ascontiguousarray(data.copy())
-    louder[:, -len(problem.model.noises):] += 1.0
+    louder[:, -len(problem.model.noises) :] += 1.0
     change = t.program.interval.residual(local, parameters, louder, constants) - t.program.interval.residual(
-        local, parameters, data, constants)
+        local, parameters, data, constants
+    )
     return float(np.abs(change[0]).max())
 
 

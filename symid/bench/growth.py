@@ -33,8 +33,12 @@ def measure_growth(say: Callable[[str], None] = lambda text: None) -> dict[str, 
     The recordings are made up (`symid.synthetic`), with full-state feedback.
     """
     with _made_up(max(SECONDS)) as task:
-        return {"nodes": [_fastest(replace(task, window=(0.0, float(s))), say) for s in SECONDS],
-                "episodes": [_fastest(replace(task, window=(0.0, float(EPISODE_SECONDS)), episodes=m), say) for m in EPISODES]}
+        return {
+            "nodes": [_fastest(replace(task, window=(0.0, float(s))), say) for s in SECONDS],
+            "episodes": [
+                _fastest(replace(task, window=(0.0, float(EPISODE_SECONDS)), episodes=m), say) for m in EPISODES
+            ],
+        }
 
 
 def measure_load(say: Callable[[str], None] = lambda text: None) -> dict[str, list[dict]]:
@@ -63,8 +67,11 @@ def _fastest(task: Task, say: Callable[[str], None]) -> dict:
 def exponents(runs: list[dict], by: str) -> dict[str, float]:
     """Slopes of log cost over log size: of all ("total"), of one iteration, and of n log n on the same nodes."""
     size, nodes = np.log([r[by] for r in runs]), np.array([r["nodes"] for r in runs])
-    cost = {"total": [r["total"] for r in runs], "iteration": [r["solve"] / max(1, r["iterations"]) for r in runs],
-            "n log n": nodes * np.log(nodes)}
+    cost = {
+        "total": [r["total"] for r in runs],
+        "iteration": [r["solve"] / max(1, r["iterations"]) for r in runs],
+        "n log n": nodes * np.log(nodes),
+    }
     return {name: float(np.polyfit(size, np.log(values), 1)[0]) for name, values in cost.items()}
 
 
@@ -73,10 +80,16 @@ def growth_table(found: dict[str, list[dict]]) -> str:
     lines = []
     for by, runs in found.items():
         lines += [f"{by:>9}{'nodes':>9}{'total s':>10}{'iterations':>12}{'ms/iteration':>14}{'memory MB':>11}"]
-        lines += [f"{r[by]:>9}{r['nodes']:>9}{r['total']:>10.2f}{r['iterations']:>12}"
-                  f"{1e3 * r['solve'] / max(1, r['iterations']):>14.1f}{r['memory_mb']:>11.0f}" for r in runs]
+        lines += [
+            f"{r[by]:>9}{r['nodes']:>9}{r['total']:>10.2f}{r['iterations']:>12}"
+            f"{1e3 * r['solve'] / max(1, r['iterations']):>14.1f}{r['memory_mb']:>11.0f}"
+            for r in runs
+        ]
         e = exponents(runs, by)
         met = "met" if e["total"] <= e["n log n"] + MARGIN else "NOT MET"
-        lines += [f"cost ~ {by}^{e['total']:.2f} in all, {by}^{e['iteration']:.2f} an iteration; "
-                  f"n log n would be {by}^{e['n log n']:.2f}: {met}", ""]
+        lines += [
+            f"cost ~ {by}^{e['total']:.2f} in all, {by}^{e['iteration']:.2f} an iteration; "
+            f"n log n would be {by}^{e['n log n']:.2f}: {met}",
+            "",
+        ]
     return "\n".join(lines[:-1])

@@ -35,15 +35,26 @@ def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda
         say("first use of a model")
         new = run_fresh("symid_side.identification", task, "random", cache=cache)
         run_fresh("symid_side.identification", task, "default", cache=cache)  # compiles the simulator
-        evaluations = {"symid, C": _evaluations("symid_side", "c", task, cache, say),
-                       "symid, NumPy": _evaluations("symid_side", "numpy", task, cache, say)}
+        evaluations = {
+            "symid, C": _evaluations("symid_side", "c", task, cache, say),
+            "symid, NumPy": _evaluations("symid_side", "numpy", task, cache, say),
+        }
         if "casadi" not in absent:
             evaluations |= {f"CasADi, {s}": _evaluations("casadi_side", s, task, cache, say) for s in CASADI}
-        linear = {solver: run_fresh("symid_side.linear_systems", task, solver, cache=cache) for solver in ("chain", "mumps")}
+        linear = {
+            solver: run_fresh("symid_side.linear_systems", task, solver, cache=cache) for solver in ("chain", "mumps")
+        }
         say("linear systems")
         solves = {label: _solves(each, sides, rounds, cache, say) for label, each, sides in _plan(task, absent, quick)}
-    return {"task": asdict(task), "absent": absent, "evaluations": evaluations, "first_use": first, "linear": linear,
-            "first_identification": new, "solves": solves}
+    return {
+        "task": asdict(task),
+        "absent": absent,
+        "evaluations": evaluations,
+        "first_use": first,
+        "linear": linear,
+        "first_identification": new,
+        "solves": solves,
+    }
 
 
 def _plan(task: Task, absent: list[str], quick: bool):
@@ -54,8 +65,11 @@ def _plan(task: Task, absent: list[str], quick: bool):
     if quick:
         return
     if "opty" not in absent:
-        yield (f"{task.controller.upper()}, deterministic, opty", task,
-               {"symid, random start": symid["symid, random start"], "opty": ("opty_side.identification",)})
+        yield (
+            f"{task.controller.upper()}, deterministic, opty",
+            task,
+            {"symid, random start": symid["symid, random start"], "opty": ("opty_side.identification",)},
+        )
     yield "PD, three episodes", replace(task, controller="pd", episodes=3), symid | casadi
 
 
@@ -65,8 +79,10 @@ def _solves(task: Task, sides: dict[str, tuple], rounds: int, cache: str, say) -
         for side, (call, *arguments) in sides.items():
             run = run_fresh(call, replace(task, number=number), *arguments, cache=cache)
             runs[side].append(run)
-            say(f"{task.controller.upper()}, {task.episodes} episode(s), random start {number + 1}, {side}: "
-                f"{run['total']:.2f} s, {run['iterations']} iterations")
+            say(
+                f"{task.controller.upper()}, {task.episodes} episode(s), random start {number + 1}, {side}: "
+                f"{run['total']:.2f} s, {run['iterations']} iterations"
+            )
     return runs
 
 

@@ -54,8 +54,12 @@ class PeerTask:
         """States, their rates, parameters, input and noises, in SymPy."""
         m = self.model
         states = list(m.states.values())
-        return ([s.symbol for s in states], [s.dot for s in states], [p.symbol for p in m.parameters.values()],
-                [c.symbol for c in (*m.inputs.values(), *m.noises.values())])
+        return (
+            [s.symbol for s in states],
+            [s.dot for s in states],
+            [p.symbol for p in m.parameters.values()],
+            [c.symbol for c in (*m.inputs.values(), *m.noises.values())],
+        )
 
     @property
     def rows(self) -> list[sm.Expr]:
@@ -70,7 +74,7 @@ class PeerTask:
 
     def rms(self, states: np.ndarray) -> float:
         """Root mean square output error [SI] of (episodes, nodes, n) states."""
-        error = states[:, :, :self.targets.shape[1]] - self.targets
+        error = states[:, :, : self.targets.shape[1]] - self.targets
         return float(np.sqrt(np.mean(error**2)))
 
 
@@ -83,8 +87,15 @@ def for_peers(task: Task) -> PeerTask:
     states, parameters = (np.array([c.bounds for c in kind.values()]).T for kind in (model.states, model.parameters))
     (acceleration,) = m.inputs.values()
     return PeerTask(
-        model=model, step=m.step, recorded=layout.states(z, 0), targets=m.targets[m.nodes],
-        acceleration=acceleration[m.nodes], noises=[d.noise for d in t.program.data],
-        state_bounds=states, parameter_bounds=parameters / scale, parameter_scale=scale,
+        model=model,
+        step=m.step,
+        recorded=layout.states(z, 0),
+        targets=m.targets[m.nodes],
+        acceleration=acceleration[m.nodes],
+        noises=[d.noise for d in t.program.data],
+        state_bounds=states,
+        parameter_bounds=parameters / scale,
+        parameter_scale=scale,
         row_scale=np.array([1.0 if e.endswith("kinematics") else TORQUE for e in model.equations]),
-        start=layout.parameters(z) / scale)
+        start=layout.parameters(z) / scale,
+    )

@@ -36,7 +36,7 @@ def run_fresh(call: str, task: Task, *arguments: str, cache: str | Path | None =
     if ended.returncode or not results:
         last = [line for line in (ended.stderr or ended.stdout).splitlines() if line.strip()][-1:]
         raise SymidError(f"bench: {call}({', '.join(arguments)}) ended with code {ended.returncode}: {''.join(last)}")
-    return json.loads(results[-1][len(MARK):])
+    return json.loads(results[-1][len(MARK) :])
 
 
 def main(call: str, task: str, *arguments: str) -> None:

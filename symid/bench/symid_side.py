@@ -18,10 +18,12 @@ def evaluations(task: Task, backend: str) -> dict:
     count, index = len(arguments[0]), program._scatter[0]
     residual, jacobian = np.empty((count, kernel.m)), np.empty((count, len(kernel.jacobian_rows)))
     hessian, multipliers = np.zeros(len(program.hessian_rows)), np.ones((count, kernel.m))
-    return {"intervals": count,
-            "residual_ms": median_ms(lambda: kernel.residual(*arguments, out=residual)),
-            "jacobian_ms": median_ms(lambda: kernel.jacobian(*arguments, out=jacobian)),
-            "hessian_ms": median_ms(lambda: kernel.hessian_into(hessian, index, *arguments, multipliers))}
+    return {
+        "intervals": count,
+        "residual_ms": median_ms(lambda: kernel.residual(*arguments, out=residual)),
+        "jacobian_ms": median_ms(lambda: kernel.jacobian(*arguments, out=jacobian)),
+        "hessian_ms": median_ms(lambda: kernel.hessian_into(hessian, index, *arguments, multipliers)),
+    }
 
 
 def first_use(task: Task) -> dict:
@@ -50,8 +52,11 @@ def linear_systems(task: Task, solver: str) -> dict:
         options = {"print_timing_statistics": "yes", "output_file": str(report), "file_print_level": 5}
         result = problem.solve_from(problem.start("default", 0, task.number), linear_solver=solver, options=options)
         seconds = re.search(r"PDSystemSolverSolveOnce\.*: +([0-9.]+) +\(sys: +([0-9.]+)", report.read_text())
-    return {"ms": 1e3 * sum(map(float, seconds.groups())) / max(1, result.iterations), "iterations": result.iterations,
-            "objective": result.objective}
+    return {
+        "ms": 1e3 * sum(map(float, seconds.groups())) / max(1, result.iterations),
+        "iterations": result.iterations,
+        "objective": result.objective,
+    }
 
 
 def identification(task: Task, start: str) -> dict:
@@ -73,8 +78,15 @@ def identification(task: Task, start: str) -> dict:
 
     pairs = outputs_and_targets(transcription, result.z)
     rms = (sum(((y - d) ** 2).mean() for y, d in pairs) / len(pairs)) ** 0.5
-    return {"import": imported, "build": built - began, "solve": ended - built, "total": ended - began,
-            "nodes": sum(transcription.layout.intervals) + len(transcription.layout.intervals),
-            "iterations": result.iterations, "status": result.status_name, "rms": float(rms),
-            "functions_share": result.seconds["functions"] / result.seconds["total"],
-            "memory_mb": peak_memory_mb() - at_start}
+    return {
+        "import": imported,
+        "build": built - began,
+        "solve": ended - built,
+        "total": ended - began,
+        "nodes": sum(transcription.layout.intervals) + len(transcription.layout.intervals),
+        "iterations": result.iterations,
+        "status": result.status_name,
+        "rms": float(rms),
+        "functions_share": result.seconds["functions"] / result.seconds["total"],
+        "memory_mb": peak_memory_mb() - at_start,
+    }

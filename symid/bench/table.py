@@ -20,7 +20,9 @@ MEMORY_MB = 400.0
 def table(found: dict) -> str:
     """All of what `measure` found."""
     parts = [*_evaluations(found), "", *_solves(found), "", *_verdicts(found)]
-    parts += [f"{name} is not installed: no comparison with it (pip install 'symid[bench]')" for name in found["absent"]]
+    parts += [
+        f"{name} is not installed: no comparison with it (pip install 'symid[bench]')" for name in found["absent"]
+    ]
     return "\n".join(parts)
 
 
@@ -38,9 +40,11 @@ def _solves(found: dict) -> Iterator[str]:
         heads = "".join(f"{head:>11}" for head in ("build s", "solve s", "total s", "iterations", "RMS"))
         yield f"{title:<40}{heads}   of each start: total s (iterations, RMS)"
         for side, runs in sides.items():
-            yield (f"{side:<40}{middle(runs, 'build'):>11.2f}{middle(runs, 'solve'):>11.2f}{middle(runs, 'total'):>11.2f}"
-                   f"{middle(runs, 'iterations'):>11.0f}{middle(runs, 'rms'):>11.6f}   "
-                   + ", ".join(f"{r['total']:.2f} ({r['iterations']}, {r['rms']:.6f})" for r in runs))
+            yield (
+                f"{side:<40}{middle(runs, 'build'):>11.2f}{middle(runs, 'solve'):>11.2f}{middle(runs, 'total'):>11.2f}"
+                f"{middle(runs, 'iterations'):>11.0f}{middle(runs, 'rms'):>11.6f}   "
+                + ", ".join(f"{r['total']:.2f} ({r['iterations']}, {r['rms']:.6f})" for r in runs)
+            )
 
 
 def ratio(slow: list[list[dict]], fast: list[dict]) -> float:
@@ -54,19 +58,37 @@ def _verdicts(found: dict) -> Iterator[str]:
         row = found["evaluations"][side]
         yield _line(f"slowest evaluation, {side}", max(v for k, v in row.items() if k.endswith("_ms")), "ms", most)
     chain, mumps = (found["linear"][solver]["ms"] for solver in ("chain", "mumps"))
-    yield _line(f"linear systems, {chain:.1f} ms an iteration: MUMPS / symid", mumps / chain, "x", FASTER_THAN_MUMPS, at_least=True)
+    yield _line(
+        f"linear systems, {chain:.1f} ms an iteration: MUMPS / symid",
+        mumps / chain,
+        "x",
+        FASTER_THAN_MUMPS,
+        at_least=True,
+    )
     yield _line("first use of a new model", middle(found["first_use"], "seconds"), "s", FIRST_USE_S)
     for label, sides in found["solves"].items():
         casadi = [runs for side, runs in sides.items() if side.startswith("CasADi")]
         for kind, least in FASTER_THAN_CASADI.items():
             if casadi:
-                yield _line(f"{label}: {kind} start, CasADi's best / symid",
-                            ratio(casadi, sides[f"symid, {kind} start"]), "x", least, at_least=True)
+                yield _line(
+                    f"{label}: {kind} start, CasADi's best / symid",
+                    ratio(casadi, sides[f"symid, {kind} start"]),
+                    "x",
+                    least,
+                    at_least=True,
+                )
         if "opty" in sides:
-            yield _line(f"{label} / symid", ratio([sides["opty"]], sides["symid, random start"]), "x",
-                        FASTER_THAN_OPTY, at_least=True)
+            yield _line(
+                f"{label} / symid",
+                ratio([sides["opty"]], sides["symid, random start"]),
+                "x",
+                FASTER_THAN_OPTY,
+                at_least=True,
+            )
     alone = next(iter(found["solves"].values()))["symid, random start"]
-    yield _line("generated functions' share of the solve", 100 * middle(alone, "functions_share"), "%", 100 * FUNCTIONS_SHARE)
+    yield _line(
+        "generated functions' share of the solve", 100 * middle(alone, "functions_share"), "%", 100 * FUNCTIONS_SHARE
+    )
     yield _line("memory above the interpreter's start", max(r["memory_mb"] for r in alone), "MB", MEMORY_MB)
     new, known = found["first_identification"]["total"], middle(alone[:1], "total")
     yield f"{'identification that compiles first / the same later':<62}{new / known:>9.2f} x"

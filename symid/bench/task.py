@@ -47,5 +47,6 @@ class Task:
         from symid.transcription import Episodes
 
         noise = {"torque": NOISE} if self.episodes > 1 else {}
-        return Identification(build_model(self.body, self.controller), self.data,
-                              self.window, episodes=Episodes(self.episodes, **noise))
+        return Identification(
+            build_model(self.body, self.controller), self.data, self.window, episodes=Episodes(self.episodes, **noise)
+        )

@@ -76,15 +76,30 @@ def read_case(directory: str | Path) -> Case:
     _check(facts, path)
     given = (tuple(facts[k]) if k in facts else None for k in ("fit_window_s", "heldout_window_s"))
     fit, held_out = parts_of(recording, *given, source=str(path))
-    common = {"name": facts.get("id", directory.name), "model": model, "recording": recording, "fit_window": fit,
-              "held_out_window": held_out, "sensor_noise": facts.get("angle_noise_rms_rad_approx")}
+    common = {
+        "name": facts.get("id", directory.name),
+        "model": model,
+        "recording": recording,
+        "fit_window": fit,
+        "held_out_window": held_out,
+        "sensor_noise": facts.get("angle_noise_rms_rad_approx"),
+    }
     if facts["system"] == "standing":
         return Case(**common, segment_length=None, driven=True, settling=3.0)
-    return Case(**common, segment_length=facts.get("segment_s") or _pieces(model, recording, fit), driven=False, settling=0.0)
+    return Case(
+        **common, segment_length=facts.get("segment_s") or _pieces(model, recording, fit), driven=False, settling=0.0
+    )
 
 
-def rig_case(recording: str | os.PathLike, parameters: str | os.PathLike | Mapping[str, object], *, friction: Iterable[str] = (),
-             fit_window: Part | None = None, held_out: Part | None = None, sensor_noise: float | None = None) -> Case:
+def rig_case(
+    recording: str | os.PathLike,
+    parameters: str | os.PathLike | Mapping[str, object],
+    *,
+    friction: Iterable[str] = (),
+    fit_window: Part | None = None,
+    held_out: Part | None = None,
+    sensor_noise: float | None = None,
+) -> Case:
     """A rig whose parameters are known, as a case: a chain of links that hangs from a mount.
 
     Parameters
@@ -102,28 +117,44 @@ def rig_case(recording: str | os.PathLike, parameters: str | os.PathLike | Mappi
     table = with_base_acceleration(read_recording(recording))
     model = rig_model(parameters, table.channels, friction)
     fit, later = parts_of(table, fit_window, held_out, source=str(recording))
-    return Case(table.name, model, table, fit, later, sensor_noise, _pieces(model, table, fit), driven=False, settling=0.0)
+    return Case(
+        table.name, model, table, fit, later, sensor_noise, _pieces(model, table, fit), driven=False, settling=0.0
+    )
 
 
 def diagnose_case(case: Case, **options) -> Diagnosis:
     """`diagnose` with everything that the case says."""
-    return diagnose(case.model, case.recording, fit_window=case.fit_window, held_out=case.held_out_window,
-                    sensor_noise=case.sensor_noise, segment_length=case.segment_length, driven=case.driven,
-                    settling=case.settling, **options)
+    return diagnose(
+        case.model,
+        case.recording,
+        fit_window=case.fit_window,
+        held_out=case.held_out_window,
+        sensor_noise=case.sensor_noise,
+        segment_length=case.segment_length,
+        driven=case.driven,
+        settling=case.settling,
+        **options,
+    )
 
 
-def parts_of(recording: Recording, fit: Part | None, held_out: Part | None, source: str = "") -> tuple[Part, Part | None]:
+def parts_of(
+    recording: Recording, fit: Part | None, held_out: Part | None, source: str = ""
+) -> tuple[Part, Part | None]:
     """The two parts that are compared; those that the column ``split`` labels where they are not given."""
     labels = [] if recording.split is None else list(dict.fromkeys(recording.split.tolist()))
     source = source or recording.name
     for part in (fit, held_out):
         if isinstance(part, str) and part not in labels:
-            raise DiagnosisError(f"{source}: no segment is labelled '{part}'; labels of the column split: {', '.join(labels) or 'none'}")
+            raise DiagnosisError(
+                f"{source}: no segment is labelled '{part}'; labels of the column split: {', '.join(labels) or 'none'}"
+            )
     if fit is None:
         fit = next((k for k in FIT_LABELS if k in labels), None)
         if fit is None:
             found = f"its column split has the labels {', '.join(labels)}" if labels else "it has no column split"
-            raise DiagnosisError(f"{source}: which part is to be diagnosed? {found}; give a window of two times in seconds, or a label")
+            raise DiagnosisError(
+                f"{source}: which part is to be diagnosed? {found}; give a window of two times in seconds, or a label"
+            )
     if held_out is None and isinstance(fit, str):
         held_out = next((k for k in HELD_OUT_LABELS if k in labels and k != fit), None)
     return fit, held_out
@@ -152,16 +183,27 @@ def _check(facts: dict, path: Path) -> None:
     """Windows, noise and length of a piece are usable where they are there."""
     for key in ("fit_window_s", "heldout_window_s"):
         if key in facts and not _is_window(facts[key]):
-            raise DiagnosisError(f"{path}: {key} must be a start and a later end in seconds, found {json.dumps(facts[key])}")
+            raise DiagnosisError(
+                f"{path}: {key} must be a start and a later end in seconds, found {json.dumps(facts[key])}"
+            )
     for key in ("angle_noise_rms_rad_approx", "segment_s"):
         value = facts.get(key)
-        if value is not None and (isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < 1e12):
-            raise DiagnosisError(f"{path}: {key} must be a number above zero, found {json.dumps(value)}; leave it out if it is unknown")
+        if value is not None and (
+            isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < 1e12
+        ):
+            raise DiagnosisError(
+                f"{path}: {key} must be a number above zero, found {json.dumps(value)}; leave it out if it is unknown"
+            )
 
 
 def _is_window(window) -> bool:
-    return (isinstance(window, list) and len(window) == 2 and all(isinstance(t, (int, float)) for t in window)
-            and not any(isinstance(t, bool) for t in window) and -1e12 < window[0] < window[1] < 1e12)
+    return (
+        isinstance(window, list)
+        and len(window) == 2
+        and all(isinstance(t, (int, float)) for t in window)
+        and not any(isinstance(t, bool) for t in window)
+        and -1e12 < window[0] < window[1] < 1e12
+    )
 
 
 def _facts(path: Path) -> dict:

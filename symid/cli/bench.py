@@ -8,23 +8,35 @@ import sys
 from symid.errors import SymidError
 
 SUMMARY = "measure symid on this machine, beside its peers where they are installed"
-EXAMPLES = (
-    "symid bench --quick",
-    "symid bench --recording walk.csv --body body.json --window 0 60 --json bench.json",
-)
+EXAMPLES = ("symid bench --quick", "symid bench --recording walk.csv --body body.json --window 0 60 --json bench.json")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--recording", metavar="RECORDING.csv", help="instead of the synthetic one that ships; needs --body")
+    parser.add_argument(
+        "--recording", metavar="RECORDING.csv", help="instead of the synthetic one that ships; needs --body"
+    )
     parser.add_argument("--body", metavar="BODY.json", help="of that recording's person")
-    parser.add_argument("--window", nargs=2, type=float, metavar=("T0", "T1"), default=(0.0, 100.0),
-                        help="part to fit, s (default: 0 100)")
+    parser.add_argument(
+        "--window",
+        nargs=2,
+        type=float,
+        metavar=("T0", "T1"),
+        default=(0.0, 100.0),
+        help="part to fit, s (default: 0 100)",
+    )
     parser.add_argument("--quick", action="store_true", help="one random start; without episodes and opty")
     parser.add_argument("--load", action="store_true", help="only long made-up recordings, 100 to 800 s")
-    parser.add_argument("--growth", metavar="OUT.png",
-                        help="only the growth of the cost: 500 to 20000 nodes, 1 to 10 episodes, and its figure")
-    parser.add_argument("--formulations", type=int, metavar="K",
-                        help="only formulations head to head, on K made-up recordings whose gains are known")
+    parser.add_argument(
+        "--growth",
+        metavar="OUT.png",
+        help="only the growth of the cost: 500 to 20000 nodes, 1 to 10 episodes, and its figure",
+    )
+    parser.add_argument(
+        "--formulations",
+        type=int,
+        metavar="K",
+        help="only formulations head to head, on K made-up recordings whose gains are known",
+    )
     parser.add_argument("--json", metavar="OUT.json", help="write every run as JSON")
 
 
@@ -35,10 +47,13 @@ def run(arguments: argparse.Namespace) -> int:
     if len(chosen) > 1:
         raise SymidError(f"bench: --{chosen[0]} and --{chosen[1]} are measurements of their own; give one")
     task = Task(*_files(arguments), window=tuple(arguments.window))
-    measurement = {"load": _load, "growth": _growth, "formulations": _formulations}.get(chosen[0] if chosen else "", _all)
+    measurement = {"load": _load, "growth": _growth, "formulations": _formulations}.get(
+        chosen[0] if chosen else "", _all
+    )
     found = measurement(task, arguments)
     if arguments.json:
         from symid.files import write_json
+
         write_json(arguments.json, found)
     return 0
 
@@ -76,8 +91,12 @@ def _formulations(task, arguments: argparse.Namespace) -> list[dict]:
 
     if arguments.formulations < 1:
         raise SymidError(f"bench: --formulations {arguments.formulations} is not possible; give at least 1 recording")
-    rows = head_to_head(range(arguments.formulations), on_row=lambda row: _say(
-        f"recording {row['seed']}, {row['formulation']}: {'stable' if row['stable'] else 'unstable'}, {row['seconds']:.2f} s"))
+    rows = head_to_head(
+        range(arguments.formulations),
+        on_row=lambda row: _say(
+            f"recording {row['seed']}, {row['formulation']}: {'stable' if row['stable'] else 'unstable'}, {row['seconds']:.2f} s"
+        ),
+    )
     print(summary(rows).to_string(float_format=lambda x: f"{x:.3g}"))
     return rows.to_dict("records")
 
@@ -90,6 +109,7 @@ def _files(arguments: argparse.Namespace) -> tuple[str, str]:
     if arguments.recording is not None:
         return arguments.recording, arguments.body
     from symid.cli.demo import data_folder
+
     return str(data_folder() / "recording.csv"), str(data_folder() / "body.json")
 
 

@@ -12,13 +12,27 @@ EXAMPLES = ("symid conceal practice --system standing --random --count 4",)
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("folder", metavar="OUT_DIR", help="gets cases/<id>/ and sealed/<id>.json")
-    parser.add_argument("--system", default="standing", metavar="standing|rig|CASE.json",
-                        help="a person on a platform (default), a double pendulum, or one like that of a case file")
-    parser.add_argument("--effect", action="append", default=[], metavar="NAME@PLACE[:KEY=VALUE,...]",
-                        help="what to conceal, twice for two; sizes that are not given are drawn")
-    parser.add_argument("--random", action="store_true", help="conceal one random effect, two, none, or an unlisted one")
-    parser.add_argument("--equivalents", action="store_true",
-                        help="also establish which other answers the recording cannot tell from the truth (up to a minute each)")
+    parser.add_argument(
+        "--system",
+        default="standing",
+        metavar="standing|rig|CASE.json",
+        help="a person on a platform (default), a double pendulum, or one like that of a case file",
+    )
+    parser.add_argument(
+        "--effect",
+        action="append",
+        default=[],
+        metavar="NAME@PLACE[:KEY=VALUE,...]",
+        help="what to conceal, twice for two; sizes that are not given are drawn",
+    )
+    parser.add_argument(
+        "--random", action="store_true", help="conceal one random effect, two, none, or an unlisted one"
+    )
+    parser.add_argument(
+        "--equivalents",
+        action="store_true",
+        help="also establish which other answers the recording cannot tell from the truth (up to a minute each)",
+    )
     parser.add_argument("--seed", type=int, default=0, help="the same seed gives the same files (default: 0)")
     parser.add_argument("--count", type=int, default=1, metavar="N", help="how many cases (default: 1)")
 
@@ -31,8 +45,10 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.errors import SymidError
 
     if arguments.count < 1 or arguments.seed < 0:
-        raise SymidError(f"conceal: --count {arguments.count} --seed {arguments.seed} is not possible; give at least one case, "
-                         "and a seed that is not negative")
+        raise SymidError(
+            f"conceal: --count {arguments.count} --seed {arguments.seed} is not possible; give at least one case, "
+            "and a seed that is not negative"
+        )
     if arguments.random and arguments.effect:
         raise SymidError("conceal: give --effect or --random, not both")
     effects = None if arguments.random else [parse_effect(text) for text in arguments.effect]

@@ -12,15 +12,16 @@ from symid.errors import RecordingError
 
 SUMMARY = "identify the synthetic recording in data/ and compare with what it was made with"
 FIT, HELD_OUT = (0.0, 100.0), (100.0, 120.0)
-EXAMPLES = (
-    "symid demo",
-    "symid demo --report first.html",
-)
+EXAMPLES = ("symid demo", "symid demo --report first.html")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--report", metavar="OUT.html", default="symid_demo.html",
-                        help="where to write the report (default: symid_demo.html)")
+    parser.add_argument(
+        "--report",
+        metavar="OUT.html",
+        default="symid_demo.html",
+        help="where to write the report (default: symid_demo.html)",
+    )
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -67,6 +68,8 @@ def _beside_truth(solution, truth: dict[str, float]) -> str:
     lines = [f"{'parameter':<12}{'found':>12}{'std. error':>12}{'truth':>12}   {'unit':<12}{'off by'}"]
     for name, row in solution.parameters.iterrows():
         off = (row.value - truth[name]) / row.std_error
-        lines.append(f"{name:<12}{row.value:>12.5g}{row.std_error:>12.2g}{truth[name]:>12.5g}   {row.unit:<12}"
-                     f"{off:+.1f} std. errors")
+        lines.append(
+            f"{name:<12}{row.value:>12.5g}{row.std_error:>12.2g}{truth[name]:>12.5g}   {row.unit:<12}"
+            f"{off:+.1f} std. errors"
+        )
     return "\n".join(lines)

@@ -20,23 +20,49 @@ EXAMPLES = (
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("source", metavar="CASE_DIR|RECORDING.csv",
-                        help="a directory with recording.csv and case.json, or a recording of a standing person or of a rig")
+    parser.add_argument(
+        "source",
+        metavar="CASE_DIR|RECORDING.csv",
+        help="a directory with recording.csv and case.json, or a recording of a standing person or of a rig",
+    )
     person = parser.add_argument_group("for the recording of a standing person")
     person.add_argument("--body", metavar="BODY.json", help="body parameters with units in their names")
     person.add_argument("--controller", choices=CONTROLLERS, help="feedback law of the model")
     rig = parser.add_argument_group("for the recording of a rig, a chain of links that hangs from a mount")
-    rig.add_argument("--rig", metavar="PARAMETERS.json", help="masses, lengths and inertias with units in their names: m1_kg, a1_m "
-                     "(joint to centre of mass), I1_kg_m2, L1_m (joint to joint), m2_kg ..., g_m_s2; friction in it is ignored")
-    rig.add_argument("--friction", nargs="+", metavar="JOINT", help="joints to which the model gives an unknown viscous friction "
-                     "(default: none, a conservative model)")
+    rig.add_argument(
+        "--rig",
+        metavar="PARAMETERS.json",
+        help="masses, lengths and inertias with units in their names: m1_kg, a1_m "
+        "(joint to centre of mass), I1_kg_m2, L1_m (joint to joint), m2_kg ..., g_m_s2; friction in it is ignored",
+    )
+    rig.add_argument(
+        "--friction",
+        nargs="+",
+        metavar="JOINT",
+        help="joints to which the model gives an unknown viscous friction (default: none, a conservative model)",
+    )
     own = parser.add_argument_group("for any recording (a case directory says all of this itself)")
-    own.add_argument("--window", nargs="+", metavar="T", help="part to diagnose: two times in s, or a label of the column split "
-                     "(default: its label for fitting)")
-    own.add_argument("--held-out", nargs="+", metavar="T", help="part that proves the finding, used once: two times in s, or a label "
-                     "(default: the label for holding out)")
-    own.add_argument("--sensor-noise", type=float, metavar="RAD", help="rms of the angle sensors' noise (default: as the recording shows)")
-    parser.add_argument("--threads", type=int, default=2, metavar="N", help="suspects that are tried at once (default: 2)")
+    own.add_argument(
+        "--window",
+        nargs="+",
+        metavar="T",
+        help="part to diagnose: two times in s, or a label of the column split (default: its label for fitting)",
+    )
+    own.add_argument(
+        "--held-out",
+        nargs="+",
+        metavar="T",
+        help="part that proves the finding, used once: two times in s, or a label (default: the label for holding out)",
+    )
+    own.add_argument(
+        "--sensor-noise",
+        type=float,
+        metavar="RAD",
+        help="rms of the angle sensors' noise (default: as the recording shows)",
+    )
+    parser.add_argument(
+        "--threads", type=int, default=2, metavar="N", help="suspects that are tried at once (default: 2)"
+    )
     parser.add_argument("--json", metavar="OUT.json", help="write the finding as JSON")
     parser.add_argument("--report", metavar="OUT.html", help="write a report with figures")
     parser.add_argument("--held-out-csv", metavar="OUT.csv", help="write the prediction of the held-out window")
@@ -60,8 +86,9 @@ def run(arguments: argparse.Namespace) -> int:
         finding.held_out_csv(arguments.held_out_csv)
     if arguments.report:
         from symid.report import write_diagnosis_report
+
         write_diagnosis_report(finding, arguments.report, f"Diagnosis of {source.name}", _provenance(source, finding))
-    print(finding)    # after the files: a reader that has enough closes the pipe
+    print(finding)  # after the files: a reader that has enough closes the pipe
     return 0
 
 
@@ -82,7 +109,9 @@ def _of_case(directory: Path, arguments: argparse.Namespace):
 
     given = [f"--{k.replace('_', '-')}" for k in OF_A_RECORDING if getattr(arguments, k) is not None]
     if given:
-        raise DiagnosisError(f"{directory} is a case directory, whose case.json says what {given[0]} would; leave it out")
+        raise DiagnosisError(
+            f"{directory} is a case directory, whose case.json says what {given[0]} would; leave it out"
+        )
     return diagnose_case(read_case(directory), threads=arguments.threads, progress=_tell)
 
 
@@ -94,8 +123,14 @@ def _of_rig(path: Path, arguments: argparse.Namespace):
     if given:
         raise DiagnosisError(f"{given[0]} describes a standing person and --rig a rig; give one of them")
     _refuse_odd_noise(arguments)
-    case = rig_case(path, arguments.rig, friction=arguments.friction or (), fit_window=_part("--window", arguments.window),
-                    held_out=_part("--held-out", arguments.held_out), sensor_noise=arguments.sensor_noise)
+    case = rig_case(
+        path,
+        arguments.rig,
+        friction=arguments.friction or (),
+        fit_window=_part("--window", arguments.window),
+        held_out=_part("--held-out", arguments.held_out),
+        sensor_noise=arguments.sensor_noise,
+    )
     if arguments.held_out_csv and case.held_out_window is None:
         raise DiagnosisError("--held-out-csv needs a held-out window; give --held-out T0 T1, or a label")
     return diagnose_case(case, threads=arguments.threads, progress=_tell)
@@ -112,12 +147,23 @@ def _of_person(path: Path, arguments: argparse.Namespace):
     if missing:
         raise DiagnosisError(f"{path} is no case directory, so {', '.join(missing)} must be given, or --rig for a rig")
     if arguments.friction:
-        raise DiagnosisError("--friction belongs to --rig; a standing person's feedback holds any viscous friction already")
+        raise DiagnosisError(
+            "--friction belongs to --rig; a standing person's feedback holds any viscous friction already"
+        )
     _refuse_odd_noise(arguments)
     model, recording = build_model(arguments.body, arguments.controller), read_recording(path)
-    fit, held_out = parts_of(recording, _part("--window", arguments.window), _part("--held-out", arguments.held_out), str(path))
-    return diagnose(model, recording, fit_window=fit, held_out=held_out, sensor_noise=arguments.sensor_noise,
-                    threads=arguments.threads, progress=_tell)
+    fit, held_out = parts_of(
+        recording, _part("--window", arguments.window), _part("--held-out", arguments.held_out), str(path)
+    )
+    return diagnose(
+        model,
+        recording,
+        fit_window=fit,
+        held_out=held_out,
+        sensor_noise=arguments.sensor_noise,
+        threads=arguments.threads,
+        progress=_tell,
+    )
 
 
 def _part(option: str, words: list[str] | None) -> tuple[float, float] | str | None:
@@ -128,8 +174,10 @@ def _part(option: str, words: list[str] | None) -> tuple[float, float] | str | N
         return words and words[0]
     if len(words) == 2 and all(map(_is_number, words)) and float(words[0]) < float(words[1]):
         return float(words[0]), float(words[1])
-    raise DiagnosisError(f"{option} {' '.join(words)} is no window; give a start and a later end in seconds, "
-                         "or a label of the column split")
+    raise DiagnosisError(
+        f"{option} {' '.join(words)} is no window; give a start and a later end in seconds, "
+        "or a label of the column split"
+    )
 
 
 def _is_number(word: str) -> bool:
@@ -141,13 +189,17 @@ def _is_number(word: str) -> bool:
 
 def _refuse_odd_noise(arguments: argparse.Namespace) -> None:
     from symid.errors import DiagnosisError
+
     if arguments.sensor_noise is not None and not 0 < arguments.sensor_noise < 1:
-        raise DiagnosisError(f"--sensor-noise {arguments.sensor_noise:g} is not possible; give the rms in rad, more than 0")
+        raise DiagnosisError(
+            f"--sensor-noise {arguments.sensor_noise:g} is not possible; give the rms in rad, more than 0"
+        )
 
 
 def _refuse_missing_folders(arguments: argparse.Namespace) -> None:
     """Before the work, not after it."""
     from symid.errors import DiagnosisError
+
     for path in (arguments.json, arguments.report, arguments.held_out_csv):
         if path and not Path(path).parent.is_dir():
             raise DiagnosisError(f"{path} cannot be written: the folder {Path(path).parent} does not exist")

@@ -26,14 +26,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     checks: dict[str, Callable[[], str]] = {
-        "Python": lambda: f"{platform.python_version()} in {sys.prefix}, {platform.machine()}, {os.cpu_count()} processors",
-        "symid": lambda: version("symid"), "libraries": _libraries, "optional": _optional, "threads": _threads,
-        "compiler": _compiler, "cache": _cache, "Ipopt": _ipopt, "self-test": _self_test}
+        "Python": lambda: (
+            f"{platform.python_version()} in {sys.prefix}, {platform.machine()}, {os.cpu_count()} processors"
+        ),
+        "symid": lambda: version("symid"),
+        "libraries": _libraries,
+        "optional": _optional,
+        "threads": _threads,
+        "compiler": _compiler,
+        "cache": _cache,
+        "Ipopt": _ipopt,
+        "self-test": _self_test,
+    }
     failed = 0
     for name, check in checks.items():
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")    # each check says in its own words what such a warning would say
+                warnings.simplefilter("ignore")  # each check says in its own words what such a warning would say
                 words, mark = check(), "ok"
         except (SymidError, ImportError, OSError) as problem:
             words, mark, failed = str(problem), "BAD", failed + 1
@@ -57,7 +66,10 @@ def _optional() -> str:
 
 def _threads() -> str:
     chosen = {k: os.environ[k] for k in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS") if k in os.environ}
-    return ", ".join(f"{k}={v}" for k, v in chosen.items()) or "OMP_NUM_THREADS is not set; symid limits BLAS to one thread itself"
+    return (
+        ", ".join(f"{k}={v}" for k, v in chosen.items())
+        or "OMP_NUM_THREADS is not set; symid limits BLAS to one thread itself"
+    )
 
 
 def _compiler() -> str:
@@ -98,7 +110,9 @@ def _self_test() -> str:
     folder = data_folder()
     truth = json.loads((folder / "truth.json").read_text(encoding="utf-8"))["parameters"]
     started = time.perf_counter()
-    problem = Identification(build_model(folder / "body.json", "fpd"), read_recording(folder / "recording.csv"), (0.0, 30.0))
+    problem = Identification(
+        build_model(folder / "body.json", "fpd"), read_recording(folder / "recording.csv"), (0.0, 30.0)
+    )
     solution = problem.solve()
     if not solution.solved:
         raise SymidError(f"a small identification did not solve: {solution.message}")
@@ -106,5 +120,7 @@ def _self_test() -> str:
     off = max(abs(row.value - truth[name]) / row.std_error for name, row in table.iterrows())
     if not off < 6:
         raise SymidError(f"a small identification ended {off:.1f} standard errors from its truth")
-    return (f"{len(table)} parameters from 30 s of recording in {time.perf_counter() - started:.1f} s, "
-            f"at most {off:.1f} standard errors from the truth")
+    return (
+        f"{len(table)} parameters from 30 s of recording in {time.perf_counter() - started:.1f} s, "
+        f"at most {off:.1f} standard errors from the truth"
+    )

@@ -53,15 +53,22 @@ def command_names() -> list[str]:
 
 def build_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="symid", description="Identify mechanical systems and their feedback controllers from recordings, "
-        "and find the physics that a model left out.")
+        prog="symid",
+        description="Identify mechanical systems and their feedback controllers from recordings, "
+        "and find the physics that a model left out.",
+    )
     parser.add_argument("--version", action="version", version=f"symid {version('symid')}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     for name in command_names():
         module = import_module(f"symid.cli.{name}")
         examples = "\n".join(["examples:", *(f"  {example}" for example in module.EXAMPLES)])
-        command = commands.add_parser(name, help=module.SUMMARY, description=module.SUMMARY, epilog=examples,
-                                      formatter_class=argparse.RawDescriptionHelpFormatter)
+        command = commands.add_parser(
+            name,
+            help=module.SUMMARY,
+            description=module.SUMMARY,
+            epilog=examples,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
         module.add_arguments(command)
         command.set_defaults(run=module.run, command=name)
     return parser

@@ -11,8 +11,17 @@ from contextlib import AbstractContextManager, nullcontext
 from symid.errors import ModelError, SolveError
 from symid.progress import said
 
-LARGEST = {"episodes": 1000, "jobs": 1024, "threads": 1024, "starts": 10**5, "count": 10**5, "formulations": 1000,
-           "max_iterations": 10**9, "duration": 1e6, "rate": 1e6}
+LARGEST = {
+    "episodes": 1000,
+    "jobs": 1024,
+    "threads": 1024,
+    "starts": 10**5,
+    "count": 10**5,
+    "formulations": 1000,
+    "max_iterations": 10**9,
+    "duration": 1e6,
+    "rate": 1e6,
+}
 """Numbers above these are slips of the keyboard: more than any machine holds or does in a year."""
 SAMPLES = 10**8
 """Likewise for the samples of one simulation: a gigabyte a channel."""
@@ -25,22 +34,32 @@ def refuse_absurd(arguments: argparse.Namespace) -> None:
     for name, value in given.items():
         option = f"--{name.replace('_', '-')}"
         for number in value if isinstance(value, (list, tuple)) else [value]:
-            if isinstance(number, float) and not math.isfinite(number) and name not in ("window", "held_out"):  # said by measure
+            if (
+                isinstance(number, float) and not math.isfinite(number) and name not in ("window", "held_out")
+            ):  # said by measure
                 raise SolveError(f"{option} {number} is not possible; give a finite number")
             if name in ("seed", "seeds") and isinstance(number, int) and not 0 <= number < 2**63:
                 raise SolveError(f"{option} {str(number)[:30]} is not possible; give a whole number from 0 to 2^63 - 1")
             if name in LARGEST and number is not None and number > LARGEST[name]:
                 raise SolveError(f"{option} {str(number)[:30]} is not possible; give at most {LARGEST[name]:g}")
     if (given.get("duration") or 0) * (given.get("rate") or 0) > SAMPLES:
-        raise SolveError(f"--duration {given['duration']:g} at --rate {given['rate']:g} are more than {SAMPLES:g} samples; give less")
+        raise SolveError(
+            f"--duration {given['duration']:g} at --rate {given['rate']:g} are more than {SAMPLES:g} samples; give less"
+        )
 
 
 def add_recording_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--columns", metavar="MAP.toml",
-                        help='what the file calls its columns: lines such as ankle_angle_deg = "Ankle Flexion", time_s = "t"; '
-                             "a minus before the file's name turns the sign")
-    parser.add_argument("--allow-gaps", action="store_true",
-                        help="accept blank cells, missing rows and uneven times, and give what is missing no weight")
+    parser.add_argument(
+        "--columns",
+        metavar="MAP.toml",
+        help='what the file calls its columns: lines such as ankle_angle_deg = "Ankle Flexion", time_s = "t"; '
+        "a minus before the file's name turns the sign",
+    )
+    parser.add_argument(
+        "--allow-gaps",
+        action="store_true",
+        help="accept blank cells, missing rows and uneven times, and give what is missing no weight",
+    )
 
 
 def add_model_arguments(parser: argparse.ArgumentParser) -> None:
@@ -49,26 +68,45 @@ def add_model_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def add_episode_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--episodes", type=int, default=1, metavar="M",
-                        help="noisy repetitions that share the parameters (default: 1, without noise)")
-    parser.add_argument("--noise", type=float, default=0.25, metavar="NM",
-                        help="joint-torque noise of the episodes: half width of uniform noise (a multisine has the same "
-                             "power), standard deviation of gaussian noise, N m (default: 0.25)")
+    parser.add_argument(
+        "--episodes",
+        type=int,
+        default=1,
+        metavar="M",
+        help="noisy repetitions that share the parameters (default: 1, without noise)",
+    )
+    parser.add_argument(
+        "--noise",
+        type=float,
+        default=0.25,
+        metavar="NM",
+        help="joint-torque noise of the episodes: half width of uniform noise (a multisine has the same "
+        "power), standard deviation of gaussian noise, N m (default: 0.25)",
+    )
     add_distribution_argument(parser)
     parser.add_argument("--seed", type=int, default=0, help="of random starts and noise (default: 0)")
 
 
 def add_distribution_argument(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--distribution", default="multisine", metavar="NAME",
-                        help="how the noise is drawn: multisine (default; flat spectrum, orthogonal, zero in sum over the "
-                             "episodes, so that the parameters depend little on the draw), uniform or gaussian (independent)")
+    parser.add_argument(
+        "--distribution",
+        default="multisine",
+        metavar="NAME",
+        help="how the noise is drawn: multisine (default; flat spectrum, orthogonal, zero in sum over the "
+        "episodes, so that the parameters depend little on the draw), uniform or gaussian (independent)",
+    )
 
 
 def build_model(body: str, controller: str):
     """The standing model of a body file under one of CONTROLLERS."""
     from symid import mechanics
-    laws = {"pd": mechanics.PD, "fpd": mechanics.FullStatePD, "nn": mechanics.NeuralNetwork,
-            "fpd-delay": lambda: mechanics.FullStatePD(delay=(0.0, 0.3))}
+
+    laws = {
+        "pd": mechanics.PD,
+        "fpd": mechanics.FullStatePD,
+        "nn": mechanics.NeuralNetwork,
+        "fpd-delay": lambda: mechanics.FullStatePD(delay=(0.0, 0.3)),
+    }
     if controller not in laws:
         raise ModelError(f"no controller '{controller}'; known: {', '.join(laws)}")
     return mechanics.DoubleLinkPendulum.from_json(body).with_feedback(laws[controller]())
@@ -76,15 +114,22 @@ def build_model(body: str, controller: str):
 
 def add_executor_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="processes for the solves (default: 1)")
-    parser.add_argument("--cluster", metavar="ADDRESS",
-                        help="solve on the workers of the dask scheduler there, tcp://HOST:PORT (needs symid[dask])")
-    parser.add_argument("--store", metavar="DIRECTORY",
-                        help="keep each finished solve there; the same command again resumes after a kill")
+    parser.add_argument(
+        "--cluster",
+        metavar="ADDRESS",
+        help="solve on the workers of the dask scheduler there, tcp://HOST:PORT (needs symid[dask])",
+    )
+    parser.add_argument(
+        "--store",
+        metavar="DIRECTORY",
+        help="keep each finished solve there; the same command again resumes after a kill",
+    )
 
 
 def chosen_executor(jobs: int, cluster: str | None) -> AbstractContextManager[Executor | None]:
     """A cluster, or `jobs` local processes, or None for this process alone; to be used in a with statement."""
     from symid.identification import Cluster, LocalPool
+
     if jobs < 1:
         raise SolveError(f"--jobs {jobs} is not possible; give at least 1 process")
     if cluster is not None:
@@ -96,6 +141,11 @@ def show_iteration(iteration) -> None:
     """Progress on stderr: in place on a terminal, every tenth iteration otherwise."""
     end = "\r" if sys.stderr.isatty() else ""
     if end or iteration.number % 10 == 0:
-        print(f"iteration {iteration.number:4d}  objective {iteration.objective:.6g}  infeasibility "
-              f"{iteration.infeasibility:.1e} ", end=end or "\n", file=sys.stderr, flush=True)
+        print(
+            f"iteration {iteration.number:4d}  objective {iteration.objective:.6g}  infeasibility "
+            f"{iteration.infeasibility:.1e} ",
+            end=end or "\n",
+            file=sys.stderr,
+            flush=True,
+        )
         said()

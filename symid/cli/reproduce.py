@@ -10,22 +10,32 @@ from symid.errors import RecordingError, SolveError
 
 SUMMARY = "run the article's twelve identifications and print every number beside the article's"
 BESIDE = "shared/recordings/standing_subject05"
-EXAMPLES = (
-    "symid reproduce --quick",
-    "symid reproduce --starts 10 --jobs 2",
-)
+EXAMPLES = ("symid reproduce --quick", "symid reproduce --starts 10 --jobs 2")
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--only", nargs="+", metavar="NAME", help="cases (PD-3) or controllers (PD, FPD, NN); default: all")
-    parser.add_argument("--recordings", metavar="DIRECTORY",
-                        help=f"with recording_50hz.csv and body.json (default: ../{BESIDE})")
+    parser.add_argument(
+        "--only", nargs="+", metavar="NAME", help="cases (PD-3) or controllers (PD, FPD, NN); default: all"
+    )
+    parser.add_argument(
+        "--recordings", metavar="DIRECTORY", help=f"with recording_50hz.csv and body.json (default: ../{BESIDE})"
+    )
     parser.add_argument("--starts", type=int, default=10, metavar="K", help="starts of each case (default: 10)")
-    parser.add_argument("--seeds", nargs="+", type=int, default=[0], metavar="S",
-                        help="of the process noise, each reported (default: 0)")
+    parser.add_argument(
+        "--seeds",
+        nargs="+",
+        type=int,
+        default=[0],
+        metavar="S",
+        help="of the process noise, each reported (default: 0)",
+    )
     parser.add_argument("--quick", action="store_true", help="one start of each case")
-    parser.add_argument("--output", default="reproduction", metavar="DIRECTORY",
-                        help="for the CSV and the figures (default: reproduction)")
+    parser.add_argument(
+        "--output",
+        default="reproduction",
+        metavar="DIRECTORY",
+        help="for the CSV and the figures (default: reproduction)",
+    )
     add_distribution_argument(parser)
     add_executor_arguments(parser)
 
@@ -45,9 +55,18 @@ def run(arguments: argparse.Namespace) -> int:
     recording = read_recording(folder / "recording_50hz.csv")
     body = mechanics.DoubleLinkPendulum.from_json(folder / "body.json")
     with chosen_executor(arguments.jobs, arguments.cluster) as executor:
-        found = reproduce(cases, body, recording, starts=1 if arguments.quick else arguments.starts, seeds=arguments.seeds,
-                          distribution=arguments.distribution, executor=executor, jobs=arguments.jobs,
-                          store=arguments.store, on_finished=tell)
+        found = reproduce(
+            cases,
+            body,
+            recording,
+            starts=1 if arguments.quick else arguments.starts,
+            seeds=arguments.seeds,
+            distribution=arguments.distribution,
+            executor=executor,
+            jobs=arguments.jobs,
+            store=arguments.store,
+            on_finished=tell,
+        )
     lines = [text(found)]
     files = {"comparison.csv": comparison(found).to_csv(index=False)}
     if found.findings:
@@ -69,5 +88,7 @@ def _folder(given: str | None) -> Path:
     for place in places:
         if (place / "recording_50hz.csv").is_file():
             return place
-    raise RecordingError(f"the article's recording (recording_50hz.csv and body.json) is not in {places[0]}; "
-                         "name its folder with --recordings")
+    raise RecordingError(
+        f"the article's recording (recording_50hz.csv and body.json) is not in {places[0]}; "
+        "name its folder with --recordings"
+    )

@@ -17,16 +17,35 @@ EXAMPLES = ("symid simulate made.csv --body body.json --controller fpd --paramet
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("output", metavar="RECORDING.csv", help="file to write")
     add_model_arguments(parser)
-    parser.add_argument("--parameters", metavar="PARAMETERS.json", required=True,
-                        help="name: SI value of each parameter; what `symid identify --json` writes will do")
-    parser.add_argument("--platform", metavar="OTHER.csv",
-                        help="recording whose platform acceleration is used (default: random pulses from --seed)")
+    parser.add_argument(
+        "--parameters",
+        metavar="PARAMETERS.json",
+        required=True,
+        help="name: SI value of each parameter; what `symid identify --json` writes will do",
+    )
+    parser.add_argument(
+        "--platform",
+        metavar="OTHER.csv",
+        help="recording whose platform acceleration is used (default: random pulses from --seed)",
+    )
     parser.add_argument("--duration", type=float, metavar="S", help="s (default: 120, or that of --platform)")
-    parser.add_argument("--rate", type=float, metavar="HZ", help="samples per second (default: 50, or that of --platform)")
-    parser.add_argument("--torque-noise", type=float, default=4.0, metavar="NM",
-                        help="standard deviation of each joint's torque noise, N m (default: 4)")
-    parser.add_argument("--sensor-noise", type=float, default=3e-4, metavar="RAD",
-                        help="standard deviation on the recorded angles, rad (default: 0.0003)")
+    parser.add_argument(
+        "--rate", type=float, metavar="HZ", help="samples per second (default: 50, or that of --platform)"
+    )
+    parser.add_argument(
+        "--torque-noise",
+        type=float,
+        default=4.0,
+        metavar="NM",
+        help="standard deviation of each joint's torque noise, N m (default: 4)",
+    )
+    parser.add_argument(
+        "--sensor-noise",
+        type=float,
+        default=3e-4,
+        metavar="RAD",
+        help="standard deviation on the recorded angles, rad (default: 0.0003)",
+    )
     parser.add_argument("--seed", type=int, default=0, help="of the platform's pulses and all noise (default: 0)")
 
 
@@ -38,14 +57,28 @@ def run(arguments: argparse.Namespace) -> int:
     parameters = read_parameters(arguments.parameters, model)
     platform, duration, rate = _platform(arguments.platform)
     duration, rate = arguments.duration or duration, arguments.rate or rate
-    for option, value in (("--duration", duration), ("--rate", rate), ("--torque-noise", arguments.torque_noise),
-                          ("--sensor-noise", arguments.sensor_noise)):
+    for option, value in (
+        ("--duration", duration),
+        ("--rate", rate),
+        ("--torque-noise", arguments.torque_noise),
+        ("--sensor-noise", arguments.sensor_noise),
+    ):
         if not (math.isfinite(value) and value >= 0) or (value == 0 and "noise" not in option):
             raise RecordingError(f"simulate: {option} {value:g} is not possible; give a positive number")
-    recording = standing_recording(model, parameters, duration=duration, rate=rate, seed=arguments.seed, platform=platform,
-                                   torque_noise=arguments.torque_noise, sensor_noise=arguments.sensor_noise)
+    recording = standing_recording(
+        model,
+        parameters,
+        duration=duration,
+        rate=rate,
+        seed=arguments.seed,
+        platform=platform,
+        torque_noise=arguments.torque_noise,
+        sensor_noise=arguments.sensor_noise,
+    )
     write_atomically(arguments.output, csv_text(recording))
-    print(f"{arguments.output}: {len(recording)} samples, {duration:g} s at {rate:g} Hz, {model.name}, seed {arguments.seed}")
+    print(
+        f"{arguments.output}: {len(recording)} samples, {duration:g} s at {rate:g} Hz, {model.name}, seed {arguments.seed}"
+    )
     return 0
 
 
@@ -76,8 +109,11 @@ def read_parameters(path: str, model) -> dict[str, float]:
     values = {k: v["value"] if isinstance(v, dict) and "value" in v else v for k, v in content.items()}
     wrong = [f"'{k}' is missing" for k in model.parameters if k not in values]
     wrong += [f"'{k}' is no parameter of {model.name}" for k in values if k not in model.parameters]
-    wrong += [f"'{k}' must be a finite number, found {json.dumps(v)}" for k, v in values.items()
-              if isinstance(v, bool) or not isinstance(v, (int, float)) or not math.isfinite(v)]
+    wrong += [
+        f"'{k}' must be a finite number, found {json.dumps(v)}"
+        for k, v in values.items()
+        if isinstance(v, bool) or not isinstance(v, (int, float)) or not math.isfinite(v)
+    ]
     if wrong:
         raise RecordingError(f"{path}: " + "; ".join(wrong))
     return values

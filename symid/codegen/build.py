@@ -24,8 +24,17 @@ from symid.errors import CodegenError
 # -O1 with the vectoriser runs within a tenth of -O2 and -O3 and compiles in half the time.
 # Rounding stays that of the written order (no -ffast-math, no fused multiply-add), so that all
 # backends and machines agree; NaN stays NaN, so that callers can see it.
-FLAGS = ("-O1", "-ftree-vectorize", "-fopenmp-simd", "-fno-math-errno", "-fno-trapping-math", "-fno-signed-zeros",
-         "-ffp-contract=off", "-fPIC", "-shared")
+FLAGS = (
+    "-O1",
+    "-ftree-vectorize",
+    "-fopenmp-simd",
+    "-fno-math-errno",
+    "-fno-trapping-math",
+    "-fno-signed-zeros",
+    "-ffp-contract=off",
+    "-fPIC",
+    "-shared",
+)
 PROBE_S, COMPILE_S = 10.0, 120.0
 """Seconds after which a compiler is taken to hang: at telling its version and at one line, and at a kernel,
 which takes below a second (the largest shipped one 4 s on one core)."""
@@ -60,8 +69,11 @@ _warned: list[str] = []
 def _warn_once(problem: str) -> None:
     if not _warned:
         _warned.append(problem)
-        warnings.warn(f"generated functions run in NumPy, which is some 10 to 100 times slower than C: {problem}",
-                      CodegenWarning, stacklevel=3)
+        warnings.warn(
+            f"generated functions run in NumPy, which is some 10 to 100 times slower than C: {problem}",
+            CodegenWarning,
+            stacklevel=3,
+        )
 
 
 def compiler() -> list[str]:
@@ -69,7 +81,9 @@ def compiler() -> list[str]:
     try:
         return shlex.split(os.environ.get("CC", "")) or ["cc"]
     except ValueError as problem:
-        raise CodegenError(f"no C compiler: CC={os.environ['CC']!r} is no command ({problem}); set it to gcc or clang") from None
+        raise CodegenError(
+            f"no C compiler: CC={os.environ['CC']!r} is no command ({problem}); set it to gcc or clang"
+        ) from None
 
 
 def load_library(source: str, extra: Sequence[str] = ()) -> ctypes.CDLL:
@@ -97,8 +111,10 @@ def load(path: Path) -> ctypes.CDLL:
     try:
         return ctypes.CDLL(str(path))
     except OSError as problem:
-        raise CodegenError(f"the compiled kernel {path} cannot be loaded ({problem}); set SYMID_CACHE_DIR to a folder "
-                           "from which programs may run") from None
+        raise CodegenError(
+            f"the compiled kernel {path} cannot be loaded ({problem}); set SYMID_CACHE_DIR to a folder "
+            "from which programs may run"
+        ) from None
 
 
 def compiled(source: str, extra: Sequence[str] = ()) -> Path:
@@ -167,18 +183,30 @@ def _compile(source: str, command: list[str], extra: Sequence[str], limit_s: flo
 def _run(arguments: list[str], limit_s: float) -> subprocess.CompletedProcess:
     """Run the compiler; with all that it started it is ended after `limit_s`, or when this process is interrupted."""
     try:
-        process = subprocess.Popen(arguments, stdout=subprocess.PIPE, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL,
-                                   text=True, errors="replace", env=os.environ | {"LC_ALL": "C"}, start_new_session=True)
+        process = subprocess.Popen(
+            arguments,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            stdin=subprocess.DEVNULL,
+            text=True,
+            errors="replace",
+            env=os.environ | {"LC_ALL": "C"},
+            start_new_session=True,
+        )
     except (OSError, ValueError) as problem:
-        raise CodegenError(f"no C compiler: '{arguments[0]}' cannot be run ({getattr(problem, 'strerror', problem)}); "
-                           "install gcc or clang, or set CC") from None
+        raise CodegenError(
+            f"no C compiler: '{arguments[0]}' cannot be run ({getattr(problem, 'strerror', problem)}); "
+            "install gcc or clang, or set CC"
+        ) from None
     try:
         out, err = process.communicate(timeout=limit_s)
     except BaseException as stopped:
         _end(process)
         if isinstance(stopped, subprocess.TimeoutExpired):
-            raise CodegenError(f"no C compiler: '{arguments[0]}' did not end within {limit_s:g} s and was stopped; "
-                               "install gcc or clang, or set CC") from None
+            raise CodegenError(
+                f"no C compiler: '{arguments[0]}' did not end within {limit_s:g} s and was stopped; "
+                "install gcc or clang, or set CC"
+            ) from None
         raise
     return subprocess.CompletedProcess(arguments, process.returncode, out, err)
 

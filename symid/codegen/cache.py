@@ -102,7 +102,10 @@ def _spare_folder(cache: Path, reason: str) -> Path:
     """A folder that lives as long as this process, with one warning."""
     if not _spare:
         _spare.append(tempfile.TemporaryDirectory(prefix="symid-cache-"))
-        warnings.warn(f"compiled kernels cannot be kept in {cache} ({reason}), so every process compiles them anew; set "
-                      "SYMID_CACHE_DIR to a folder that is yours alone (mode 0700) and can be written", CodegenWarning,
-                      stacklevel=2)
+        warnings.warn(
+            f"compiled kernels cannot be kept in {cache} ({reason}), so every process compiles them anew; set "
+            "SYMID_CACHE_DIR to a folder that is yours alone (mode 0700) and can be written",
+            CodegenWarning,
+            stacklevel=2,
+        )
     return Path(_spare[0].name)

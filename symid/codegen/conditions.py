@@ -12,8 +12,21 @@ from symid.codegen.interval import local_symbols, node_table, point_table
 from symid.codegen.program import Program
 from symid.codegen.stencil import Stencil
 from symid.codegen.symbols import (
-    FIRST, LAST, STEP, algebraics_at_nodes, at, constant_symbols, data_at, duration_of, node_symbols, parameter_symbols,
-    refuse_late, scale_symbol, scaled_parameters, scales, used_data,
+    FIRST,
+    LAST,
+    STEP,
+    algebraics_at_nodes,
+    at,
+    constant_symbols,
+    data_at,
+    duration_of,
+    node_symbols,
+    parameter_symbols,
+    refuse_late,
+    scale_symbol,
+    scaled_parameters,
+    scales,
+    used_data,
 )
 from symid.model import TIME, Constraint, Model, Process, Row, initial, terminal
 
@@ -29,21 +42,31 @@ def path_rows(model: Model) -> list[tuple[str, Row]]:
     residual, names = model.residual(), list(model.equations)
     apart = model.algebraic_equations() if algebraics_at_nodes(model) else ()
     rows = [(f"equation {names[i]}", Row(residual[i], 0.0, 0.0)) for i in apart]
-    return rows + [(f"constraint {name}", _inlined(model, c.row)) for name, c in model.constraints.items()
-                   if c.soft is None and not of_parameters_alone(model, c)]
+    return rows + [
+        (f"constraint {name}", _inlined(model, c.row))
+        for name, c in model.constraints.items()
+        if c.soft is None and not of_parameters_alone(model, c)
+    ]
 
 
 def parameter_rows(model: Model) -> list[tuple[str, Row]]:
     """(name, row) of the constraints on parameters alone."""
-    return [(f"constraint {name}", _inlined(model, c.row)) for name, c in model.constraints.items()
-            if of_parameters_alone(model, c)]
+    return [
+        (f"constraint {name}", _inlined(model, c.row))
+        for name, c in model.constraints.items()
+        if of_parameters_alone(model, c)
+    ]
 
 
 def end_rows(model: Model) -> list[tuple[str, Row]]:
     """(name, row) of the boundary conditions but those that `transcription.bounds` keeps as bounds."""
     along = set(node_symbols(model)) | {u.symbol for u in model.inputs.values()}
-    return [(f"boundary {name}", _inlined(model, row)) for name, b in model.boundaries.items()
-            for row in b.rows(along) if not is_bound(model, row)]
+    return [
+        (f"boundary {name}", _inlined(model, row))
+        for name, b in model.boundaries.items()
+        for row in b.rows(along)
+        if not is_bound(model, row)
+    ]
 
 
 def is_bound(model: Model, row: Row) -> bool:
@@ -60,14 +83,20 @@ def node_program(model: Model, duration: str | None = None) -> Program:
     rows = [r.expr for _, r in path_rows(model)]
     refuse_late(model, rows, "a constraint or an algebraic equation")
     table = node_table(model) | {u: v for u, v in data_at(path_data(model), "node", duration).items()}
-    return _program(model, "nodes", [r.xreplace(table) for r in rows], node_symbols(model),
-                    [at(u, "node") for u in path_data(model)])
+    return _program(
+        model,
+        "nodes",
+        [r.xreplace(table) for r in rows],
+        node_symbols(model),
+        [at(u, "node") for u in path_data(model)],
+    )
 
 
 def running_rows(model: Model) -> list[sm.Expr]:
     """What is integrated: running objectives and the squared violations of soft constraints."""
-    return [model.inline(o.running) for o in model.objectives.values() if o.running != 0] + \
-           [sm.Float(c.soft) * model.inline(c.violation) for c in model.constraints.values() if c.soft is not None]
+    return [model.inline(o.running) for o in model.objectives.values() if o.running != 0] + [
+        sm.Float(c.soft) * model.inline(c.violation) for c in model.constraints.values() if c.soft is not None
+    ]
 
 
 def running_program(model: Model, stencil: Stencil, duration: str | None = None, graded: bool = False) -> Program:
@@ -84,18 +113,30 @@ def running_program(model: Model, stencil: Stencil, duration: str | None = None,
     value = sm.Integer(0)
     for place, slot in ((FIRST, 0), (LAST, last)):
         held = {u.name for u in model.controls.values() if u.hold == "zero"}
-        table = scaled_parameters(model) | data_at(data, place, duration) | {
-            s: scale_symbol(s) * at(s, 0 if str(s) in held else slot) for s in node_symbols(model)}
+        table = (
+            scaled_parameters(model)
+            | data_at(data, place, duration)
+            | {s: scale_symbol(s) * at(s, 0 if str(s) in held else slot) for s in node_symbols(model)}
+        )
         value += share * total.xreplace(table)
     for p, weight in enumerate(stencil.inside):
         if weight:
             value += float(weight) * total.xreplace(point_table(model, stencil, p, data, duration))
-    smooth = [u.smooth * (scale_symbol(u.name) * (at(u.name, last) - at(u.name, 0))) ** 2 / step
-              for u in model.controls.values() if u.smooth]
+    smooth = [
+        u.smooth * (scale_symbol(u.name) * (at(u.name, last) - at(u.name, 0))) ** 2 / step
+        for u in model.controls.values()
+        if u.smooth
+    ]
     stations = (FIRST, *range(stencil.points), LAST)
     process = sm.Add(*process_rows(model)).xreplace(table_at_start(model))
-    return _program(model, "running", [step * value + sm.Add(*smooth), step * process], local_symbols(model, stencil),
-                    [*(at(u, s) for s in stations for u in data), *([STEP] if graded else [])], graded)
+    return _program(
+        model,
+        "running",
+        [step * value + sm.Add(*smooth), step * process],
+        local_symbols(model, stencil),
+        [*(at(u, s) for s in stations for u in data), *([STEP] if graded else [])],
+        graded,
+    )
 
 
 def table_at_start(model: Model) -> dict[sm.Symbol, sm.Expr]:
@@ -122,8 +163,13 @@ def ends_program(model: Model, rows: list[sm.Expr], name: str, duration: str | N
     inputs = [u.symbol for u in model.inputs.values()]
     for u in inputs:
         table |= {initial(u): at(u, FIRST), terminal(u): at(u, LAST), u: at(u, LAST)}
-    return _program(model, name, [r.xreplace(table) for r in rows], [at(s, place) for place in (FIRST, LAST) for s in node],
-                    [at(TIME, LAST), *(at(u, place) for place in (FIRST, LAST) for u in inputs)])
+    return _program(
+        model,
+        name,
+        [r.xreplace(table) for r in rows],
+        [at(s, place) for place in (FIRST, LAST) for s in node],
+        [at(TIME, LAST), *(at(u, place) for place in (FIRST, LAST) for u in inputs)],
+    )
 
 
 def parameter_program(model: Model, rows: list[sm.Expr], name: str) -> Program:
@@ -161,5 +207,11 @@ def _inlined(model: Model, row: Row) -> Row:
 
 
 def _program(model: Model, name: str, rows, local, data, graded: bool = False) -> Program:
-    return Program(name=f"{model.name} {name}", rows=tuple(rows), local=tuple(local), shared=tuple(parameter_symbols(model)),
-                   data=tuple(data), constants=(*constant_symbols(model), *([] if graded else [STEP]), *scales(model)))
+    return Program(
+        name=f"{model.name} {name}",
+        rows=tuple(rows),
+        local=tuple(local),
+        shared=tuple(parameter_symbols(model)),
+        data=tuple(data),
+        constants=(*constant_symbols(model), *([] if graded else [STEP]), *scales(model)),
+    )

@@ -38,15 +38,31 @@ SYMID_VECTOR extern double tanh(double);
 # An operand that a pattern repeats is always a variable (REPEATING). NaN must pass through:
 # every comparison with NaN is false, hence the order of the branches.
 PATTERNS = {
-    "add": "({} + {})", "sub": "({} - {})", "mul": "({} * {})", "neg": "(-{})", "inv": "(1.0 / {})",
-    "lt": "({} < {})", "le": "({} <= {})", "gt": "({} > {})", "ge": "({} >= {})", "eq": "({} == {})",
-    "ne": "({} != {})", "and": "({} & {})", "or": "({} | {})", "not": "(!{})", "select": "({} ? {} : {})",
-    "abs": "fabs({})", "sign": "({0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})",
+    "add": "({} + {})",
+    "sub": "({} - {})",
+    "mul": "({} * {})",
+    "neg": "(-{})",
+    "inv": "(1.0 / {})",
+    "lt": "({} < {})",
+    "le": "({} <= {})",
+    "gt": "({} > {})",
+    "ge": "({} >= {})",
+    "eq": "({} == {})",
+    "ne": "({} != {})",
+    "and": "({} & {})",
+    "or": "({} | {})",
+    "not": "(!{})",
+    "select": "({} ? {} : {})",
+    "abs": "fabs({})",
+    "sign": "({0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})",
     "max": "({0} > {1} ? {0} : {1} >= {0} ? {1} : {0} + {1})",
     "min": "({0} < {1} ? {0} : {1} <= {0} ? {1} : {0} + {1})",
-    **{f: f + "({})" for f in ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh",
-                               "tanh", "floor")},
-    "atan2": "atan2({}, {})", "pow": "pow({}, {})",
+    **{
+        f: f + "({})"
+        for f in ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "floor")
+    },
+    "atan2": "atan2({}, {})",
+    "pow": "pow({}, {})",
 }
 REPEATING = ("sign", "max", "min")
 CONDITIONS = ("lt", "le", "gt", "ge", "eq", "ne", "and", "or", "not")
@@ -75,8 +91,9 @@ class Statements:
         self.graph, self.names, self.patterns, self.number = graph, names or {}, patterns, number
         order = graph.needed(outputs)
         uses = Counter(a for k in order for a in graph.operands(k))
-        apart = {a for k in order for a in graph.operands(k)
-                 if graph.level[a] != graph.level[k] or graph.ops[k] in REPEATING}
+        apart = {
+            a for k in order for a in graph.operands(k) if graph.level[a] != graph.level[k] or graph.ops[k] in REPEATING
+        }
         named = [k for k in order if graph.operands(k) and (uses[k] > 1 or k in apart)]
         self.variable = {k: f"v{n}" for n, k in enumerate(named)}
 
@@ -92,8 +109,11 @@ class Statements:
 
     def assigned(self, level: int) -> list[tuple[str, str, str]]:
         """(C type, variable, expression) of each named operation of this level, in order."""
-        return [("int" if self.graph.ops[k] in CONDITIONS else "double", v, self.expression(k, top=True))
-                for k, v in self.variable.items() if self.graph.level[k] == level]
+        return [
+            ("int" if self.graph.ops[k] in CONDITIONS else "double", v, self.expression(k, top=True))
+            for k, v in self.variable.items()
+            if self.graph.level[k] == level
+        ]
 
     def declarations(self, level: int) -> list[str]:
         return [f"const {kind} {v} = {text};" for kind, v, text in self.assigned(level)]

@@ -13,8 +13,19 @@ import sympy as sm
 from symid.codegen.program import Program
 from symid.codegen.stencil import Stencil
 from symid.codegen.symbols import (
-    STEP, algebraics_at_nodes, at, constant_symbols, data_at, duration_of, node_symbols, own_points, parameter_symbols,
-    scale_symbol, scaled_parameters, scales, used_data,
+    STEP,
+    algebraics_at_nodes,
+    at,
+    constant_symbols,
+    data_at,
+    duration_of,
+    node_symbols,
+    own_points,
+    parameter_symbols,
+    scale_symbol,
+    scaled_parameters,
+    scales,
+    used_data,
 )
 from symid.model import Model, symbol
 
@@ -55,9 +66,13 @@ def local_symbols(model: Model, stencil: Stencil) -> tuple[sm.Symbol, ...]:
     """The unknowns that one interval sees, in the order of `transcription.layout`."""
     node, states = node_symbols(model), [s.symbol for s in model.states.values()]
     last = stencil.slots - 1
-    return (*(at(s, 0) for s in node), *(at(x, s) for s in range(1, last) for x in states),
-            *(at(y, f"point {p}") for p in own_points(model, stencil) for y in model.algebraics),
-            *(at(y, p) for p in range(stencil.points) for y in late_signals(model)), *(at(s, last) for s in node))
+    return (
+        *(at(s, 0) for s in node),
+        *(at(x, s) for s in range(1, last) for x in states),
+        *(at(y, f"point {p}") for p in own_points(model, stencil) for y in model.algebraics),
+        *(at(y, p) for p in range(stencil.points) for y in late_signals(model)),
+        *(at(s, last) for s in node),
+    )
 
 
 def interval_program(model: Model, stencil: Stencil, duration: str | None = None, graded: bool = False) -> Program:
@@ -79,15 +94,26 @@ def interval_program(model: Model, stencil: Stencil, duration: str | None = None
     equations = [scale_symbol(e) for e in model.equations]
     over = equations_over(model)
     apart = [i for i in range(len(residual)) if i not in over]
-    points = [[r.xreplace(table) for r in residual]
-              for table in (point_table(model, stencil, p, data, duration) for p in range(stencil.points))]
-    rows = [sum(sm.Float(w) * at_point[i] if w != 1 else at_point[i]
-                for w, at_point in zip(weights, points, strict=True) if w) / equations[i]
-            for weights in stencil.weights for i in over]
+    points = [
+        [r.xreplace(table) for r in residual]
+        for table in (point_table(model, stencil, p, data, duration) for p in range(stencil.points))
+    ]
+    rows = [
+        sum(
+            sm.Float(w) * at_point[i] if w != 1 else at_point[i]
+            for w, at_point in zip(weights, points, strict=True)
+            if w
+        )
+        / equations[i]
+        for weights in stencil.weights
+        for i in over
+    ]
     rows += [points[p][i] / equations[i] for p in own_points(model, stencil) for i in apart]
     rows += [combination(d, [at(x, s) for s in range(stencil.slots)]) for d in stencil.defects for x in states]
     return Program(
-        name=f"{model.name} interval", rows=tuple(rows), local=local_symbols(model, stencil),
+        name=f"{model.name} interval",
+        rows=tuple(rows),
+        local=local_symbols(model, stencil),
         shared=tuple(parameter_symbols(model)),
         data=(*(at(u, p) for p in range(stencil.points) for u in data), *noises, *([STEP] if graded else [])),
         constants=(*constant_symbols(model), *([] if graded else [STEP]), *scales(model), *equations),
@@ -106,26 +132,40 @@ def objective_program(model: Model, gaps: bool = False, robust: Collection[str] 
     """
     observed = model.observed()
     data = used_data(model, observed)
-    recorded, weights, present, width = ([at(y, what) for y in model.outputs]
-                                         for what in ("recorded", "weight", "present", "width"))
+    recorded, weights, present, width = (
+        [at(y, what) for y in model.outputs] for what in ("recorded", "weight", "present", "width")
+    )
     table, error = node_table(model), sm.Integer(0)
     for i, (name, y) in enumerate(zip(model.outputs, observed, strict=True)):
         e = y.xreplace(table) - recorded[i]
         square = 2 * width[i] ** 2 * (sm.sqrt(1 + (e / width[i]) ** 2) - 1) if name in robust else e**2
         error += weights[i] * (present[i] if gaps else 1) * square
-    return Program(name=f"{model.name} objective", rows=(error,), local=tuple(node_symbols(model)),
-                   shared=tuple(parameter_symbols(model)),
-                   data=(*data, *recorded, *(present if gaps else ()),
-                         *(w for w, name in zip(width, model.outputs, strict=True) if name in robust)),
-                   constants=(*constant_symbols(model), *scales(model), *weights))
+    return Program(
+        name=f"{model.name} objective",
+        rows=(error,),
+        local=tuple(node_symbols(model)),
+        shared=tuple(parameter_symbols(model)),
+        data=(
+            *data,
+            *recorded,
+            *(present if gaps else ()),
+            *(w for w, name in zip(width, model.outputs, strict=True) if name in robust),
+        ),
+        constants=(*constant_symbols(model), *scales(model), *weights),
+    )
 
 
 def output_program(model: Model) -> Program:
     """The outputs at one node, in SI units; arguments as in `objective_program`, without its weights."""
     table = node_table(model)
-    return Program(name=f"{model.name} outputs", rows=tuple(y.xreplace(table) for y in model.observed()),
-                   local=tuple(node_symbols(model)), shared=tuple(parameter_symbols(model)),
-                   data=used_data(model, model.observed()), constants=(*constant_symbols(model), *scales(model)))
+    return Program(
+        name=f"{model.name} outputs",
+        rows=tuple(y.xreplace(table) for y in model.observed()),
+        local=tuple(node_symbols(model)),
+        shared=tuple(parameter_symbols(model)),
+        data=used_data(model, model.observed()),
+        constants=(*constant_symbols(model), *scales(model)),
+    )
 
 
 def node_table(model: Model) -> dict[sm.Symbol, sm.Expr]:
@@ -135,6 +175,7 @@ def node_table(model: Model) -> dict[sm.Symbol, sm.Expr]:
 
 def combination(coefficients, symbols) -> sm.Expr:
     """Sum of coefficient * symbol, without what is zero."""
-    terms = [(s if c == 1 else -s if c == -1 else sm.Float(c) * s)
-             for c, s in zip(coefficients, symbols, strict=True) if c]
+    terms = [
+        (s if c == 1 else -s if c == -1 else sm.Float(c) * s) for c, s in zip(coefficients, symbols, strict=True) if c
+    ]
     return sm.Add(*terms)

@@ -35,24 +35,30 @@ def kept_source(model: Model) -> OdeSource:
     except (OSError, ValueError, TypeError, KeyError):
         source = ode_source(model)
     try:
-        kept = {f.name: getattr(source, f.name) for f in fields(source) if f.name not in _DERIVED} | {"text": source.text}
+        kept = {f.name: getattr(source, f.name) for f in fields(source) if f.name not in _DERIVED} | {
+            "text": source.text
+        }
         write_atomically(path, json.dumps(kept | {"late": [str(s) for s in source.late]}))
     except OSError:
-        pass    # a full or read-only cache costs time, nothing else
+        pass  # a full or read-only cache costs time, nothing else
     return source
 
 
 def _restored(kept: dict) -> OdeSource:
     text = kept.pop("text")
-    named = {k: tuple(v) if k in ("states", "inputs", "noises", "parameters", "constants", "outputs", "late") else v
-             for k, v in kept.items()}
+    named = {
+        k: tuple(v) if k in ("states", "inputs", "noises", "parameters", "constants", "outputs", "late") else v
+        for k, v in kept.items()
+    }
     source = OdeSource(**named, **{k: {} for k in _DERIVED})
-    source.__dict__["text"] = text    # where the cached property keeps it
+    source.__dict__["text"] = text  # where the cached property keeps it
     return source
 
 
 def _key(model: Model) -> str:
-    return hashlib.sha256(f"{_maker()} {model.fingerprint} {list(model.parameters)} {list(model.constants)}".encode()).hexdigest()[:32]
+    return hashlib.sha256(
+        f"{_maker()} {model.fingerprint} {list(model.parameters)} {list(model.constants)}".encode()
+    ).hexdigest()[:32]
 
 
 @functools.cache

@@ -37,8 +37,9 @@ def compile_program(program: Program, backend: str = "auto") -> Kernel:
         If an expression cannot be computed, or the C backend was asked for and cannot be had.
     """
     if backend not in BACKENDS:
-        raise CodegenError(f"backend '{backend}' of program '{program.name}' is not known; "
-                           f"choose one of {', '.join(BACKENDS)}")
+        raise CodegenError(
+            f"backend '{backend}' of program '{program.name}' is not known; choose one of {', '.join(BACKENDS)}"
+        )
     start = time.perf_counter()
     graph, rows, variables = lowered(program)
     key = fingerprint(program, graph, rows)
@@ -77,8 +78,14 @@ class Kernel:
     seconds : what ``derive``, ``compile`` (little if it was in the cache) and ``load`` took.
     """
 
-    def __init__(self, program: Program, wanted: str, structure: dict, functions: CFunctions | NumpyFunctions,
-                 seconds: dict[str, float]):
+    def __init__(
+        self,
+        program: Program,
+        wanted: str,
+        structure: dict,
+        functions: CFunctions | NumpyFunctions,
+        seconds: dict[str, float],
+    ):
         self.program, self.seconds, self.backend = program, seconds, functions.backend
         self.m = structure["m"]
         self.n_local, self.n_shared = structure["n_local"], structure["n_shared"]
@@ -94,8 +101,10 @@ class Kernel:
         return compile_program, (self.program, self._wanted)
 
     def __repr__(self) -> str:
-        return (f"<Kernel '{self.program.name}' in {self.backend}: {self.m} rows, {len(self.jacobian_rows)} first "
-                f"and {len(self.hessian_rows)} second derivatives>")
+        return (
+            f"<Kernel '{self.program.name}' in {self.backend}: {self.m} rows, {len(self.jacobian_rows)} first "
+            f"and {len(self.hessian_rows)} second derivatives>"
+        )
 
     def residual(self, local, shared, data, constants, out=None) -> np.ndarray:
         """(N, m) the rows at every point, written to `out` if given."""
@@ -143,8 +152,9 @@ class Kernel:
             return
         _expect("index", index, shape, dtype=np.dtype(np.int32))
         if index.size and (index.min() < 0 or index.max() >= size):
-            raise CodegenError(f"index points to {index.min()} ... {index.max()}, outside of out, "
-                               f"which has {size} values")
+            raise CodegenError(
+                f"index points to {index.min()} ... {index.max()}, outside of out, which has {size} values"
+            )
         self._checked_index = (index, size)
 
 
@@ -179,8 +189,17 @@ class CFunctions:
             function.argtypes, function.restype = _SIGNATURE, None
 
     def run(self, name: str, local, shared, data, constants, multipliers, out, index) -> None:
-        self._functions[name](len(local), _address(local), local.strides[0] // 8, _address(shared), _address(data),
-                              _address(constants), _address(multipliers), _address(out), _address(index))
+        self._functions[name](
+            len(local),
+            _address(local),
+            local.strides[0] // 8,
+            _address(shared),
+            _address(data),
+            _address(constants),
+            _address(multipliers),
+            _address(out),
+            _address(index),
+        )
 
 
 def _address(array: np.ndarray | None) -> int | None:
@@ -194,8 +213,11 @@ class NumpyFunctions:
 
     def __init__(self, derived: Derived):
         self._functions = numpy_functions(derived)
-        self._width = {"residual": len(derived.residual), "jacobian": len(derived.jacobian),
-                       "hessian_into": len(derived.hessian)}
+        self._width = {
+            "residual": len(derived.residual),
+            "jacobian": len(derived.jacobian),
+            "hessian_into": len(derived.hessian),
+        }
 
     def run(self, name: str, local, shared, data, constants, multipliers, out, index) -> None:
         n, width = len(local), self._width[name]

@@ -13,9 +13,17 @@ from symid.codegen.graph import POINT, UNIFORM, Graph
 from symid.codegen.lower import lower
 
 NUMPY_PATTERNS = PATTERNS | {
-    "not": "np.logical_not({})", "select": "np.where({}, {}, {})", "abs": "np.abs({})", "sign": "np.sign({})",
-    "max": "np.maximum({}, {})", "min": "np.minimum({}, {})", "asin": "np.arcsin({})", "acos": "np.arccos({})",
-    "atan": "np.arctan({})", "atan2": "np.arctan2({}, {})", "pow": "np.power({}, {})",
+    "not": "np.logical_not({})",
+    "select": "np.where({}, {}, {})",
+    "abs": "np.abs({})",
+    "sign": "np.sign({})",
+    "max": "np.maximum({}, {})",
+    "min": "np.minimum({}, {})",
+    "asin": "np.arcsin({})",
+    "acos": "np.arccos({})",
+    "atan": "np.arctan({})",
+    "atan2": "np.arctan2({}, {})",
+    "pow": "np.power({}, {})",
     **{f: f"np.{f}({{}})" for f in ("sqrt", "exp", "log", "sin", "cos", "tan", "sinh", "cosh", "tanh", "floor")},
 }
 
@@ -27,8 +35,11 @@ def numpy_functions(derived: Derived) -> dict[str, Callable]:
     value), where ``local[j]`` is the column of symbol j at all points of a block, and ``value[j]``
     receives the column of result j.
     """
-    outputs = {"residual": derived.residual, "jacobian": list(derived.jacobian.values()),
-               "hessian_into": list(derived.hessian.values())}
+    outputs = {
+        "residual": derived.residual,
+        "jacobian": list(derived.jacobian.values()),
+        "hessian_into": list(derived.hessian.values()),
+    }
     functions = {}
     for name, operations in outputs.items():
         exec(compile(_text(name, derived, operations), f"<symid {name}>", "exec"), {"np": np}, functions)
@@ -49,8 +60,9 @@ def _number(value: float) -> str:
     return repr(value) if np.isfinite(value) else f"np.float64('{value}')"
 
 
-def python_function(name: str, arguments: Sequence[str], arrays: Sequence[Sequence[sm.Expr]],
-                    names: dict[sm.Symbol, str]) -> Callable[..., list[np.ndarray]]:
+def python_function(
+    name: str, arguments: Sequence[str], arrays: Sequence[Sequence[sm.Expr]], names: dict[sm.Symbol, str]
+) -> Callable[..., list[np.ndarray]]:
     """A function of one point that returns the values of each list of expressions as an array.
 
     names : the text that stands for each symbol, ``x[0]``, of what `arguments` name; arguments are float64
@@ -62,8 +74,11 @@ def python_function(name: str, arguments: Sequence[str], arrays: Sequence[Sequen
     body = Statements(graph, outputs, patterns=NUMPY_PATTERNS, number=_number)
     results = iter([body.expression(k) for k in outputs])
     lists = [", ".join(next(results) for _ in array) for array in arrays]
-    lines = [f"def {name}({', '.join(arguments)}):", *(f"    {v} = {text}" for _, v, text in body.assigned(UNIFORM)),
-             f"    return [{', '.join(f'np.array([{values}], dtype=float)' for values in lists)}]"]
+    lines = [
+        f"def {name}({', '.join(arguments)}):",
+        *(f"    {v} = {text}" for _, v, text in body.assigned(UNIFORM)),
+        f"    return [{', '.join(f'np.array([{values}], dtype=float)' for values in lists)}]",
+    ]
     functions: dict[str, Callable] = {}
     exec(compile("\n".join(lines), f"<symid {name}>", "exec"), {"np": np}, functions)
     return functions[name]

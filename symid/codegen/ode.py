@@ -61,16 +61,34 @@ class OdeSource:
     @cached_property
     def text(self) -> str:
         """C that exports ``ode``, the table of sizes and functions that ``loop.c`` uses."""
-        sizes = [len(k) for k in (self.states, self.late, self.inputs, self.noises, self.parameters, self.constants,
-                                  self.outputs)]
-        entries = [*map(str, (*sizes, int(self.outputs_need_rates))), "late_kind", "late_index", "input_held", *self.functions,
-                   *(f"{{{k}_count, {k}_row, {k}_col}}" for k in self.entries)]
-        lists = [_ints("late_kind", self.late_kind), _ints("late_index", self.late_index),
-                 _ints("input_held", self.input_held)]
+        sizes = [
+            len(k)
+            for k in (self.states, self.late, self.inputs, self.noises, self.parameters, self.constants, self.outputs)
+        ]
+        entries = [
+            *map(str, (*sizes, int(self.outputs_need_rates))),
+            "late_kind",
+            "late_index",
+            "input_held",
+            *self.functions,
+            *(f"{{{k}_count, {k}_row, {k}_col}}" for k in self.entries),
+        ]
+        lists = [
+            _ints("late_kind", self.late_kind),
+            _ints("late_index", self.late_index),
+            _ints("input_held", self.input_held),
+        ]
         for tag, (rows, columns) in self.entries.items():
             lists += [f"enum {{{tag}_count = {len(rows)}}};", _ints(f"{tag}_row", rows), _ints(f"{tag}_col", columns)]
-        return "\n".join([PREAMBLE, TABLE, *lists, *(self._c_function(name) for name in self.functions),
-                          f"const Ode ode = {{{', '.join(entries)}}};"])
+        return "\n".join(
+            [
+                PREAMBLE,
+                TABLE,
+                *lists,
+                *(self._c_function(name) for name in self.functions),
+                f"const Ode ode = {{{', '.join(entries)}}};",
+            ]
+        )
 
     def _c_function(self, name: str) -> str:
         arrays = self.functions[name]
@@ -81,8 +99,10 @@ class OdeSource:
 
     def in_python(self) -> dict[str, Callable[..., list[np.ndarray]]]:
         """The functions by name; each takes `ARGUMENTS` and t, and returns its arrays in order."""
-        return {name: python_function(name, (*ARGUMENTS, "t"), list(arrays.values()), self.written)
-                for name, arrays in self.functions.items()}
+        return {
+            name: python_function(name, (*ARGUMENTS, "t"), list(arrays.values()), self.written)
+            for name, arrays in self.functions.items()
+        }
 
 
 def ode_source(model: Model) -> OdeSource:
@@ -93,38 +113,69 @@ def ode_source(model: Model) -> OdeSource:
     used = residual.free_symbols | observed.free_symbols
     late = [s for s in model.delays if s in used]
     parameters, constants = tuple(model.parameters), tuple(model.constants)
-    groups = {"xd": rates, "x": _symbols(states), "l": late, "u": _symbols(inputs), "w": _symbols(noises),
-              "p": _symbols(parameters), "c": _symbols(constants)}
+    groups = {
+        "xd": rates,
+        "x": _symbols(states),
+        "l": late,
+        "u": _symbols(inputs),
+        "w": _symbols(noises),
+        "p": _symbols(parameters),
+        "c": _symbols(constants),
+    }
     written = {s: f"{g}[{i}]" for g, symbols in groups.items() for i, s in enumerate(symbols)} | {TIME: "t"}
     _check(model, used - written.keys(), len(residual))
     mass = residual.jacobian(rates)
     if mass.free_symbols & set(rates):
         raise CodegenError(f"model '{model.name}' is not linear in its rates x', so it cannot be solved for them")
     lags = sm.Matrix([model.delays[s].lag for s in late])
-    functions = {"mass": {"M": list(mass), "force": list(residual.xreplace({r: sm.Integer(0) for r in rates}))},
-                 "observe": {"y": list(observed)}, "lags": {"lag": list(lags)}}
+    functions = {
+        "mass": {"M": list(mass), "force": list(residual.xreplace({r: sm.Integer(0) for r in rates}))},
+        "observe": {"y": list(observed)},
+        "lags": {"lag": list(lags)},
+    }
     entries: dict[str, tuple[list[int], list[int]]] = {}
-    for name, rows, wrt in (("slopes", residual, "xlpw"), ("observe_slopes", observed, ("x", "l", "p", "xd")),
-                            ("lag_slopes", lags, "p")):
+    for name, rows, wrt in (
+        ("slopes", residual, "xlpw"),
+        ("observe_slopes", observed, ("x", "l", "p", "xd")),
+        ("lag_slopes", lags, "p"),
+    ):
         functions[name] = {}
         for g in wrt:
-            found = [(i, j, d) for i, r in enumerate(rows) for j, s in enumerate(groups[g])
-                     if r.has(s) and (d := sm.diff(r, s)) != 0]
+            found = [
+                (i, j, d)
+                for i, r in enumerate(rows)
+                for j, s in enumerate(groups[g])
+                if r.has(s) and (d := sm.diff(r, s)) != 0
+            ]
             functions[name][f"d{g}"] = [d for _, _, d in found]
             entries[f"{name}_{g}"] = [i for i, _, _ in found], [j for _, j, _ in found]
     of = [str(model.delays[s].of) for s in late]
-    return OdeSource(states, inputs, noises, parameters, constants, tuple(model.outputs), tuple(map(str, late)),
-                     functions, entries, [0 if o in states else 1 for o in of],
-                     [states.index(o) if o in states else inputs.index(o) for o in of],
-                     [int(u.hold == "zero") for u in model.inputs.values()], bool(observed.free_symbols & {*rates, *late}), written)
+    return OdeSource(
+        states,
+        inputs,
+        noises,
+        parameters,
+        constants,
+        tuple(model.outputs),
+        tuple(map(str, late)),
+        functions,
+        entries,
+        [0 if o in states else 1 for o in of],
+        [states.index(o) if o in states else inputs.index(o) for o in of],
+        [int(u.hold == "zero") for u in model.inputs.values()],
+        bool(observed.free_symbols & {*rates, *late}),
+        written,
+    )
 
 
 def _check(model: Model, unknown: set[sm.Symbol], equations: int) -> None:
     if unknown:
         raise CodegenError(f"model '{model.name}' uses {sorted(map(str, unknown))}, which it does not declare")
     if equations != len(model.states):
-        raise CodegenError(f"model '{model.name}' has {equations} equations for {len(model.states)} states; "
-                           "a simulation needs one equation for each state")
+        raise CodegenError(
+            f"model '{model.name}' has {equations} equations for {len(model.states)} states; "
+            "a simulation needs one equation for each state"
+        )
 
 
 def _symbols(names) -> list[sm.Symbol]:

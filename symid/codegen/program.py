@@ -43,11 +43,15 @@ class Program:
         symbols = (*self.local, *self.shared, *self.data, *self.constants)
         twice = sorted(str(s) for s, n in Counter(symbols).items() if n > 1)
         if twice:
-            raise CodegenError(f"program '{self.name}': {', '.join(twice)} listed more than once among local, "
-                               "shared, data and constants; a symbol has one place")
+            raise CodegenError(
+                f"program '{self.name}': {', '.join(twice)} listed more than once among local, "
+                "shared, data and constants; a symbol has one place"
+            )
         known = set(symbols)
         for i, row in enumerate(self.rows):
             unknown = sorted(map(str, row.free_symbols - known))
             if unknown:
-                raise CodegenError(f"program '{self.name}', row {i}: unknown symbol {', '.join(unknown)}; list it "
-                                   "under local, shared, data or constants, or take it out of the equation")
+                raise CodegenError(
+                    f"program '{self.name}', row {i}: unknown symbol {', '.join(unknown)}; list it "
+                    "under local, shared, data or constants, or take it out of the equation"
+                )

@@ -30,15 +30,24 @@ def step_program(model: Model) -> Program:
     recorded = [sm.Symbol(f"(recorded {name})", real=True) for name in model.outputs]
     errors = [y.xreplace(solution) - r for y, r in zip(model.observed(), recorded, strict=True)]
     rows = (*(x + STEP * solution[r] for x, r in zip(states, rates, strict=True)), SQUARES + sum(e**2 for e in errors))
-    return Program(f"step of {model.name}", rows, local=(), data=(*states, SQUARES, *late_symbols(model)),
-                   constants=(*uniform_symbols(model), *recorded, STEP))
+    return Program(
+        f"step of {model.name}",
+        rows,
+        local=(),
+        data=(*states, SQUARES, *late_symbols(model)),
+        constants=(*uniform_symbols(model), *recorded, STEP),
+    )
 
 
 def slopes_program(model: Model) -> Program:
     """The residuals, to be differentiated by x', x and late signals; the constants as above."""
     states, rates = [s.symbol for s in model.states.values()], [s.dot for s in model.states.values()]
-    return Program(f"slopes of {model.name}", model.residual(), local=(*rates, *states, *late_symbols(model)),
-                   constants=uniform_symbols(model))
+    return Program(
+        f"slopes of {model.name}",
+        model.residual(),
+        local=(*rates, *states, *late_symbols(model)),
+        constants=uniform_symbols(model),
+    )
 
 
 def late_symbols(model: Model) -> tuple[sm.Symbol, ...]:
@@ -71,7 +80,7 @@ def _solved(model: Model, residuals: list[sm.Expr], rates: list[sm.Symbol]) -> d
         for equation in waiting:
             unknown = equation.free_symbols & set(rates) - solution.keys()
             if len(unknown) == 1:
-                rate, = unknown
+                (rate,) = unknown
                 slope = sm.diff(equation, rate)
                 solution[rate] = (-equation.xreplace({rate: sm.S.Zero}) / slope).xreplace(solution)
                 waiting.remove(equation)
@@ -81,8 +90,10 @@ def _solved(model: Model, residuals: list[sm.Expr], rates: list[sm.Symbol]) -> d
     if together:
         matrix = sm.Matrix([[sm.diff(e, r) for r in together] for e in waiting])
         if matrix.rows != matrix.cols or matrix.free_symbols & set(rates):
-            raise CodegenError(f"model '{model.name}' cannot be solved for its rates: each state needs one equation, "
-                               "linear in the rates")
+            raise CodegenError(
+                f"model '{model.name}' cannot be solved for its rates: each state needs one equation, "
+                "linear in the rates"
+            )
         rest = sm.Matrix([e.xreplace(dict.fromkeys(together, sm.S.Zero)).xreplace(solution) for e in waiting])
         solution |= dict(zip(together, _eliminated(matrix, -rest), strict=True))
     return solution

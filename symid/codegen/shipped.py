@@ -19,8 +19,9 @@ def shipped_source(fingerprint: str) -> Source | None:
     try:
         return Source.read(path.read_text())
     except (OSError, ValueError) as problem:
-        raise CodegenError(f"the generated source {path} cannot be read ({problem}); "
-                           "run `symid regenerate`, which writes it anew") from None
+        raise CodegenError(
+            f"the generated source {path} cannot be read ({problem}); run `symid regenerate`, which writes it anew"
+        ) from None
 
 
 @functools.cache

@@ -77,23 +77,27 @@ def generate(program: Program) -> Source:
 def structure(program: Program, derived: Derived) -> dict:
     """Sizes, and rows and columns of the nonzeros, as plain lists."""
     return {
-        "name": program.name, "m": len(derived.residual),
+        "name": program.name,
+        "m": len(derived.residual),
         **{f"n_{k}": len(getattr(program, k)) for k in ("local", "shared", "data", "constants")},
-        "jacobian": [list(t) for t in derived.jacobian], "hessian": [list(t) for t in derived.hessian],
+        "jacobian": [list(t) for t in derived.jacobian],
+        "hessian": [list(t) for t in derived.hessian],
     }
 
 
 def print_source(program: Program, key: str, derived: Derived) -> Source:
     shape = structure(program, derived)
-    legend = [f"// {k}[{i}]: {_commented(s)}" for k in ("local", "shared", "data", "constants")
-              for i, s in enumerate(getattr(program, k))]
+    legend = [
+        f"// {k}[{i}]: {_commented(s)}"
+        for k in ("local", "shared", "data", "constants")
+        for i, s in enumerate(getattr(program, k))
+    ]
     functions = [
         _function("residual", shape, derived.graph, derived.residual, STORE),
         _function("jacobian", shape, derived.graph, list(derived.jacobian.values()), STORE),
         _function("hessian_into", shape, derived.graph, list(derived.hessian.values()), ACCUMULATE),
     ]
-    text = "\n".join([f"// {key}", f"// {json.dumps(shape)}", *legend, PREAMBLE + "#define BLOCK 8",
-                      *functions])
+    text = "\n".join([f"// {key}", f"// {json.dumps(shape)}", *legend, PREAMBLE + "#define BLOCK 8", *functions])
     return Source(key, shape, text)
 
 

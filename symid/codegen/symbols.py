@@ -84,5 +84,7 @@ def data_at(data, place, duration: str | None) -> dict[sm.Symbol, sm.Expr]:
 def refuse_late(model: Model, rows: Iterable[sm.Expr], what: str) -> None:
     """CodegenError where rows that are evaluated at nodes contain a delayed signal."""
     if any(r.free_symbols & model.delays.keys() for r in rows):
-        raise CodegenError(f"{what} of model '{model.name}' contains a delayed signal, which has no value at the nodes: "
-                           "name it as an Algebraic with its own equation")
+        raise CodegenError(
+            f"{what} of model '{model.name}' contains a delayed signal, which has no value at the nodes: "
+            "name it as an Algebraic with its own equation"
+        )

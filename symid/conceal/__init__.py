@@ -6,5 +6,15 @@ from symid.conceal.equivalents import with_equivalents
 from symid.conceal.setup import Setup, rig_facts, setup_from_facts, standing_facts
 from symid.conceal.write import write_case
 
-__all__ = ["Concealed", "Setup", "Unsuitable", "conceal", "draw_case", "rig_facts", "setup_from_facts", "standing_facts",
-           "with_equivalents", "write_case"]
+__all__ = [
+    "Concealed",
+    "Setup",
+    "Unsuitable",
+    "conceal",
+    "draw_case",
+    "rig_facts",
+    "setup_from_facts",
+    "standing_facts",
+    "with_equivalents",
+    "write_case",
+]

@@ -56,11 +56,19 @@ class Concealed:
     def quiet(self) -> Recording:
         """The recording without noise."""
         channels = [y.channel for y in self.setup.model.outputs.values()]
-        return replace(self.recording, channels=dict(self.recording.channels) | dict(zip(channels, self.clean.T, strict=True)))
+        return replace(
+            self.recording, channels=dict(self.recording.channels) | dict(zip(channels, self.clean.T, strict=True))
+        )
 
 
-def conceal(setup: Setup, terms: Mapping[Term, Mapping[str, float]], *, seed: int, visibility: float = 1.0,
-            listed: Collection[str] = CANONICAL) -> Concealed:
+def conceal(
+    setup: Setup,
+    terms: Mapping[Term, Mapping[str, float]],
+    *,
+    seed: int,
+    visibility: float = 1.0,
+    listed: Collection[str] = CANONICAL,
+) -> Concealed:
     """Simulate `setup` with `terms`, record it with noise, and measure how visible they are.
 
     Parameters
@@ -86,10 +94,27 @@ def conceal(setup: Setup, terms: Mapping[Term, Mapping[str, float]], *, seed: in
     noise, sway = _process_noise(setup, record, clean, missed, visibility)
     recording = record(noise, setup.sensor_noise)
     _refuse_excursion(setup, truth, outputs_of(truth, recording))
-    kind = "none" if not terms else "two" if len(terms) > 1 else "single" if next(iter(terms)).name in listed else "unlisted"
+    kind = (
+        "none"
+        if not terms
+        else "two"
+        if len(terms) > 1
+        else "single"
+        if next(iter(terms)).name in listed
+        else "unlisted"
+    )
     all_noise = _rms(outputs_of(truth, recording) - clean)
-    return Concealed(setup, dict(terms), recording, clean, kind, missed / all_noise if missed else 0.0, sway, noise,
-                     _reference(setup, recording, quiet, clean))
+    return Concealed(
+        setup,
+        dict(terms),
+        recording,
+        clean,
+        kind,
+        missed / all_noise if missed else 0.0,
+        sway,
+        noise,
+        _reference(setup, recording, quiet, clean),
+    )
 
 
 class _Recorder:
@@ -102,9 +127,17 @@ class _Recorder:
         s, channels = self.setup, [y.channel for y in self.truth.outputs.values()]
         try:
             long = synthetic_recording(
-                self.truth, self.values, duration=s.fit + s.held_out + _BEYOND, rate=s.rate, seed=self.seed, warm_up=s.warm_up,
-                process_noise=process_noise, sensor_noise=dict.fromkeys(channels, sensor_noise), initial_state=s.initial_state,
-                resolution=s.resolution if sensor_noise else 0.0)
+                self.truth,
+                self.values,
+                duration=s.fit + s.held_out + _BEYOND,
+                rate=s.rate,
+                seed=self.seed,
+                warm_up=s.warm_up,
+                process_noise=process_noise,
+                sensor_noise=dict.fromkeys(channels, sensor_noise),
+                initial_state=s.initial_state,
+                resolution=s.resolution if sensor_noise else 0.0,
+            )
         except SymidError as error:
             raise Unsuitable(str(error)) from None
         return long.window(0.0, s.fit + s.held_out)
@@ -122,8 +155,10 @@ def _refuse_excursion(setup: Setup, model: Model, outputs: np.ndarray) -> None:
     for y, values in zip(model.outputs.values(), outputs.T, strict=True):
         limit = setup.limits.get(y.at.removeprefix("sensor:"), np.inf)
         if not np.abs(values).max() <= limit:
-            raise Unsuitable(f"{y.channel} reaches {np.abs(values).max():.3g} {y.unit}, beyond {limit:g}: "
-                             "the loop is unstable, or an effect is too large")
+            raise Unsuitable(
+                f"{y.channel} reaches {np.abs(values).max():.3g} {y.unit}, beyond {limit:g}: "
+                "the loop is unstable, or an effect is too large"
+            )
 
 
 # ---- what the model without the effects makes of it ---------------------------------------------
@@ -143,8 +178,6 @@ def first_states(model: Model, segments: Sequence[Segment]) -> np.ndarray:
             elif rates.get(name) in shown:
                 row[j] = slope[shown[rates[name]]]
     return out
-
-
 
 
 def _missed(setup: Setup, model: Model, values: Mapping[str, float], quiet: Recording) -> float:
@@ -179,12 +212,14 @@ def _process_noise(setup: Setup, record: _Recorder, clean: np.ndarray, missed: f
     if target is None:
         target = np.sqrt(max((missed / visibility) ** 2 - setup.sensor_noise**2, 0.0))
         if not SWAY[0] <= target <= SWAY[1]:
-            raise Unsuitable(f"a visibility of {visibility:.2g} would need a sway of {np.degrees(target):.2g} deg rms; people have "
-                             f"{np.degrees(SWAY[0]):.2g} to {np.degrees(SWAY[1]):.2g}")
+            raise Unsuitable(
+                f"a visibility of {visibility:.2g} would need a sway of {np.degrees(target):.2g} deg rms; people have "
+                f"{np.degrees(SWAY[0]):.2g} to {np.degrees(SWAY[1]):.2g}"
+            )
     if target == 0:
         return {}, 0.0
     size = 1.0
-    for _ in range(2):   # a second time because the loop need not be linear
+    for _ in range(2):  # a second time because the loop need not be linear
         noise = {k: size * v for k, v in setup.torque_noise.items()}
         size *= target / _rms(outputs_of(record.truth, record(noise, 0.0)) - clean)
     return {k: float(size * v) for k, v in setup.torque_noise.items()}, float(target)
@@ -202,9 +237,13 @@ def _reference(setup: Setup, recording: Recording, quiet: Recording, clean: np.n
     noise = outputs_of(model, recording) - clean
     rows = recording.time <= setup.fit + 1e-9
     settled = rows & (recording.time >= setup.settling)
-    return {"baseline": {"train_rms_rad": fit.rms(train, setup.settling), "heldout_rms_rad": held_out},
-            "true_parameters": {"train_rms_rad": _rms(noise[settled]),
-                                "heldout_rms_rad": _rms(noise[recording.time >= setup.fit - 1e-9])}}
+    return {
+        "baseline": {"train_rms_rad": fit.rms(train, setup.settling), "heldout_rms_rad": held_out},
+        "true_parameters": {
+            "train_rms_rad": _rms(noise[settled]),
+            "heldout_rms_rad": _rms(noise[recording.time >= setup.fit - 1e-9]),
+        },
+    }
 
 
 def _continued(setup: Setup, fit: FreeFit, recording: Recording) -> float:

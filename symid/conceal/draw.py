@@ -28,8 +28,14 @@ STABLE = -0.3
 ATTEMPTS = 80
 
 
-def draw_case(system: str | Mapping, effects: Sequence[tuple[str, str, Mapping[str, float]]] | None, seed: Sequence[int],
-              kind: str | None = None, laws=LIBRARY, listed: Collection[str] = CANONICAL) -> Concealed:
+def draw_case(
+    system: str | Mapping,
+    effects: Sequence[tuple[str, str, Mapping[str, float]]] | None,
+    seed: Sequence[int],
+    kind: str | None = None,
+    laws=LIBRARY,
+    listed: Collection[str] = CANONICAL,
+) -> Concealed:
     """A case with the effects asked for, or (None) with random ones.
 
     Parameters
@@ -105,11 +111,16 @@ def _refuse_invisible(case: Concealed) -> None:
     if case.setup.system == "rig" and not case.setup.model.terms:
         high = FRICTION_VISIBLE
     if not low * 0.95 <= case.visibility <= high * 1.05:
-        raise Unsuitable(f"what the model cannot absorb is {case.visibility:.3g} times the noise, not {low:g} to {high:g}")
+        raise Unsuitable(
+            f"what the model cannot absorb is {case.visibility:.3g} times the noise, not {low:g} to {high:g}"
+        )
     base, truth = (case.reference[k]["heldout_rms_rad"] for k in ("baseline", "true_parameters"))
     passing = any(t.name == "external_push" for t in case.terms)
-    if case.setup.system == "standing" and not (passing or WORSE[0] <= base / truth) or base / truth > WORSE[1] * (
-            1 if case.setup.system == "standing" else np.inf):
+    if (
+        case.setup.system == "standing"
+        and not (passing or WORSE[0] <= base / truth)
+        or base / truth > WORSE[1] * (1 if case.setup.system == "standing" else np.inf)
+    ):
         raise Unsuitable(f"on the held-out window the model is {base / truth:.3g} times as wrong as the truth")
     if not needed(case):
         raise Unsuitable("one of the effects does not show beside the other")

@@ -42,8 +42,11 @@ def with_equivalents(case: Concealed) -> Concealed:
     """`case` with the answers that are equivalent, or nearly so, to each of its effects."""
     white = _whitener(outputs_of(case.setup.model, case.recording) - case.clean)
     found = [_alternatives(case, term, white) for term in case.terms]
-    return replace(case, equivalent=tuple(tuple(t for t, d2 in f if d2 < EQUIVALENT) for f in found),
-                   near=tuple(tuple(t for t, d2 in f if EQUIVALENT <= d2 < NEAR) for f in found))
+    return replace(
+        case,
+        equivalent=tuple(tuple(t for t, d2 in f if d2 < EQUIVALENT) for f in found),
+        near=tuple(tuple(t for t, d2 in f if EQUIVALENT <= d2 < NEAR) for f in found),
+    )
 
 
 def _alternatives(case: Concealed, truth: Term, white) -> list[tuple[Term, float]]:
@@ -66,16 +69,25 @@ def _distance(case: Concealed, model, values, term: Term, white) -> float:
     for start in suspect.starts(off=False)[:STARTS]:
         start = {k: moment if k in ("start_s", "time_s") else v for k, v in start.items()}
         try:
-            fit = fit_free(model, segments, values | suspect.named(start), first_states(model, segments), white=white, most=EVALUATIONS)
+            fit = fit_free(
+                model,
+                segments,
+                values | suspect.named(start),
+                first_states(model, segments),
+                white=white,
+                most=EVALUATIONS,
+            )
         except SymidError:
             continue
-        best = min(best, sum(float(np.sum(white(e.recorded - y) ** 2)) for e, y in zip(segments, fit.simulated, strict=True)))
+        best = min(
+            best, sum(float(np.sum(white(e.recorded - y) ** 2)) for e, y in zip(segments, fit.simulated, strict=True))
+        )
     return best
 
 
 def _whitener(noise: np.ndarray):
     """Filter (N, m, ...) -> same, that makes `noise` white with unit covariance: a vector autoregression."""
-    past = np.hstack([noise[ORDER - k:-k] for k in range(1, ORDER + 1)])
+    past = np.hstack([noise[ORDER - k : -k] for k in range(1, ORDER + 1)])
     weights = np.linalg.lstsq(past, noise[ORDER:], rcond=None)[0]
     surprise = noise[ORDER:] - past @ weights
     unit = np.linalg.inv(np.linalg.cholesky(np.cov(surprise.T)))
@@ -85,6 +97,7 @@ def _whitener(noise: np.ndarray):
     def white(errors: np.ndarray) -> np.ndarray:
         out = np.zeros_like(errors)
         for k, tap in enumerate(taps):
-            out[k:] += np.einsum("ab,nb...->na...", tap, errors[:len(errors) - k])
+            out[k:] += np.einsum("ab,nb...->na...", tap, errors[: len(errors) - k])
         return out
+
     return white

@@ -35,9 +35,15 @@ class FreeFit:
         return float(np.sqrt(np.mean(np.vstack(errors) ** 2)))
 
 
-def fit_free(model: Model, segments: Sequence[Segment], values: Mapping[str, float], initial: np.ndarray,
-             free: Sequence[str] | None = None, white: Callable[[np.ndarray], np.ndarray] = lambda errors: errors,
-             most: int = 60) -> FreeFit:
+def fit_free(
+    model: Model,
+    segments: Sequence[Segment],
+    values: Mapping[str, float],
+    initial: np.ndarray,
+    free: Sequence[str] | None = None,
+    white: Callable[[np.ndarray], np.ndarray] = lambda errors: errors,
+    most: int = 60,
+) -> FreeFit:
     """Fit parameters (all, or those in `free`) and initial states to free simulations of `segments`.
 
     Parameters
@@ -58,36 +64,58 @@ def fit_free(model: Model, segments: Sequence[Segment], values: Mapping[str, flo
 
     def run(z, sensitivities):
         p = dict(values) | dict(zip(names, z[:q], strict=True))
-        return [sim.simulate(p, x0, e.time, e.inputs, substeps=_substeps(e), keep="outputs",
-                             sensitivity=names if sensitivities else (),
-                             initial_sensitivity=sim.states if sensitivities else ())
-                for e, x0 in zip(segments, z[q:].reshape(E, n), strict=True)]
+        return [
+            sim.simulate(
+                p,
+                x0,
+                e.time,
+                e.inputs,
+                substeps=_substeps(e),
+                keep="outputs",
+                sensitivity=names if sensitivities else (),
+                initial_sensitivity=sim.states if sensitivities else (),
+            )
+            for e, x0 in zip(segments, z[q:].reshape(E, n), strict=True)
+        ]
 
     def errors(z):
-        return np.concatenate([white(np.nan_to_num(t.y - e.recorded, nan=DIVERGED)).ravel()
-                               for t, e in zip(run(z, False), segments, strict=True)])
+        return np.concatenate(
+            [
+                white(np.nan_to_num(t.y - e.recorded, nan=DIVERGED)).ravel()
+                for t, e in zip(run(z, False), segments, strict=True)
+            ]
+        )
 
     def slopes(z):
         blocks = [white(np.nan_to_num(t.dy)).reshape(-1, q + n) for t in run(z, True)]
         out, row = np.zeros((sum(map(len, blocks)), q + E * n)), 0
         for i, b in enumerate(blocks):
-            out[row:row + len(b), :q] = b[:, :q]
-            out[row:row + len(b), q + i * n:q + (i + 1) * n] = b[:, q:]
+            out[row : row + len(b), :q] = b[:, :q]
+            out[row : row + len(b), q + i * n : q + (i + 1) * n] = b[:, q:]
             row += len(b)
         return out
 
     if any(t.diverged for t in run(start, False)):
         raise SymidError(f"model '{model.name}' diverges where its fit begins")
-    z = least_squares(errors, start, slopes, bounds=(low, high), x_scale="jac", max_nfev=most, ftol=1e-7, xtol=1e-9, gtol=1e-12).x
-    return FreeFit(dict(values) | dict(zip(names, map(float, z[:q]), strict=True)), z[q:].reshape(E, n),
-                   tuple(t.y for t in run(z, False)))
+    z = least_squares(
+        errors, start, slopes, bounds=(low, high), x_scale="jac", max_nfev=most, ftol=1e-7, xtol=1e-9, gtol=1e-12
+    ).x
+    return FreeFit(
+        dict(values) | dict(zip(names, map(float, z[:q]), strict=True)),
+        z[q:].reshape(E, n),
+        tuple(t.y for t in run(z, False)),
+    )
 
 
-def simulate_free(model: Model, segments: Sequence[Segment], values: Mapping[str, float], initial: np.ndarray) -> FreeFit:
+def simulate_free(
+    model: Model, segments: Sequence[Segment], values: Mapping[str, float], initial: np.ndarray
+) -> FreeFit:
     """What these values simulate, without fitting anything."""
     sim = simulator(model)
-    runs = [sim.simulate(values, x0, e.time, e.inputs, substeps=_substeps(e), keep="outputs")
-            for e, x0 in zip(segments, initial, strict=True)]
+    runs = [
+        sim.simulate(values, x0, e.time, e.inputs, substeps=_substeps(e), keep="outputs")
+        for e, x0 in zip(segments, initial, strict=True)
+    ]
     return FreeFit(dict(values), np.asarray(initial), tuple(t.y for t in runs))
 
 

@@ -99,7 +99,9 @@ def parse_effect(text: str) -> tuple[str, str, dict[str, float]]:
     return name, found["place"], values
 
 
-def draw_values(term: Term, setup: Setup, rng: np.random.Generator, given: Mapping[str, float] | None = None) -> dict[str, float]:
+def draw_values(
+    term: Term, setup: Setup, rng: np.random.Generator, given: Mapping[str, float] | None = None
+) -> dict[str, float]:
     """All parameters of `term`: as given, or drawn within the ranges of this room.
 
     Raises
@@ -109,11 +111,18 @@ def draw_values(term: Term, setup: Setup, rng: np.random.Generator, given: Mappi
     ranges = RANGES.get(setup.system, {}).get(term.name, {}) | OTHER.get((term.name, term.location), {})
     out = {}
     for q in term.law.parameters:
-        drawn = _moment(q.key, setup, rng) if q.key in ("start_s", "time_s") else \
-            _size(term.name, q.key, ranges[q.key], rng) if q.key in ranges else None
+        drawn = (
+            _moment(q.key, setup, rng)
+            if q.key in ("start_s", "time_s")
+            else _size(term.name, q.key, ranges[q.key], rng)
+            if q.key in ranges
+            else None
+        )
         value = (given or {}).get(q.key, drawn)
         if value is None:
-            raise SymidError(f"effect {term}: give a value of {q.key}; no usual size on the system '{setup.system}' is known")
+            raise SymidError(
+                f"effect {term}: give a value of {q.key}; no usual size on the system '{setup.system}' is known"
+            )
         low, high = q.bounds
         if not low <= value <= high:
             raise SymidError(f"effect {term}: {q.key} = {value:g} is outside of its range {low:g} to {high:g}")

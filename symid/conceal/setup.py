@@ -12,13 +12,37 @@ from symid.mechanics import model_of
 from symid.model import Model
 
 SYSTEMS = ("standing", "rig")
-PERSON = {"l_L_m": 0.84, "d_L_m": 0.47, "d_T_m": 0.33, "m_L_kg": 22.5, "m_T_kg": 48.5, "I_L_kg_m2": 1.7, "I_T_kg_m2": 3.3}
+PERSON = {
+    "l_L_m": 0.84,
+    "d_L_m": 0.47,
+    "d_T_m": 0.33,
+    "m_L_kg": 22.5,
+    "m_T_kg": 48.5,
+    "I_L_kg_m2": 1.7,
+    "I_T_kg_m2": 3.3,
+}
 """An adult of ordinary build, feet not counted: lengths l, centres of mass d, masses m, inertias I of leg and trunk."""
-RIG = {"m1_kg": 0.094, "m2_kg": 0.137, "a1_m": 0.11, "a2_m": 0.118, "L1_m": 0.174, "I1_kg_m2": 4.5e-4,
-       "I2_kg_m2": 1.27e-3, "g_m_s2": 9.81}
+RIG = {
+    "m1_kg": 0.094,
+    "m2_kg": 0.137,
+    "a1_m": 0.11,
+    "a2_m": 0.118,
+    "L1_m": 0.174,
+    "I1_kg_m2": 4.5e-4,
+    "I2_kg_m2": 1.27e-3,
+    "g_m_s2": 9.81,
+}
 """A hand-sized double pendulum, about that of Kaheman et al. (2022)."""
-FPD_GAINS = {"kp_aa": 450.0, "kp_ah": 320.0, "kd_aa": 56.0, "kd_ah": 50.0, "kp_ha": -75.0, "kp_hh": 335.0,
-             "kd_ha": 16.0, "kd_hh": 24.5}
+FPD_GAINS = {
+    "kp_aa": 450.0,
+    "kp_ah": 320.0,
+    "kd_aa": 56.0,
+    "kd_ah": 50.0,
+    "kp_ha": -75.0,
+    "kp_hh": 335.0,
+    "kd_ha": 16.0,
+    "kd_hh": 24.5,
+}
 """Full-state gains of a standing person (Wang & van den Bogert 2020, table 2, rounded)."""
 PD_GAINS = {"kp_ankle": (850.0, 1800.0), "kd_ankle": (120.0, 340.0), "kp_hip": (300.0, 550.0), "kd_hip": (22.0, 62.0)}
 GAIN_SPREAD, REFERENCE_SPREAD = 0.18, 0.004
@@ -83,35 +107,39 @@ def standing_facts(rng: np.random.Generator) -> dict:
     return {
         "system": "standing",
         "description": "Person standing on a platform that moves back and forth; legs and trunk as two rigid links.",
-        "body": body, "gravity_m_s2": 9.81,
+        "body": body,
+        "gravity_m_s2": 9.81,
         "baseline": _standing_baseline(str(rng.choice(["PD", "FPD"]))),
         "sampling_rate_Hz": int(rng.choice([50, 100])),
         "channels": {
             "ankle_angle_rad": "leg from vertical, positive forward",
             "hip_angle_rad": "trunk relative to leg, positive forward",
             "platform_acceleration_m_s2": "recorded acceleration of the platform, positive forward; the equations of "
-                                          "motion use a = -platform_acceleration"},
+            "motion use a = -platform_acceleration",
+        },
         "angle_noise_rms_rad_approx": float(f"{np.radians(np.exp(rng.uniform(np.log(0.015), np.log(0.1)))):.2g}"),
         "other_noise": "The person also sways for reasons unrelated to the platform (random joint torques of unknown size).",
-        "fit_window_s": [0.0, fit], "heldout_window_s": [fit, fit + float(rng.choice([30.0, 40.0]))],
+        "fit_window_s": [0.0, fit],
+        "heldout_window_s": [fit, fit + float(rng.choice([30.0, 40.0]))],
         "fit_measure": "rms_rad = root mean square over both angles and all samples of the window of (simulated - recorded) "
-                       "in a free run driven by platform_acceleration from one free initial state; the first "
-                       f"{SETTLING:g} s of the fit window are left out; the held-out run continues the fit run or starts anew",
+        "in a free run driven by platform_acceleration from one free initial state; the first "
+        f"{SETTLING:g} s of the fit window are left out; the held-out run continues the fit run or starts anew",
     }
 
 
 def _standing_baseline(controller: str) -> dict:
-    torques = {"FPD": "T_ankle = kp_aa(ta-ra)+kp_ah(th-rh)+kd_aa wa+kd_ah wh ; "
-                      "T_hip = kp_ha(ta-ra)+kp_hh(th-rh)+kd_ha wa+kd_hh wh",
-               "PD": "T_ankle = kp_a(ta-ra)+kd_a wa ; T_hip = kp_h(th-rh)+kd_h wh"}[controller]
+    torques = {
+        "FPD": "T_ankle = kp_aa(ta-ra)+kp_ah(th-rh)+kd_aa wa+kd_ah wh ; "
+        "T_hip = kp_ha(ta-ra)+kp_hh(th-rh)+kd_ha wa+kd_hh wh",
+        "PD": "T_ankle = kp_a(ta-ra)+kd_a wa ; T_hip = kp_h(th-rh)+kd_h wh",
+    }[controller]
     gains = {"FPD": list(FPD_GAINS), "PD": ["kp_a", "kd_a", "kp_h", "kd_h"]}[controller]
     return {"controller": controller, "torques": torques, "unknown": [*gains, "ra_rad", "rh_rad"]}
 
 
 def rig_facts(rng: np.random.Generator, conservative: bool) -> dict:
     """A double pendulum and its encoders; with viscous friction in the model unless `conservative`."""
-    own = {k: _digits(v * (1.0 if k.startswith("g_") else rng.normal(1, 0.08)))
-           for k, v in RIG.items()}
+    own = {k: _digits(v * (1.0 if k.startswith("g_") else rng.normal(1, 0.08))) for k, v in RIG.items()}
     friction = [] if conservative else ["viscous_friction:joint1", "viscous_friction:joint2"]
     pieces = int(rng.integers(6, 10))
     fit = SEGMENT * round(pieces * 2 / 3)
@@ -124,16 +152,24 @@ def rig_facts(rng: np.random.Generator, conservative: bool) -> dict:
         "baseline": {
             "terms": friction or ["conservative"],
             "equations": "Lagrangian double pendulum, angles absolute from the downward vertical; viscous friction at joint 1 "
-                         "acts on w1, at joint 2 on w2-w1",
-            "unknown": [*(f"coefficient_Nms_rad of {f}" for f in friction), "initial state"]},
+            "acts on w1, at joint 2 on w2-w1",
+            "unknown": [*(f"coefficient_Nms_rad of {f}" for f in friction), "initial state"],
+        },
         "sampling_rate_Hz": int(rng.choice([100, 200, 250])),
-        "channels": {"link1_angle_rad": "link 1 from the downward vertical", "link2_angle_rad": "link 2 from the downward vertical"},
+        "channels": {
+            "link1_angle_rad": "link 1 from the downward vertical",
+            "link2_angle_rad": "link 2 from the downward vertical",
+        },
         "encoder_step_rad": float(f"{2 * np.pi / counts:.3g}"),
-        "angle_noise_rms_rad_approx": float(f"{np.hypot(np.exp(rng.uniform(*np.log(JITTER))), _rounding(2 * np.pi / counts)):.2g}"),
-        "fit_window_s": [0.0, fit], "heldout_window_s": [fit, SEGMENT * pieces], "segment_s": SEGMENT,
+        "angle_noise_rms_rad_approx": float(
+            f"{np.hypot(np.exp(rng.uniform(*np.log(JITTER))), _rounding(2 * np.pi / counts)):.2g}"
+        ),
+        "fit_window_s": [0.0, fit],
+        "heldout_window_s": [fit, SEGMENT * pieces],
+        "segment_s": SEGMENT,
         "fit_measure": "rms_rad = root mean square over both angles and all samples of the window of (simulated - recorded); "
-                       "the window is cut into consecutive segments of segment_s seconds, each simulated from its own free "
-                       "initial state; all other parameters from the fit window",
+        "the window is cut into consecutive segments of segment_s seconds, each simulated from its own free "
+        "initial state; all other parameters from the fit window",
     }
 
 
@@ -157,8 +193,14 @@ def setup_from_facts(facts: Mapping, rng: np.random.Generator) -> Setup:
     makers = {"standing": _standing, "rig": _rig}
     if facts.get("system") not in makers:
         raise SymidError(f"a case of the system '{facts.get('system')}' cannot be made; known: {', '.join(makers)}")
-    needed = ("baseline", "sampling_rate_Hz", "angle_noise_rms_rad_approx", "fit_window_s", "heldout_window_s",
-              {"standing": "body", "rig": "parameters"}[facts["system"]])
+    needed = (
+        "baseline",
+        "sampling_rate_Hz",
+        "angle_noise_rms_rad_approx",
+        "fit_window_s",
+        "heldout_window_s",
+        {"standing": "body", "rig": "parameters"}[facts["system"]],
+    )
     missing = [k for k in needed if k not in facts]
     if missing:
         raise SymidError(f"the case to be imitated has no '{missing[0]}'")
@@ -166,12 +208,21 @@ def setup_from_facts(facts: Mapping, rng: np.random.Generator) -> Setup:
     own = makers[facts["system"]](facts, model, rng)
     (t0, t1), (t2, t3) = facts["fit_window_s"], facts["heldout_window_s"]
     if t0 != 0 or t2 != t1 or not 0 < t1 < t3:
-        raise SymidError(f"the windows {facts['fit_window_s']} and {facts['heldout_window_s']} must follow one another from 0 s")
+        raise SymidError(
+            f"the windows {facts['fit_window_s']} and {facts['heldout_window_s']} must follow one another from 0 s"
+        )
     # What a user is told of the sensor is only about right, and holds the rounding of the encoder.
     noise = facts["angle_noise_rms_rad_approx"] * rng.uniform(0.9, 1.1)
-    noise = np.sqrt(max(noise**2 - _rounding(facts.get("encoder_step_rad", 0.0))**2, JITTER[0]**2 / 4))
-    return Setup(model=model, rate=float(facts["sampling_rate_Hz"]), fit=t1, held_out=t3 - t2, sensor_noise=float(noise),
-                 facts=dict(facts), **own)
+    noise = np.sqrt(max(noise**2 - _rounding(facts.get("encoder_step_rad", 0.0)) ** 2, JITTER[0] ** 2 / 4))
+    return Setup(
+        model=model,
+        rate=float(facts["sampling_rate_Hz"]),
+        fit=t1,
+        held_out=t3 - t2,
+        sensor_noise=float(noise),
+        facts=dict(facts),
+        **own,
+    )
 
 
 def _standing(facts: Mapping, model: Model, rng: np.random.Generator) -> dict:
@@ -185,17 +236,29 @@ def _standing(facts: Mapping, model: Model, rng: np.random.Generator) -> dict:
     references = {k: rng.normal(0, REFERENCE_SPREAD) for k in ("ref_ankle", "ref_hip")}
     parameters = {k: float(v) for k, v in (gains | references).items()}
     hip = float(rng.uniform(0.4, 1.0))
-    return {"parameters": parameters, "torque_noise": dict(zip(model.noises, (1.0, hip), strict=True)), "sway": None,
-            "warm_up": 20.0, "settling": SETTLING, "limits": {"ankle": 0.35, "hip": 0.7},
-            "hidden": {"structure": controller, "gains": parameters}}
+    return {
+        "parameters": parameters,
+        "torque_noise": dict(zip(model.noises, (1.0, hip), strict=True)),
+        "sway": None,
+        "warm_up": 20.0,
+        "settling": SETTLING,
+        "limits": {"ankle": 0.35, "hip": 0.7},
+        "hidden": {"structure": controller, "gains": parameters},
+    }
 
 
 def _rig(facts: Mapping, model: Model, rng: np.random.Generator) -> dict:
     usual = {"joint1": (1e-4, 3e-4), "joint2": (5e-6, 2.5e-5)}
-    parameters = {f"viscous_friction_{t.location}_coefficient_Nms_rad": float(np.exp(rng.uniform(*np.log(usual[t.location]))))
-                  for t in model.terms}
+    parameters = {
+        f"viscous_friction_{t.location}_coefficient_Nms_rad": float(np.exp(rng.uniform(*np.log(usual[t.location]))))
+        for t in model.terms
+    }
     angles = [float(rng.choice([-1, 1]) * rng.uniform(0.3, 1.1)) for _ in range(2)]
-    return {"parameters": parameters, "initial_state": dict(zip(("link1_angle", "link2_angle"), angles, strict=True)),
-            "resolution": facts.get("encoder_step_rad", 0.0), "segment": facts.get("segment_s", SEGMENT),
-            "limits": {"link1": 2.5, "link2": 2.5},
-            "hidden": {"baseline_parameters": parameters, "initial_angles_rad": angles}}
+    return {
+        "parameters": parameters,
+        "initial_state": dict(zip(("link1_angle", "link2_angle"), angles, strict=True)),
+        "resolution": facts.get("encoder_step_rad", 0.0),
+        "segment": facts.get("segment_s", SEGMENT),
+        "limits": {"link1": 2.5, "link2": 2.5},
+        "hidden": {"baseline_parameters": parameters, "initial_angles_rad": angles},
+    }

@@ -9,8 +9,14 @@ from symid.conceal.conceal import Concealed
 from symid.conceal.draw import draw_case
 from symid.conceal.write import write_case
 
-SHIPPED = {"s01": ("standing", "two", 2053), "s02": ("standing", "none", 2080), "s03": ("standing", "single", 2028),
-           "r01": ("rig", "single", 2026), "r02": ("rig", "two", 2027), "r03": ("rig", "none", 2023)}
+SHIPPED = {
+    "s01": ("standing", "two", 2053),
+    "s02": ("standing", "none", 2080),
+    "s03": ("standing", "single", 2028),
+    "r01": ("rig", "single", 2026),
+    "r02": ("rig", "two", 2027),
+    "r03": ("rig", "none", 2023),
+}
 """Name -> system, kind, seed. What is concealed stands in the sealed answers alone."""
 
 

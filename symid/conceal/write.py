@@ -17,8 +17,11 @@ UNSCORED = ("phase_rad",)
 ALSO_ACCEPTED = {
     "feedback_delay": ("feedback", "controller", "input_to_controller", "ankle+hip"),
     "muscle_lag": ("actuator", "controller", "feedback", "ankle+hip"),
-    "gain_change": ("controller",), "integral_feedback": ("controller",), "torque_feedback": ("controller",),
-    "gravity_tilt": ("gravity", "mount", "base", "swing_plane"), "base_motion": ("pivot", "mount", "input", "global"),
+    "gain_change": ("controller",),
+    "integral_feedback": ("controller",),
+    "torque_feedback": ("controller",),
+    "gravity_tilt": ("gravity", "mount", "base", "swing_plane"),
+    "base_motion": ("pivot", "mount", "input", "global"),
     "elastic_mount": ("pivot", "mount", "global", "joint1", "input"),
     "vertical_base_motion": ("pivot", "mount", "global", "gravity"),
 }
@@ -38,20 +41,27 @@ def sealed_document(case: Concealed, name: str) -> dict:
     verdict = {"none": "adequate", "unlisted": "unexplained"}.get(case.kind, "missing_physics")
     others = case.equivalent or ((),) * len(case.terms), case.near or ((),) * len(case.terms)
     return {
-        "id": name, "system": case.setup.system, "kind": case.kind, "verdict": verdict,
+        "id": name,
+        "system": case.setup.system,
+        "kind": case.kind,
+        "verdict": verdict,
         "effects": [_effect(t, v, e, n) for (t, v), e, n in zip(case.terms.items(), *others, strict=True)],
         **case.setup.hidden,
-        "torque_noise_Nm": list(case.torque_noise.values()), "angle_noise_rms_rad": case.setup.sensor_noise,
-        "unexplained_sway_rms_rad": case.sway, "visibility": {"not_absorbed_rms_over_noise": case.visibility},
+        "torque_noise_Nm": list(case.torque_noise.values()),
+        "angle_noise_rms_rad": case.setup.sensor_noise,
+        "unexplained_sway_rms_rad": case.sway,
+        "visibility": {"not_absorbed_rms_over_noise": case.visibility},
         "reference": case.reference,
     }
 
 
 def _effect(term: Term, values, equivalent, near) -> dict:
     effect = {
-        "name": term.name, "location": term.location,
+        "name": term.name,
+        "location": term.location,
         "accepted_locations": [term.location, *ALSO_ACCEPTED.get(term.name, ()), *_joint_of(term)],
-        "parameters": dict(values), "scored_parameters": [k for k in values if k not in UNSCORED],
+        "parameters": dict(values),
+        "scored_parameters": [k for k in values if k not in UNSCORED],
         "equivalent": [{"name": t.name, "location": t.location} for t in equivalent],
         "near": [{"name": t.name, "location": t.location} for t in near],
     }
@@ -82,7 +92,7 @@ def csv_text(case: Concealed) -> str:
         unit = recording.units[name]
         names.append(column_name(name, unit))
         decimals = DECIMALS.get(unit, 6)
-        columns.append([f"{x:.{decimals}f}" for x in np.round(values, decimals) + 0.0])   # + 0.0: no -0.0
+        columns.append([f"{x:.{decimals}f}" for x in np.round(values, decimals) + 0.0])  # + 0.0: no -0.0
     return "\n".join([",".join(names), *(",".join(row) for row in zip(*columns, strict=True))]) + "\n"
 
 

@@ -32,13 +32,22 @@ from symid.threads import one_blas_thread
 
 
 @one_blas_thread
-def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
-             fit_window: tuple[float, float] | str | None = None, held_out: tuple[float, float] | str | None = None,
-             sensor_noise: float | Mapping[str, float] | None = None,
-             segment_length: float | None = None, driven: bool = True, settling: float = 0.0,
-             start: Mapping[str, float] | None = None, suspects: Sequence[Suspect] | None = None,
-             threads: int = 2, progress: Callable[[str], None] = lambda text: None,
-             episode_length: float | None = None) -> Diagnosis:
+def diagnose(
+    subject: Model | Solution,
+    recording: Recording | None = None,
+    *,
+    fit_window: tuple[float, float] | str | None = None,
+    held_out: tuple[float, float] | str | None = None,
+    sensor_noise: float | Mapping[str, float] | None = None,
+    segment_length: float | None = None,
+    driven: bool = True,
+    settling: float = 0.0,
+    start: Mapping[str, float] | None = None,
+    suspects: Sequence[Suspect] | None = None,
+    threads: int = 2,
+    progress: Callable[[str], None] = lambda text: None,
+    episode_length: float | None = None,
+) -> Diagnosis:
     """Compare a model with a recording and say what physics the model leaves out.
 
     Parameters
@@ -69,12 +78,20 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     segments = segments_of(model, recording, fit_window, segment_length)
     checked = audit(model, recording, segments, sensor_noise)
     plain = Data(segments, checked.noise, driven, checked.rounding).thinned()
-    possible = fits_of(model, recording, fit_window, segment_length, plain, checked.filter, checked.inputs, dict(start or {}))
+    possible = fits_of(
+        model, recording, fit_window, segment_length, plain, checked.filter, checked.inputs, dict(start or {})
+    )
     progress(f"the model as given is fitted ({possible[0][1].iterations} iterations)")
 
     def searched(base: Fit, data: Data) -> Search:
-        return Search(base, data, list(suspects_of(model) if suspects is None else suspects),
-                      cache(lambda: flexible_fits(base, data, flexible_terms(base, data))[0]), threads, progress)
+        return Search(
+            base,
+            data,
+            list(suspects_of(model) if suspects is None else suspects),
+            cache(lambda: flexible_fits(base, data, flexible_terms(base, data))[0]),
+            threads,
+            progress,
+        )
 
     search, found, ranking = with_error_model(possible, searched, progress)
     base, data, flexible = search.base, search.data, search.flexible
@@ -86,31 +103,79 @@ def diagnose(subject: Model | Solution, recording: Recording | None = None, *,
     white = all(t.locates or t.minus_log10_p <= POLICY.remainder for t in left)
     before, found = found.suspects, honest(found, white, threads)
     left = left if found.suspects == before else search.remainder(found)
-    chance = false_alarm_probability(weakest(found) if found.suspects else _largest(ranking), null_maxima(search.projection, found.fit))
+    chance = false_alarm_probability(
+        weakest(found) if found.suspects else _largest(ranking), null_maxima(search.projection, found.fit)
+    )
     if found.suspects and chance is not None and chance > POLICY.chance:
         found = Hypothesis((), base, 0.0)
         left = search.remainder(found)
     survived = survivals(found.suspects, found.fit, base, data, white)
     halves = () if white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking))
-    given = [base, *([with_values(base, subject.values)] if isinstance(subject, Solution) else []),
-             *(collocated(base, recording, fit_window) if found.suspects and held_out is not None else [])]
-    better = [found.fit, *(collocated(found.fit, recording, fit_window) if found.suspects and held_out is not None else [])]
+    given = [
+        base,
+        *([with_values(base, subject.values)] if isinstance(subject, Solution) else []),
+        *(collocated(base, recording, fit_window) if found.suspects and held_out is not None else []),
+    ]
+    better = [
+        found.fit,
+        *(collocated(found.fit, recording, fit_window) if found.suspects and held_out is not None else []),
+    ]
     # Segments that were set apart are judged whole, and so are those that were fitted.
-    windows = {key: plain.with_segments(segments_of(model, recording, w, None if isinstance(w, str) else segment_length))
-               for key, w in (("train", fit_window), ("heldout", held_out)) if w is not None}
+    windows = {
+        key: plain.with_segments(segments_of(model, recording, w, None if isinstance(w, str) else segment_length))
+        for key, w in (("train", fit_window), ("heldout", held_out))
+        if w is not None
+    }
     runs = free_runs(given, better, windows, settling)
-    proof = compare(runs["baseline_heldout"], runs["augmented_heldout"]) if "heldout" in windows and found.suspects else None
+    proof = (
+        compare(runs["baseline_heldout"], runs["augmented_heldout"])
+        if "heldout" in windows and found.suspects
+        else None
+    )
 
     verdict, effects, equivalent = judge(found, search.equivalents(found), left, flexible)
-    text = words(Story(verdict, effects, equivalent, ranking, left, runs, checked, survived, halves, white,
-                       base.kalman_gain is not None, data.filter, model, proof, chance))
-    return Diagnosis(verdict, effects, tuple(ranking), equivalent, base, found.fit, runs, tuple(left), text, checked, survived, halves,
-                     proof, chance)
+    text = words(
+        Story(
+            verdict,
+            effects,
+            equivalent,
+            ranking,
+            left,
+            runs,
+            checked,
+            survived,
+            halves,
+            white,
+            base.kalman_gain is not None,
+            data.filter,
+            model,
+            proof,
+            chance,
+        )
+    )
+    return Diagnosis(
+        verdict,
+        effects,
+        tuple(ranking),
+        equivalent,
+        base,
+        found.fit,
+        runs,
+        tuple(left),
+        text,
+        checked,
+        survived,
+        halves,
+        proof,
+        chance,
+    )
 
 
 def _doubtful(found: Hypothesis, search: Search) -> bool:
     """Whether something of no list may be behind what was found."""
-    return len(found.suspects) > 1 or not found.established or search.remainder(found)[0].minus_log10_p > POLICY.remainder
+    return (
+        len(found.suspects) > 1 or not found.established or search.remainder(found)[0].minus_log10_p > POLICY.remainder
+    )
 
 
 def _largest(ranking: Sequence[Hypothesis]) -> float:
@@ -121,7 +186,9 @@ def _of_solution(solution: Solution, recording, fit_window, start):
     """Recording, window and values that a solution brings where they are not given."""
     problem = solution.problem
     if len(problem.recordings) > 1:
-        raise DiagnosisError(f"diagnose: the solution has {len(problem.recordings)} recordings; diagnose one of them: "
-                             "diagnose(solution.model, recording, fit_window=..., start=solution.values)")
+        raise DiagnosisError(
+            f"diagnose: the solution has {len(problem.recordings)} recordings; diagnose one of them: "
+            "diagnose(solution.model, recording, fit_window=..., start=solution.values)"
+        )
     recording = problem.recordings[0] if recording is None else recording
     return recording, fit_window or problem.windows[0] or recording.interval, solution.values | dict(start or {})

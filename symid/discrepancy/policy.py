@@ -44,7 +44,9 @@ class Policy:
 
     accept: float = 3.0
     doubt: float = 10.0
-    odds: dict[str, float] = field(default_factory=lambda: {"state": 0.0, "geometry": 4.0, "sensor": 4.0, "clock": 10.0})
+    odds: dict[str, float] = field(
+        default_factory=lambda: {"state": 0.0, "geometry": 4.0, "sensor": 4.0, "clock": 10.0}
+    )
     harmonic: float = 1000.0
     harmonics: int = 6
     equivalent: float = 12.0

@@ -50,8 +50,11 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str], threads: int = 2) -> Fi
         errors = np.where(stated > 0, np.maximum(spread, stated), stated) * np.sqrt(1 + 1 / len(found))
     else:
         values = np.array(list(fit.values.values()))
-    return replace(fit, values=dict(zip(fit.values, map(float, values), strict=True)),
-                   errors=dict(zip(fit.values, map(float, errors), strict=True)))
+    return replace(
+        fit,
+        values=dict(zip(fit.values, map(float, values), strict=True)),
+        errors=dict(zip(fit.values, map(float, errors), strict=True)),
+    )
 
 
 def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
@@ -63,15 +66,23 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
         time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)
         fine = np.interp(np.arange((len(e.time) - 1) * e.ratio + 1) / e.ratio, np.arange(len(e.time)), e.time)
         noise = {k: s * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process, strict=True)}
-        run = sim.simulate(fit.values, x0, time, {k: np.interp(time, fine, u) for k, u in e.inputs.items()}, noise=noise,
-                           substeps=-(-fitter.substeps // holds), keep="outputs")
+        run = sim.simulate(
+            fit.values,
+            x0,
+            time,
+            {k: np.interp(time, fine, u) for k, u in e.inputs.items()},
+            noise=noise,
+            substeps=-(-fitter.substeps // holds),
+            keep="outputs",
+        )
         if run.diverged:
             return None
         shown = run.y[::holds]
         segments.append(replace(e, recorded=shown + data.sensor_noise * rng.standard_normal(shown.shape)))
     try:
-        again = Fitter(fit.model, data.with_segments(segments)).fit(fit.values, fit.initial, fit.process, ITERATIONS,
-                                                                     errors=False, kalman_gain=fit.kalman_gain)
+        again = Fitter(fit.model, data.with_segments(segments)).fit(
+            fit.values, fit.initial, fit.process, ITERATIONS, errors=False, kalman_gain=fit.kalman_gain
+        )
     except SymidError:
         return None
     return np.array(list(again.values.values()))

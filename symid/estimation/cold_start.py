@@ -29,8 +29,9 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -
     DiagnosisError : no start leads to a run that stays finite.
     """
     sim = simulator(model)
-    values = {k: _first(p) for k, p in model.parameters.items()} | {k: v for k, v in (start or {}).items()
-                                                                    if k in model.parameters}
+    values = {k: _first(p) for k, p in model.parameters.items()} | {
+        k: v for k, v in (start or {}).items() if k in model.parameters
+    }
     initial = np.array([_observed_state(model, e.recorded[0]) for e in data.segments])
     fitter = Fitter(model, data)
     if not fitter.driven:
@@ -43,8 +44,10 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -
         except SymidError as error:
             problem = error
     if not found:
-        raise DiagnosisError(f"model '{model.name}' could not be fitted from any start; give start values. The last "
-                             f"attempt ended with: {problem}")
+        raise DiagnosisError(
+            f"model '{model.name}' could not be fitted from any start; give start values. The last "
+            f"attempt ended with: {problem}"
+        )
     return max(found, key=lambda f: f.loglik2)
 
 
@@ -54,7 +57,9 @@ def _grow(model: Model, data: Data, values: dict[str, float], initial: np.ndarra
     for seconds in (*GROWING, np.inf):
         length = int(min(longest, max(8, seconds / data.segments[0].step)))
         head = data.with_segments(e.head(length) for e in data.segments)
-        fit = Fitter(model, head, fixed if seconds == GROWING[0] else ()).fit(values, initial, np.zeros(len(model.noises)))
+        fit = Fitter(model, head, fixed if seconds == GROWING[0] else ()).fit(
+            values, initial, np.zeros(len(model.noises))
+        )
         values, initial = fit.values, fit.initial
     return fit
 

@@ -49,7 +49,9 @@ def estimated_filter(outputs: Sequence[np.ndarray], inputs: Sequence[np.ndarray]
 
     _, order, rate, at = min((cost(n, r, c), n, r, i) for n, r in product(ORDERS, RATES) for i, c in enumerate(cutoffs))
     near = cutoffs[max(at - 1, 0)], cutoffs[min(at + 1, CUTOFFS - 1)]
-    best = minimize_scalar(lambda c: cost(order, rate, c), bounds=near, method="bounded", options={"xatol": 1e-3 * near[0]})
+    best = minimize_scalar(
+        lambda c: cost(order, rate, c), bounds=near, method="bounded", options={"xatol": 1e-3 * near[0]}
+    )
     return ZeroPhase(order, float(best.x), rate / step)
 
 
@@ -82,5 +84,8 @@ def _misfit(f: np.ndarray, power: np.ndarray, gain: np.ndarray) -> float:
 
     floor = np.log(np.median(power / gain))
     rounding = np.log(max(power.min(), 1e-300))
-    starts = ([floor, floor - 2, floor - 2, floor - 6, rounding], [floor - 6, floor - 2, floor - 1, floor - 6, rounding])
+    starts = (
+        [floor, floor - 2, floor - 2, floor - 6, rounding],
+        [floor - 6, floor - 2, floor - 1, floor - 6, rounding],
+    )
     return min(minimize(cost, np.array(s), jac=True, method="L-BFGS-B").fun for s in starts)

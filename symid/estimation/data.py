@@ -56,16 +56,26 @@ class Segment:
         first, last, every = rows.indices(len(self.time))
         fine = slice(first * self.ratio, (last - 1) * self.ratio + 1, every)
         keep = np.ascontiguousarray
-        return Segment(keep(self.time[rows]), keep(self.recorded[rows]), {k: keep(v[fine]) for k, v in self.inputs.items()},
-                       self.ratio, None if self.undone is None else keep(self.undone[rows]))
+        return Segment(
+            keep(self.time[rows]),
+            keep(self.recorded[rows]),
+            {k: keep(v[fine]) for k, v in self.inputs.items()},
+            self.ratio,
+            None if self.undone is None else keep(self.undone[rows]),
+        )
 
     def sparser(self, every: int) -> Segment:
         """Every so-many-th sample of the outputs, all samples of the inputs."""
         rows = slice(None, None, every)
         time = np.ascontiguousarray(self.time[rows])
         fine = (len(time) - 1) * every * self.ratio + 1
-        return Segment(time, np.ascontiguousarray(self.recorded[rows]), {k: v[:fine] for k, v in self.inputs.items()},
-                       every * self.ratio, None if self.undone is None else np.ascontiguousarray(self.undone[rows]))
+        return Segment(
+            time,
+            np.ascontiguousarray(self.recorded[rows]),
+            {k: v[:fine] for k, v in self.inputs.items()},
+            every * self.ratio,
+            None if self.undone is None else np.ascontiguousarray(self.undone[rows]),
+        )
 
     def sharpened(self, sharpness: float) -> Segment:
         """The segment with so many times the part that undoing a filter added."""
@@ -73,8 +83,16 @@ class Segment:
             return self
         return replace(self, recorded=self.recorded + (sharpness - 1) * self.undone, undone=sharpness * self.undone)
 
-    def simulate(self, simulator: Simulator, parameters, initial_state, gain: np.ndarray | None = None, *, substeps: int = 1,
-                 **options) -> Trajectory:
+    def simulate(
+        self,
+        simulator: Simulator,
+        parameters,
+        initial_state,
+        gain: np.ndarray | None = None,
+        *,
+        substeps: int = 1,
+        **options,
+    ) -> Trajectory:
         """A run over this segment, corrected by its samples where there is a `gain`, reported at its samples.
 
         Parameters
@@ -83,14 +101,30 @@ class Segment:
         options : of `Simulator.simulate`.
         """
         if self.ratio == 1:
-            return simulator.simulate(parameters, initial_state, self.time, self.inputs, gain=gain, recorded=self.recorded,
-                                      substeps=substeps, **options)
+            return simulator.simulate(
+                parameters,
+                initial_state,
+                self.time,
+                self.inputs,
+                gain=gain,
+                recorded=self.recorded,
+                substeps=substeps,
+                **options,
+            )
         n = (len(self.time) - 1) * self.ratio + 1
         recorded = np.full((n, self.recorded.shape[1]), np.nan)
-        recorded[::self.ratio] = self.recorded
+        recorded[:: self.ratio] = self.recorded
         time = np.interp(np.arange(n) / self.ratio, np.arange(len(self.time)), self.time)
-        run = simulator.simulate(parameters, initial_state, time, self.inputs, gain=_between(gain, self.ratio),
-                                 recorded=recorded, substeps=-(-substeps // self.ratio), **options)
+        run = simulator.simulate(
+            parameters,
+            initial_state,
+            time,
+            self.inputs,
+            gain=_between(gain, self.ratio),
+            recorded=recorded,
+            substeps=-(-substeps // self.ratio),
+            **options,
+        )
         return run.every(self.ratio)
 
 
@@ -145,7 +179,9 @@ class Data:
         """The same data for another cutoff of the filter that was undone: `ZeroPhase.sharpened`."""
         if self.filter is None:
             return self
-        return replace(self, segments=tuple(e.sharpened(sharpness) for e in self.segments), filter=self.filter.sharpened(sharpness))
+        return replace(
+            self, segments=tuple(e.sharpened(sharpness) for e in self.segments), filter=self.filter.sharpened(sharpness)
+        )
 
     def remembering(self, memory: int) -> Data:
         """The same data with noise that remembers so many samples; the cutoff of a filter then keeps its value."""
@@ -168,8 +204,9 @@ class Data:
         return self.with_segments(e.part(slice(None, None, every)) for e in self.segments)
 
 
-def segments_of(model: Model, recording: Recording, part: tuple[float, float] | str,
-                length: float | None = None) -> tuple[Segment, ...]:
+def segments_of(
+    model: Model, recording: Recording, part: tuple[float, float] | str, length: float | None = None
+) -> tuple[Segment, ...]:
     """The segments of a window, or of the segments with a split label, none longer than about `length` seconds.
 
     Raises
@@ -189,8 +226,10 @@ def segments_of(model: Model, recording: Recording, part: tuple[float, float] | 
         whole = length is None or window[1] - window[0] < LONGER * length
         found += segments_between(model, s.time, dict(s.channels), window, None if whole else length)
     if not found:
-        raise DiagnosisError(f"no segment of {recording.name} has {FEWEST} samples between {part[0]:g} s and {part[1]:g} s; "
-                             f"it runs from {recording.interval[0]:g} s to {recording.interval[1]:g} s")
+        raise DiagnosisError(
+            f"no segment of {recording.name} has {FEWEST} samples between {part[0]:g} s and {part[1]:g} s; "
+            f"it runs from {recording.interval[0]:g} s to {recording.interval[1]:g} s"
+        )
     return tuple(found)
 
 
@@ -199,9 +238,14 @@ def _in_order(recording: Recording) -> list[Recording]:
     segments = recording.segments()
     if any(b.time[0] <= a.time[-1] for a, b in pairwise(segments)):
         labels = [] if recording.split is None else sorted(set(recording.split.tolist()))
-        choice = (f"give a label of its column split instead: {', '.join(labels)}" if labels else
-                  "add a column split with labels such as fit and held_out")
-        raise DiagnosisError(f"{recording.name}: time begins anew in each segment, so a window of time means nothing; {choice}")
+        choice = (
+            f"give a label of its column split instead: {', '.join(labels)}"
+            if labels
+            else "add a column split with labels such as fit and held_out"
+        )
+        raise DiagnosisError(
+            f"{recording.name}: time begins anew in each segment, so a window of time means nothing; {choice}"
+        )
     return segments
 
 
@@ -209,8 +253,13 @@ def _count(time: np.ndarray, window: tuple[float, float]) -> int:
     return int(np.sum((time >= window[0]) & (time <= window[1])))
 
 
-def segments_between(model: Model, time: np.ndarray, channels: Mapping[str, np.ndarray], window: tuple[float, float],
-                     length: float | None = None) -> tuple[Segment, ...]:
+def segments_between(
+    model: Model,
+    time: np.ndarray,
+    channels: Mapping[str, np.ndarray],
+    window: tuple[float, float],
+    length: float | None = None,
+) -> tuple[Segment, ...]:
     """The samples of `window` (both ends) as one segment, or cut into pieces of `length` seconds.
 
     Raises
@@ -220,8 +269,10 @@ def segments_between(model: Model, time: np.ndarray, channels: Mapping[str, np.n
     needed = [c.channel for c in (*model.outputs.values(), *model.inputs.values())]
     missing = [c for c in needed if c not in channels]
     if missing:
-        raise DiagnosisError(f"the recording has no channel {missing[0]!r}, which model '{model.name}' needs; "
-                             f"it has {', '.join(channels)}")
+        raise DiagnosisError(
+            f"the recording has no channel {missing[0]!r}, which model '{model.name}' needs; "
+            f"it has {', '.join(channels)}"
+        )
     half = 0.5 * float(np.median(np.diff(time)))
     t0, t1 = window
     edges = [t0, t1 + 2 * half] if length is None else list(np.arange(t0, t1 - half, length)) + [t1 + 2 * half]
@@ -230,11 +281,18 @@ def segments_between(model: Model, time: np.ndarray, channels: Mapping[str, np.n
         rows = (time >= a - half) & (time < b - half)
         if rows.sum() >= FEWEST:
             recorded = np.column_stack([channels[y.channel][rows] for y in model.outputs.values()])
-            found.append(Segment(time[rows], np.ascontiguousarray(recorded),
-                                 {k: np.ascontiguousarray(channels[u.channel][rows]) for k, u in model.inputs.items()}))
+            found.append(
+                Segment(
+                    time[rows],
+                    np.ascontiguousarray(recorded),
+                    {k: np.ascontiguousarray(channels[u.channel][rows]) for k, u in model.inputs.items()},
+                )
+            )
     if not found:
-        raise DiagnosisError(f"the window {t0:g} s to {t1:g} s holds fewer than {FEWEST} samples of the recording, which runs "
-                             f"from {time[0]:g} s to {time[-1]:g} s")
+        raise DiagnosisError(
+            f"the window {t0:g} s to {t1:g} s holds fewer than {FEWEST} samples of the recording, which runs "
+            f"from {time[0]:g} s to {time[-1]:g} s"
+        )
     return tuple(found)
 
 

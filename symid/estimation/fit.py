@@ -119,9 +119,17 @@ class Fitter:
         """Trajectories of all segments, or None if one diverged."""
         out = []
         for e, start in zip(self.segments(process), x0, strict=True):
-            t = e.simulate(self.sim, p, start, gain, substeps=self.substeps, keep=keep,
-                           sensitivity=self.free if sensitivities else (),
-                           initial_sensitivity=self.sim.states if sensitivities else (), history=self._history(p, start, e))
+            t = e.simulate(
+                self.sim,
+                p,
+                start,
+                gain,
+                substeps=self.substeps,
+                keep=keep,
+                sensitivity=self.free if sensitivities else (),
+                initial_sensitivity=self.sim.states if sensitivities else (),
+                history=self._history(p, start, e),
+            )
             if t.diverged:
                 return None
             out.append(t)
@@ -155,7 +163,9 @@ class Fitter:
         if not self.driven:
             # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
             whitening = whitening.apart((1e-6 * self.data.sensor_noise) ** 2)
-        sign, logdet = np.linalg.slogdet(whitening.covariance / np.outer(self.data.sensor_noise, self.data.sensor_noise))
+        sign, logdet = np.linalg.slogdet(
+            whitening.covariance / np.outer(self.data.sensor_noise, self.data.sensor_noise)
+        )
         if self.data.filter is not None:
             logdet -= 2 * len(whitening.covariance) * self.data.filter.log_volume(self.step, self.sharpness(process))[0]
         return (-self.data.samples * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), whitening
@@ -168,7 +178,9 @@ class Fitter:
         """Kalman gain at these values, linearised along a path of states; None without random forces."""
         if not self.driven:
             return None
-        return kalman_gain(linearised_along(self.sim, p, path), self.step, process[:self.noises], self.data.sensor_noise)
+        return kalman_gain(
+            linearised_along(self.sim, p, path), self.step, process[: self.noises], self.data.sensor_noise
+        )
 
     def path(self, p, x0, gain) -> np.ndarray:
         """States along the trajectories, or the initial states if those diverge."""
@@ -176,8 +188,16 @@ class Fitter:
         return np.vstack([t.x for t in runs]) if runs else x0
 
     # ---- the iteration ---------------------------------------------------------------
-    def fit(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray, iterations: int = 40,
-            tolerance: float = TOLERANCE, errors: bool = True, kalman_gain: np.ndarray | None = None) -> Fit:
+    def fit(
+        self,
+        start: dict[str, float],
+        initial: np.ndarray,
+        process: np.ndarray,
+        iterations: int = 40,
+        tolerance: float = TOLERANCE,
+        errors: bool = True,
+        kalman_gain: np.ndarray | None = None,
+    ) -> Fit:
         """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if the start itself diverges.
 
         `kalman_gain` is one that is known to hold the start together, of an earlier fit that ended there.
@@ -218,8 +238,12 @@ class Fitter:
     def _begin(self, start, initial, process, known) -> _Point:
         p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
         x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
-        process = np.append(process[:self.noises], process[self.noises:] if self.data.cutoff_free and len(process) > self.noises
-                            else [1.0] * self.data.cutoff_free)
+        process = np.append(
+            process[: self.noises],
+            process[self.noises :]
+            if self.data.cutoff_free and len(process) > self.noises
+            else [1.0] * self.data.cutoff_free,
+        )
         path = self.path(p, x0, self.kalman_gain(p, process, x0) if known is None else known)
         gain = self.kalman_gain(p, process, path)
         value = self.evaluate(p, x0, gain, process)
@@ -258,9 +282,9 @@ class Fitter:
         p1[self.index] += step[:q]
         p1 = np.clip(p1, *self.bounds.T)
         process1 = process.copy()
-        process1[self.tuned] *= np.exp(np.clip(step[q:q + len(self.tuned)], -1.5, 1.5))
-        process1[self.noises:] = np.clip(process1[self.noises:], 1 / SHARPEST, SHARPEST)
-        return p1, x0 + step[-E * n:].reshape(E, n), process1
+        process1[self.tuned] *= np.exp(np.clip(step[q : q + len(self.tuned)], -1.5, 1.5))
+        process1[self.noises :] = np.clip(process1[self.noises :], 1 / SHARPEST, SHARPEST)
+        return p1, x0 + step[-E * n :].reshape(E, n), process1
 
     def normal(self, p, x0, gain, process, path):
         """Normal equations of shared unknowns (parameters, log noise) and initial states."""
@@ -277,7 +301,7 @@ class Fitter:
             for i, (t, s, extra) in enumerate(zip(runs, innovations, noise, strict=True)):
                 J = whitening(np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2))
                 r = whitening(s[:, :, None])[:, 0]
-                where = np.r_[0:q + w, q + w + i * n:q + w + (i + 1) * n]
+                where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
                 H[np.ix_(where, where)] += J.T @ J
                 g[where] += J.T @ r
             if self.data.cutoff_free:
@@ -300,15 +324,24 @@ class Fitter:
         for j in self.tuned:
             more = process.copy()
             more[j] *= np.exp(0.1)
-            moved = gain if j == self.noises else kalman_gain(linear, self.step, more[:self.noises], self.data.sensor_noise)
+            moved = (
+                gain
+                if j == self.noises
+                else kalman_gain(linear, self.step, more[: self.noises], self.data.sensor_noise)
+            )
             other = self.run(p, x0, moved, False, process=more)
-            columns.append([np.zeros_like(s) for s in innovations] if other is None else
-                           [(a - b) / 0.1 for a, b in zip(self.innovations(other, more), innovations, strict=True)])
+            columns.append(
+                [np.zeros_like(s) for s in innovations]
+                if other is None
+                else [(a - b) / 0.1 for a, b in zip(self.innovations(other, more), innovations, strict=True)]
+            )
         return [np.stack([c[i] for c in columns], axis=2) for i in range(len(innovations))]
 
     def _result(self, at: _Point, iterations: int, converged: bool, errors_too: bool) -> Fit:
         system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path) if errors_too else None
-        innovations = self.innovations(self.run(at.p, at.x0, at.kalman_gain, sensitivities=False, process=at.process), at.process)
+        innovations = self.innovations(
+            self.run(at.p, at.x0, at.kalman_gain, sensitivities=False, process=at.process), at.process
+        )
         loglik2, whitening = self.score(innovations, at.process)
         errors = {}
         if system is not None:
@@ -318,6 +351,16 @@ class Fitter:
             errors = dict.fromkeys(self.sim.parameters, 0.0)
             errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0))) for i, k in enumerate(self.free)}
         values = dict(zip(self.sim.parameters, map(float, at.p), strict=True))
-        return Fit(self.model, values, at.x0, at.process, at.kalman_gain, tuple(innovations), whitening, float(loglik2), errors,
-                   iterations, converged)
-
+        return Fit(
+            self.model,
+            values,
+            at.x0,
+            at.process,
+            at.kalman_gain,
+            tuple(innovations),
+            whitening,
+            float(loglik2),
+            errors,
+            iterations,
+            converged,
+        )

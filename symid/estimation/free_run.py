@@ -27,8 +27,10 @@ class FreeRun:
     def of_segments(self) -> list[tuple[float, float]]:
         """Start [s] and rms of each segment."""
         ends = np.cumsum(self.lengths)
-        return [(float(self.time[a]), float(np.sqrt(np.mean((self.simulated - self.recorded)[a:b] ** 2))))
-                for a, b in zip([0, *ends[:-1]], ends, strict=True)]
+        return [
+            (float(self.time[a]), float(np.sqrt(np.mean((self.simulated - self.recorded)[a:b] ** 2))))
+            for a, b in zip([0, *ends[:-1]], ends, strict=True)
+        ]
 
 
 def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
@@ -43,8 +45,13 @@ def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
     recorded = np.vstack([e.recorded for e in data.segments])
     simulated = min(runs, key=lambda y: float(np.sum((y - recorded) ** 2))) if runs else np.full_like(recorded, np.nan)
     use = np.arange(len(time)) >= int(settling / data.segments[0].step + 0.5)
-    return FreeRun(time, recorded, simulated, float(np.sqrt(np.mean((simulated - recorded)[use] ** 2))),
-                   tuple(len(e.time) for e in data.segments))
+    return FreeRun(
+        time,
+        recorded,
+        simulated,
+        float(np.sqrt(np.mean((simulated - recorded)[use] ** 2))),
+        tuple(len(e.time) for e in data.segments),
+    )
 
 
 def _run(fitter: Fitter, fit: Fit, x0: np.ndarray) -> np.ndarray | None:
@@ -59,7 +66,11 @@ def _run(fitter: Fitter, fit: Fit, x0: np.ndarray) -> np.ndarray | None:
 
 def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
     """Initial states to begin from: the fit's own, or what its predictor knows after some samples."""
-    if len(fit.initial) == len(data.segments) and fit.innovations and len(fit.innovations[0]) == len(data.segments[0].time):
+    if (
+        len(fit.initial) == len(data.segments)
+        and fit.innovations
+        and len(fit.innovations[0]) == len(data.segments[0].time)
+    ):
         return [fit.initial]
     shown = {str(y.expr): i for i, y in enumerate(fit.model.outputs.values())}
     plain = np.zeros((len(data.segments), fit.initial.shape[1]))

@@ -26,7 +26,7 @@ def independent_share(errors: Sequence[np.ndarray]) -> float:
         for e in errors:
             x = e[:, o]
             f = np.fft.rfft(x, 2 * len(x))
-            own = np.fft.irfft(np.abs(f) ** 2)[:len(x)]
+            own = np.fft.irfft(np.abs(f) ** 2)[: len(x)]
             n = min(len(own), len(products))
             products[:n] += own[:n]
         r = products[1:] / max(products[0], 1e-300)

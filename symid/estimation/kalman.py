@@ -36,7 +36,7 @@ def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np
     scale = 1.0 / np.maximum(np.abs(np.diag(R)).mean(), 1e-300)
     for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
         try:
-            with np.errstate(over="ignore", invalid="ignore"):    # hopeless candidates overflow, and have no gain
+            with np.errstate(over="ignore", invalid="ignore"):  # hopeless candidates overflow, and have no gain
                 P = solve_discrete_are((leak * F).T, C.T, Q * scale + 1e-12 * np.eye(n), R * scale)
             return _gains(F, P, C, np.linalg.inv(C @ P @ C.T + R * scale), linear, step)
         except (LinAlgError, ValueError):

@@ -20,21 +20,26 @@ class Loop:
     def __init__(self, t: Transcription, ridge: float):
         self.t, self.q, n = t, len(t.layout.parameter_names), t.layout.n
         if t.model.delays or self.q != len(t.model.parameters):
-            raise SolveError(f"start='search' cannot simulate model '{t.model.name}', which has delays or parameters of "
-                             "single recordings; use the default start")
+            raise SolveError(
+                f"start='search' cannot simulate model '{t.model.name}', which has delays or parameters of "
+                "single recordings; use the default start"
+            )
         self.simulator, self.ridge = simulator(t.model), np.sqrt(ridge * len(t.recording_of))
         self.scale = np.concatenate([t.layout.parameter_scale, np.tile(t.layout.state_scale, len(t.measured))])
         lower, upper = parameter_bounds(t)
         free = np.full(n * len(t.measured), np.inf)
-        tiny = 1e-9 * self.scale[:self.q]
+        tiny = 1e-9 * self.scale[: self.q]
         self.lower = np.concatenate([lower + tiny, -free]) / self.scale
         self.upper = np.concatenate([upper - tiny, free]) / self.scale
         self.weights = root_weights(t)
         self.spread = [10 * np.std(m.targets[m.nodes], axis=0) for m in t.measured]
-        self.variance = np.mean([np.var(m.targets[m.nodes] * w, axis=0) for m, w in zip(t.measured, self.weights, strict=True)])
+        self.variance = np.mean(
+            [np.var(m.targets[m.nodes] * w, axis=0) for m, w in zip(t.measured, self.weights, strict=True)]
+        )
         count = len(t.model.noises)
-        self.noise = [dict(zip(t.model.noises, np.vstack([d.noise, np.zeros((1, count))]).T, strict=True))
-                      for d in t.program.data]
+        self.noise = [
+            dict(zip(t.model.noises, np.vstack([d.noise, np.zeros((1, count))]).T, strict=True)) for d in t.program.data
+        ]
 
     def unknowns(self, parameters: np.ndarray, states: Sequence[np.ndarray] | None = None) -> np.ndarray:
         """z of these parameters (SI) and initial states of the recordings, as recorded by default."""
@@ -44,19 +49,25 @@ class Loop:
     def free_vector(self, z: np.ndarray) -> np.ndarray:
         """The collocation's free vector with the simulated episodes, or with the recorded motion where one diverges."""
         runs = [self.run(z, e) for e in range(len(self.t.recording_of))]
-        return self.t.start((z * self.scale)[:self.q], None if any(r.diverged for r in runs) else [r.x for r in runs])
+        return self.t.start((z * self.scale)[: self.q], None if any(r.diverged for r in runs) else [r.x for r in runs])
 
     def _own(self, episode: int) -> np.ndarray:
         """Columns of z that an episode depends on."""
         first = self.q + self.t.layout.n * self.t.recording_of[episode]
-        return np.r_[:self.q, first:first + self.t.layout.n]
+        return np.r_[: self.q, first : first + self.t.layout.n]
 
     def run(self, z: np.ndarray, episode: int, slopes: bool = False, noise: bool = True) -> Trajectory:
         m, values = self.t.measured[self.t.recording_of[episode]], (z * self.scale)[self._own(episode)]
         wanted = {"sensitivity": self.t.layout.parameter_names, "initial_sensitivity": self.t.layout.state_names}
-        return self.simulator.simulate(values[:self.q], values[self.q:], m.time[m.nodes],
-                                       {k: u[m.nodes] for k, u in m.inputs.items()}, limit=self.t.diverged,
-                                       noise=self.noise[episode] if noise else None, **(wanted if slopes else {}))
+        return self.simulator.simulate(
+            values[: self.q],
+            values[self.q :],
+            m.time[m.nodes],
+            {k: u[m.nodes] for k, u in m.inputs.items()},
+            limit=self.t.diverged,
+            noise=self.noise[episode] if noise else None,
+            **(wanted if slopes else {}),
+        )
 
     def _error(self, z: np.ndarray, episode: int, **options) -> np.ndarray:
         """(nodes, outputs) of one episode, so that a diverging run counts as a bad one."""
@@ -66,7 +77,9 @@ class Loop:
 
     def held(self, error: np.ndarray, r: int) -> np.ndarray:
         """Weighted error of recording `r` (nodes, outputs), within ten deviations; NaN, where a run has ended, is ten."""
-        return np.nan_to_num(np.clip(error, -self.spread[r], self.spread[r]), nan=self.spread[r].max()) * self.weights[r]
+        return (
+            np.nan_to_num(np.clip(error, -self.spread[r], self.spread[r]), nan=self.spread[r].max()) * self.weights[r]
+        )
 
     def distance(self, z: np.ndarray) -> float:
         """Mean square of the error without process noise."""
@@ -76,7 +89,7 @@ class Loop:
     def residual(self, z: np.ndarray) -> np.ndarray:
         """Its sum of squares is the objective of the collocation."""
         parts = [self._error(z, e).ravel() * np.sqrt(d.step) for e, d in enumerate(self.t.program.data)]
-        return np.concatenate([*parts, self.ridge * z[:self.q]])
+        return np.concatenate([*parts, self.ridge * z[: self.q]])
 
     def cost(self, z: np.ndarray) -> float:
         r = self.residual(z)
@@ -93,5 +106,12 @@ class Loop:
         return np.concatenate([*blocks, self.ridge * np.eye(self.q, len(z))])
 
     def shoot(self, z: np.ndarray, evaluations: int) -> np.ndarray:
-        return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
-                             max_nfev=evaluations, ftol=1e-5).x
+        return least_squares(
+            self.residual,
+            z,
+            self.jacobian,
+            bounds=(self.lower, self.upper),
+            x_scale="jac",
+            max_nfev=evaluations,
+            ftol=1e-5,
+        ).x

@@ -16,8 +16,16 @@ from symid.model import Model
 from symid.recording import Recording
 
 
-def fits_of(model: Model, recording: Recording, part, length: float | None, plain: Data, filter: ZeroPhase | None,
-            inputs: bool, start: Mapping[str, float]) -> list[tuple[Data, Fit]]:
+def fits_of(
+    model: Model,
+    recording: Recording,
+    part,
+    length: float | None,
+    plain: Data,
+    filter: ZeroPhase | None,
+    inputs: bool,
+    start: Mapping[str, float],
+) -> list[tuple[Data, Fit]]:
     """What may have been measured, and the fit of `model` to each: `plain` data, or those with a filter undone.
 
     The cutoff is estimated with the model, which the outputs' answer to the inputs shows. Where the inputs went
@@ -59,15 +67,22 @@ def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
     return with_memory(Fitter(fit.model, more).again(fit), more)
 
 
-def _undone(model: Model, recording: Recording, part, length, plain: Data, filter: ZeroPhase, ratio: int,
-            inputs: bool) -> Data:
+def _undone(
+    model: Model, recording: Recording, part, length, plain: Data, filter: ZeroPhase, ratio: int, inputs: bool
+) -> Data:
     outputs = [y.channel for y in model.outputs.values()]
     whole, added = _restored(recording, outputs + [u.channel for u in model.inputs.values()] * inputs, filter, ratio)
     pieces = segments_of(model, whole, part, length)
     if not inputs:
-        pieces = [replace(e, undone=a.recorded) for e, a in zip(pieces, segments_of(model, added, part, length), strict=True)]
-    return replace(plain, segments=tuple(e.sparser(ratio) for e in pieces), filter=filter,
-                   sensor_noise=plain.sensor_noise / np.sqrt(ratio))
+        pieces = [
+            replace(e, undone=a.recorded) for e, a in zip(pieces, segments_of(model, added, part, length), strict=True)
+        ]
+    return replace(
+        plain,
+        segments=tuple(e.sparser(ratio) for e in pieces),
+        filter=filter,
+        sensor_noise=plain.sensor_noise / np.sqrt(ratio),
+    )
 
 
 def _restored(recording: Recording, names: list[str], filter: ZeroPhase, ratio: int) -> tuple[Recording, Recording]:

@@ -40,7 +40,11 @@ def with_robust_errors(fit: Fit, data: Data) -> Fit:
         moves = (c / scale * rest[:, None]).reshape(len(e.time), m, q).sum(1) @ inverse
         sums += [part.sum(0) for part in np.array_split(moves, _blocks(e.time, len(data.segments)))]
     spread = np.sqrt((np.array(sums) ** 2).sum(0) * len(sums) / max(len(sums) - 1, 1)) / scale
-    return replace(fit, errors=fit.errors | {k: max(fit.errors.get(k, 0.0), float(s)) for k, s in zip(fitter.free, spread, strict=True)})
+    return replace(
+        fit,
+        errors=fit.errors
+        | {k: max(fit.errors.get(k, 0.0), float(s)) for k, s in zip(fitter.free, spread, strict=True)},
+    )
 
 
 def _blocks(time: np.ndarray, segments: int) -> int:

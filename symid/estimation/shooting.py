@@ -37,7 +37,12 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarra
     single recordings or the model has no states, or controls or algebraic variables, where from every candidate the first simulation errs by more than the
     recorded outputs vary, or where an episode cannot be simulated.
     """
-    if len(t.layout.parameter_names) != len(t.model.parameters) or not t.layout.n or t.layout.beside_names or t.layout.own_names:
+    if (
+        len(t.layout.parameter_names) != len(t.model.parameters)
+        or not t.layout.n
+        or t.layout.beside_names
+        or t.layout.own_names
+    ):
         return None
     shooting = _Shooting(t)
     starts = [shooting.unknowns(c) for c in candidates]
@@ -50,7 +55,7 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarra
     runs = [shooting.run(found, r, noise=noise) for r, noise in zip(t.recording_of, _noise(t), strict=True)]
     if any(run.diverged for run in runs):
         return None
-    return (found * shooting.scale)[:len(t.layout.parameter_names)], [run.x for run in runs]
+    return (found * shooting.scale)[: len(t.layout.parameter_names)], [run.x for run in runs]
 
 
 def agree(costs: Sequence[float], count: int) -> bool:
@@ -66,8 +71,9 @@ class _Shooting:
         self.weights = root_weights(t) * np.sqrt([[m.step] for m in t.measured]) / np.sqrt(t.program.objective_scale)
         self.scale = np.concatenate([t.layout.parameter_scale, np.tile(t.layout.state_scale, len(t.measured))])
         free = np.full(t.layout.n * len(t.measured), np.inf)
-        self.lower, self.upper = (np.concatenate([b, side]) / self.scale
-                                  for b, side in zip(parameter_bounds(t), (-free, free), strict=True))
+        self.lower, self.upper = (
+            np.concatenate([b, side]) / self.scale for b, side in zip(parameter_bounds(t), (-free, free), strict=True)
+        )
 
     def unknowns(self, parameters: np.ndarray) -> np.ndarray:
         """z of these parameters (SI) and the recorded initial states, inside the bounds."""
@@ -101,11 +107,15 @@ class _Shooting:
     def drawn(self, number: int) -> np.ndarray:
         """z of random parameters within their bounds, over four decades where these do not change sign."""
         draw = np.random.default_rng(np.random.SeedSequence(0, spawn_key=(number,)))
-        lower, upper = (b * self.scale[:len(b)] for b in (self.lower[:self.q], self.upper[:self.q]))
-        size = self.scale[:self.q]
+        lower, upper = (b * self.scale[: len(b)] for b in (self.lower[: self.q], self.upper[: self.q]))
+        size = self.scale[: self.q]
         low, high = np.where(np.isfinite(lower), lower, -size), np.where(np.isfinite(upper), upper, size)
-        even, decades = draw.uniform(low, high), high * 10 ** draw.uniform(np.log10(np.maximum(low, 1e-4 * high) / high), 0) \
-            if np.all(high > 0) else draw.uniform(low, high)
+        even, decades = (
+            draw.uniform(low, high),
+            high * 10 ** draw.uniform(np.log10(np.maximum(low, 1e-4 * high) / high), 0)
+            if np.all(high > 0)
+            else draw.uniform(low, high),
+        )
         return self.unknowns(np.where(low >= 0, decades, even))
 
     def gains(self, r: int, gain: float) -> np.ndarray | None:
@@ -133,9 +143,17 @@ class _Shooting:
         wanted = {"sensitivity": names, "initial_sensitivity": self.t.layout.state_names} if slopes else {}
         values = z * self.scale
         return self.simulator.simulate(
-            values[:len(names)], values[self._initial(r)], m.time[m.nodes], {k: u[m.nodes] for k, u in m.inputs.items()},
-            noise=noise, history=self._history(m), limit=self.t.diverged, gain=self.gains(r, self.gain),
-            recorded=m.recorded if self.gain else None, **wanted)
+            values[: len(names)],
+            values[self._initial(r)],
+            m.time[m.nodes],
+            {k: u[m.nodes] for k, u in m.inputs.items()},
+            noise=noise,
+            history=self._history(m),
+            limit=self.t.diverged,
+            gain=self.gains(r, self.gain),
+            recorded=m.recorded if self.gain else None,
+            **wanted,
+        )
 
     def _history(self, m: Measured) -> tuple[np.ndarray, np.ndarray] | None:
         """Recorded states before the window, for delayed signals."""
@@ -151,15 +169,17 @@ class _Shooting:
         for r in range(len(self.t.measured)):
             dy = self.run(z, r, slopes=True).dy * self.weights[r][:, None]
             block = np.zeros((dy.shape[0] * dy.shape[1], len(z)))
-            columns = np.r_[:len(self.t.layout.parameter_names), self._initial(r)]
+            columns = np.r_[: len(self.t.layout.parameter_names), self._initial(r)]
             block[:, columns] = np.nan_to_num(dy.reshape(len(block), -1)) * self.scale[columns]
             blocks.append(block)
         return np.concatenate(blocks)
 
     def follows(self, z: np.ndarray) -> bool:
         """Whether the simulation errs by less than the recorded outputs vary."""
-        spread = [np.var(m.targets[m.nodes] * w, axis=0) * (m.intervals + 1)
-                  for m, w in zip(self.t.measured, self.weights, strict=True)]
+        spread = [
+            np.var(m.targets[m.nodes] * w, axis=0) * (m.intervals + 1)
+            for m, w in zip(self.t.measured, self.weights, strict=True)
+        ]
         return bool(np.sum(self.residual(z) ** 2) < np.sum(spread))
 
     def fit(self, z: np.ndarray, gain: float = 0.0, evaluations: int = MAX_EVALUATIONS) -> OptimizeResult:
@@ -167,8 +187,15 @@ class _Shooting:
         self.gain = gain
         try:
             z = np.clip(z, np.nextafter(self.lower, np.inf), np.nextafter(self.upper, -np.inf))
-            return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), x_scale="jac",
-                                 max_nfev=evaluations, ftol=1e-3)
+            return least_squares(
+                self.residual,
+                z,
+                self.jacobian,
+                bounds=(self.lower, self.upper),
+                x_scale="jac",
+                max_nfev=evaluations,
+                ftol=1e-3,
+            )
         finally:
             self.gain = 0.0
 

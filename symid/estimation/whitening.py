@@ -71,7 +71,9 @@ def remembered(innovations: Sequence[np.ndarray]) -> int:
     longest = min(LONGEST, min(len(s) for s in innovations) // SHORTEST)
 
     def bic(memory: int) -> float:
-        return samples * np.linalg.slogdet(whitening_of(innovations, memory).covariance)[1] + memory * m**2 * np.log(samples)
+        return samples * np.linalg.slogdet(whitening_of(innovations, memory).covariance)[1] + memory * m**2 * np.log(
+            samples
+        )
 
     scores = [bic(k) for k in range(longest + 1)]
     best = int(np.argmin(scores))
@@ -80,7 +82,7 @@ def remembered(innovations: Sequence[np.ndarray]) -> int:
 
 def _past(s: np.ndarray, memory: int) -> np.ndarray:
     """(N - k, k m): the k samples before each."""
-    return np.hstack([s[memory - j:len(s) - j] for j in range(1, memory + 1)])
+    return np.hstack([s[memory - j : len(s) - j] for j in range(1, memory + 1)])
 
 
 def _less_memory(lags: np.ndarray, a: np.ndarray) -> np.ndarray:

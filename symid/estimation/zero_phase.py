@@ -53,11 +53,16 @@ class ZeroPhase:
         pad = min(len(x) - 1, round(PADDING / step))
         middle = 0.5 * (x[0] + x[-1])
         fade = 0.5 - 0.5 * np.cos(np.pi * np.arange(pad) / max(pad, 1))
-        long = np.concatenate([fade * (2 * x[0] - x[pad:0:-1] - middle), x - middle,
-                               fade[::-1] * (2 * x[-1] - x[-2:-pad - 2:-1] - middle)])
+        long = np.concatenate(
+            [
+                fade * (2 * x[0] - x[pad:0:-1] - middle),
+                x - middle,
+                fade[::-1] * (2 * x[-1] - x[-2 : -pad - 2 : -1] - middle),
+            ]
+        )
         frequency = np.fft.rfftfreq(len(long), step)
         spectrum = np.fft.rfft(long) * (frequency <= 0.5 / step / ratio * (1 + 1e-9))
-        kept, added = (np.fft.irfft(spectrum * a, len(long))[pad:pad + len(x)] for a in (1.0, self.excess(frequency)))
+        kept, added = (np.fft.irfft(spectrum * a, len(long))[pad : pad + len(x)] for a in (1.0, self.excess(frequency)))
         return kept + added + middle, added
 
     def log_volume(self, step: float, sharpness: float = 1.0) -> tuple[float, float, float]:

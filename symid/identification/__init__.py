@@ -5,4 +5,14 @@ from symid.identification.problem import Identification
 from symid.identification.solution import Solution, StartRow
 from symid.identification.study import Finished, Solve, Study, StudyResult
 
-__all__ = ["Cluster", "Finished", "Identification", "LocalPool", "Solution", "Solve", "StartRow", "Study", "StudyResult"]
+__all__ = [
+    "Cluster",
+    "Finished",
+    "Identification",
+    "LocalPool",
+    "Solution",
+    "Solve",
+    "StartRow",
+    "Study",
+    "StudyResult",
+]

@@ -29,8 +29,10 @@ def _way(thing) -> str:
     if isinstance(thing, str) or hasattr(thing, "__fspath__"):
         return "read the file first, symid.read_recording(path)"
     if hasattr(thing, "columns"):
-        return ("write the table to a CSV with units in its column names and read that, or give "
-                "Recording(name, time, channels, units)")
+        return (
+            "write the table to a CSV with units in its column names and read that, or give "
+            "Recording(name, time, channels, units)"
+        )
     return "make one with symid.read_recording(path) or Recording(name, time, channels, units)"
 
 
@@ -41,7 +43,8 @@ def refuse_wrong_types(problem: Identification) -> None:
     refuse_scheme(problem.scheme)
     if not isinstance(problem.episodes, Episodes):
         raise TranscriptionError(
-            f"episodes={_shown(problem.episodes)}: give Episodes(count, amplitude), for instance Episodes(3, 0.25)")
+            f"episodes={_shown(problem.episodes)}: give Episodes(count, amplitude), for instance Episodes(3, 0.25)"
+        )
     if isinstance(problem.per_recording, str) or not isinstance(problem.per_recording, Sequence):
         raise TranscriptionError(f"per_recording={_shown(problem.per_recording)}: give a list of names of parameters")
     for name in ("weights", "loss"):
@@ -50,7 +53,8 @@ def refuse_wrong_types(problem: Identification) -> None:
             raise TranscriptionError(f"{name}={_shown(table)}: give a dictionary of output name -> number")
     if problem.window is not None and not _is_window(problem.window):
         raise TranscriptionError(
-            f"window={_shown(problem.window)}: give (t0, t1) [s], or one such pair for each recording")
+            f"window={_shown(problem.window)}: give (t0, t1) [s], or one such pair for each recording"
+        )
 
 
 def refuse_scheme(scheme) -> None:
@@ -63,8 +67,10 @@ def _is_window(window) -> bool:
     if not isinstance(window, Sequence) or isinstance(window, str) or not len(window):
         return False
     pairs = [window] if isinstance(window[0], (int, float)) else window
-    return all(p is None or (isinstance(p, Sequence) and len(p) == 2 and all(
-        isinstance(t, (int, float)) for t in p)) for p in pairs)
+    return all(
+        p is None or (isinstance(p, Sequence) and len(p) == 2 and all(isinstance(t, (int, float)) for t in p))
+        for p in pairs
+    )
 
 
 def _shown(thing) -> str:

@@ -59,7 +59,9 @@ def combinations(null: np.ndarray, names: Sequence[str], values: np.ndarray) -> 
     return found
 
 
-def _of_group(null: np.ndarray, names: list[str], values: np.ndarray, group: np.ndarray, size: int) -> list[Combination]:
+def _of_group(
+    null: np.ndarray, names: list[str], values: np.ndarray, group: np.ndarray, size: int
+) -> list[Combination]:
     sums = _independent(null)
     powers = _independent(null / values[:, None]) if np.all(values != 0) else None
     as_product = not _simple(sums) and powers is not None and _simple(powers)
@@ -80,7 +82,7 @@ def _independent(null: np.ndarray) -> np.ndarray:
     """(m - k, m) rows orthogonal to the null space (m, k), each with few parameters: the first of them with coefficient 1."""
     m, k = null.shape
     order, rest = [], null.copy()
-    for _ in range(k):                                   # pivots: the parameters that move most, last ones first
+    for _ in range(k):  # pivots: the parameters that move most, last ones first
         size = np.linalg.norm(rest, axis=1)
         size[order] = -1
         pivot = m - 1 - int(np.argmax(np.round(size[::-1] / size.max(), 6)))

@@ -70,8 +70,14 @@ class ParameterErrors:
 
 
 @one_blas_thread
-def parameter_errors(t: Transcription, result: SolverResult, known: np.ndarray, choice: str = "auto",
-                     penalty: float = 0.0, loss: dict[str, float] | None = None) -> ParameterErrors:
+def parameter_errors(
+    t: Transcription,
+    result: SolverResult,
+    known: np.ndarray,
+    choice: str = "auto",
+    penalty: float = 0.0,
+    loss: dict[str, float] | None = None,
+) -> ParameterErrors:
     """Standard errors by an error model of `error_models`.
 
     A change of one recorded sample moves the optimum by the inverse of the optimality system times
@@ -95,9 +101,11 @@ def parameter_errors(t: Transcription, result: SolverResult, known: np.ndarray, 
     total, noise = error_models.covariance(model, errors, influences)
     total = total + t.information * inverse @ reduced.prior @ inverse
     scale, q = t.layout.parameter_scale, len(t.layout.parameter_names)
-    free = ~at_bound[t.layout.offsets[-1]:]
+    free = ~at_bound[t.layout.offsets[-1] :]
     full, unit = np.zeros((q, q)), np.zeros((q, q))
-    full[np.ix_(free, free)], unit[np.ix_(free, free)] = (x * np.outer(scale[free], scale[free]) for x in (total, inverse))
+    full[np.ix_(free, free)], unit[np.ix_(free, free)] = (
+        x * np.outer(scale[free], scale[free]) for x in (total, inverse)
+    )
     directions = np.zeros((q, null.shape[1]))
     directions[free] = null * scale[free, None]
     return ParameterErrors(full, unit, directions, ~free, model, why, noise, errors)
@@ -109,8 +117,9 @@ def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:
     near = 1e-5 * np.maximum(1.0, np.abs(z))
     pull = 1e-8 * t.program.objective_scale
     with np.errstate(invalid="ignore"):
-        return ((z - lower < near) & (result.bound_multipliers_lower > pull)) | \
-               ((upper - z < near) & (result.bound_multipliers_upper > pull))
+        return ((z - lower < near) & (result.bound_multipliers_lower > pull)) | (
+            (upper - z < near) & (result.bound_multipliers_upper > pull)
+        )
 
 
 def _determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -118,7 +127,9 @@ def _determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     s = reduced.s
     rooted = np.sqrt(s.curvatures)[:, None] * reduced.slopes
     values, vectors = np.linalg.eigh(reduced.beside)
-    rooted = np.vstack([rooted, np.sqrt(s.penalty) * np.eye(rooted.shape[1]), (vectors * np.sqrt(np.maximum(values, 0.0))).T])
+    rooted = np.vstack(
+        [rooted, np.sqrt(s.penalty) * np.eye(rooted.shape[1]), (vectors * np.sqrt(np.maximum(values, 0.0))).T]
+    )
     size = np.linalg.norm(rooted, axis=0)
     recorded = np.concatenate([np.nan_to_num(s.t.measured[r].recorded).ravel() for r in s.t.recording_of])
     seen = size > UNSEEN * np.sqrt(np.sum(s.weights * recorded**2))
@@ -161,7 +172,9 @@ def _errors(reduced: Reduced, shared: np.ndarray, known: np.ndarray) -> list[Err
 def _orthonormal(slopes: np.ndarray, weights: np.ndarray) -> np.ndarray:
     """(K, m, d) a basis of the slopes whose weighted squares sum to one."""
     root = np.sqrt(weights)[:, None]
-    u, values, _ = np.linalg.svd((slopes * root).reshape(slopes.shape[0] * slopes.shape[1], slopes.shape[2]), full_matrices=False)
+    u, values, _ = np.linalg.svd(
+        (slopes * root).reshape(slopes.shape[0] * slopes.shape[1], slopes.shape[2]), full_matrices=False
+    )
     kept = values > ALIKE * values.max(initial=0.0)
     seen = np.divide(1.0, root, out=np.zeros_like(root), where=root > 0)
     return u[:, kept].reshape(*slopes.shape[:2], kept.sum()) * seen

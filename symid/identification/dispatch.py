@@ -44,8 +44,15 @@ def _aloud(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | None
         return None if on_iteration is None else on_iteration(iteration)
 
     def words() -> str:
-        return "; ".join(["solving" if seen else "making a start",
-                          *(f"iteration {i.number}, objective {i.objective:.6g}, infeasibility {i.infeasibility:.1e}" for i in seen)])
+        return "; ".join(
+            [
+                "solving" if seen else "making a start",
+                *(
+                    f"iteration {i.number}, objective {i.objective:.6g}, infeasibility {i.infeasibility:.1e}"
+                    for i in seen
+                ),
+            ]
+        )
 
     with alive(words):
         return solve_here(solve, note)

@@ -70,11 +70,15 @@ class Errors:
 def choose(errors: list[Errors], choice: str, episodes: int) -> tuple[str, str]:
     """Name of the error model, and a sentence on why it is this one."""
     if choice not in CHOICES:
-        raise SolveError(f"error model '{choice}': known are {', '.join(CHOICES)}; blocks are drawn again by symid.bootstrap(solution)")
+        raise SolveError(
+            f"error model '{choice}': known are {', '.join(CHOICES)}; blocks are drawn again by symid.bootstrap(solution)"
+        )
     if choice == "clustered" and len(errors) < FEWEST_CLUSTERS:
-        raise SolveError(f"clustered errors compare recordings with each other and need {FEWEST_CLUSTERS} of them; there "
-                         f"{'is' if len(errors) == 1 else 'are'} {len(errors)}: cut the recording into segments, or choose "
-                         "'coloured'")
+        raise SolveError(
+            f"clustered errors compare recordings with each other and need {FEWEST_CLUSTERS} of them; there "
+            f"{'is' if len(errors) == 1 else 'are'} {len(errors)}: cut the recording into segments, or choose "
+            "'coloured'"
+        )
     if choice != "auto":
         return choice, "as asked for"
     if episodes > 1:
@@ -129,8 +133,15 @@ def likeliest(errors: list[Errors]) -> list[Errors]:
     found = []
     for r, (own, shared, error, sigma) in zip(errors, parts, strict=True):
         rest = (error - shared @ (root @ (root.T @ pull))).reshape(r.error.shape) * sigma[:, 0]
-        found.append(replace(r, error=rest, shared=(shared @ root).reshape(*r.error.shape, root.shape[1]) * sigma,
-                             own=own.reshape(*r.error.shape, own.shape[1]) * sigma, weights=1 / sigma[:, 0] ** 2))
+        found.append(
+            replace(
+                r,
+                error=rest,
+                shared=(shared @ root).reshape(*r.error.shape, root.shape[1]) * sigma,
+                own=own.reshape(*r.error.shape, own.shape[1]) * sigma,
+                weights=1 / sigma[:, 0] ** 2,
+            )
+        )
     return found
 
 
@@ -146,9 +157,14 @@ def whiteness(errors: list[Errors]) -> float:
         for j in range(m if lags > 0 else 0):
             if r.deviation[j] == 0:
                 continue
-            there, error, q = (x[:, j:j + 1] for x in (r.present * 1.0, r.error, r.followed * np.sqrt(r.weights[:, None])))
-            c = lag_products(error, error, lags)[lags + 1:, 0, 0] / r.deviation[j]**2 + lag_products(q, q, lags)[lags + 1:, 0, 0]
-            pairs = lag_products(there, there, lags)[lags + 1:, 0, 0]
+            there, error, q = (
+                x[:, j : j + 1] for x in (r.present * 1.0, r.error, r.followed * np.sqrt(r.weights[:, None]))
+            )
+            c = (
+                lag_products(error, error, lags)[lags + 1 :, 0, 0] / r.deviation[j] ** 2
+                + lag_products(q, q, lags)[lags + 1 :, 0, 0]
+            )
+            pairs = lag_products(there, there, lags)[lags + 1 :, 0, 0]
             statistic += np.sum(c**2 * (count + 2) / count / np.maximum(pairs, 1))
             degrees += lags
     return float(chdtrc(degrees, statistic)) if degrees else 1.0
@@ -166,7 +182,7 @@ def coloured(errors: list[Errors], influences: list[np.ndarray]) -> tuple[np.nda
         lags = bandwidth(r.error)
         taper = np.minimum(1.0, 2 - 2 * np.abs(np.arange(-lags, lags + 1)) / (lags + 1))
         there = lag_products(r.present * 1.0, r.present * 1.0, lags)
-        missing = np.where(there > 0, there, np.inf) / np.maximum(_all_pairs(len(r.error), lags), 1)    # Parzen 1963
+        missing = np.where(there > 0, there, np.inf) / np.maximum(_all_pairs(len(r.error), lags), 1)  # Parzen 1963
         seen = lag_products(r.error, r.error, lags) / len(r.error) / missing
         noise = seen * taper[:, None, None]
         for _ in range(ROUNDS):
@@ -195,7 +211,7 @@ def _through(noise: np.ndarray, x: np.ndarray) -> np.ndarray:
     count, lags = len(x), len(noise) // 2
     size = 1 << int(np.ceil(np.log2(count + 2 * lags)))
     product = np.fft.rfft(noise, size, axis=0) @ np.fft.rfft(x, size, axis=0)
-    return np.fft.irfft(product, size, axis=0)[lags:lags + count]
+    return np.fft.irfft(product, size, axis=0)[lags : lags + count]
 
 
 def bandwidth(error: np.ndarray) -> int:
@@ -213,9 +229,9 @@ def _memory(x: np.ndarray) -> float:
     """Sum of lag times autocovariance over all lags above zero, divided by the sum over all lags."""
     count = len(x)
     order = int(min(10 * np.log10(count), count // 5))
-    past = np.column_stack([x[order - k:count - k] for k in range(1, order + 1)] + [x[order:]])
+    past = np.column_stack([x[order - k : count - k] for k in range(1, order + 1)] + [x[order:]])
     triangle = np.linalg.qr(past, mode="r")
-    rest = np.cumsum(triangle[::-1, -1] ** 2)[::-1]                 # squares that the first k lags leave
+    rest = np.cumsum(triangle[::-1, -1] ** 2)[::-1]  # squares that the first k lags leave
     best = int(np.argmin((count - order) * np.log(np.maximum(rest, 1e-300)) + 2 * np.arange(order + 1)))
     taps = np.linalg.solve(triangle[:best, :best], triangle[:best, -1])
     spectrum = 1 / np.abs(np.fft.rfft(np.concatenate([[1.0], -taps]), 4 * count)) ** 2
@@ -254,4 +270,4 @@ def lag_products(a: np.ndarray, b: np.ndarray, lags: int) -> np.ndarray:
     size = 1 << int(np.ceil(np.log2(len(a) + lags + 1)))
     fa, fb = np.fft.rfft(a, size, axis=0), np.fft.rfft(b, size, axis=0)
     sums = np.fft.irfft(np.einsum("fid,fjd->fij", fa, fb.conj(), optimize=True), size, axis=0)
-    return np.concatenate([sums[size - lags:], sums[:lags + 1]])
+    return np.concatenate([sums[size - lags :], sums[: lags + 1]])

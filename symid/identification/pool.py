@@ -218,5 +218,7 @@ def _connected(address: str, timeout_s: float):
     try:
         return Client(address, timeout=timeout_s, set_as_default=False)
     except (OSError, ValueError) as problem:
-        raise SolveError(f"no dask scheduler answers at {address} within {timeout_s:g} s ({problem}); start one with "
-                         "`dask scheduler`, and workers with `dask worker ADDRESS`") from None
+        raise SolveError(
+            f"no dask scheduler answers at {address} within {timeout_s:g} s ({problem}); start one with "
+            "`dask scheduler`, and workers with `dask worker ADDRESS`"
+        ) from None

@@ -89,9 +89,13 @@ class Identification:
         object.__setattr__(self, "recordings", as_recordings(self.recordings))
         refuse_wrong_types(self)
         if int(self.refine) != self.refine or self.refine < 1:
-            raise TranscriptionError(f"refine={self.refine}: give a whole number of collocation intervals in a sample interval")
+            raise TranscriptionError(
+                f"refine={self.refine}: give a whole number of collocation intervals in a sample interval"
+            )
         if self.ridge_about not in ("zero", "start"):
-            raise TranscriptionError(f"ridge_about={self.ridge_about!r}: a ridge pulls towards 'zero' or towards the 'start'")
+            raise TranscriptionError(
+                f"ridge_about={self.ridge_about!r}: a ridge pulls towards 'zero' or towards the 'start'"
+            )
 
     @property
     def windows(self) -> list[tuple[float, float] | None]:
@@ -99,8 +103,10 @@ class Identification:
         if self.window is None or isinstance(self.window[0], (int, float)):
             return [self.window] * len(self.recordings)
         if len(self.window) != len(self.recordings):
-            raise TranscriptionError(f"{len(self.window)} windows were given for {len(self.recordings)} recordings; "
-                                     "give one for all or one for each")
+            raise TranscriptionError(
+                f"{len(self.window)} windows were given for {len(self.recordings)} recordings; "
+                "give one for all or one for each"
+            )
         return list(self.window)
 
     @cached_property
@@ -111,8 +117,18 @@ class Identification:
         began = time.perf_counter()
         measured = [measure(self.model, r, w) for r, w in zip(self.recordings, self.windows, strict=True)]
         weights = weights_of(self, measured)
-        made = transcribe(self.model, measured, self.scheme, self.episodes, weights, self.per_recording, self.backend,
-                          int(self.refine), loss=self.loss, information=information_of(self, measured, weights))
+        made = transcribe(
+            self.model,
+            measured,
+            self.scheme,
+            self.episodes,
+            weights,
+            self.per_recording,
+            self.backend,
+            int(self.refine),
+            loss=self.loss,
+            information=information_of(self, measured, weights),
+        )
         made.seconds["build"] = time.perf_counter() - began
         return made
 
@@ -120,6 +136,7 @@ class Identification:
     def remarks(self) -> tuple[str, ...]:
         """What is implausible about the recordings, the body and the two together, see `symid.plausibility`; one sentence each."""
         from symid.plausibility import remarks
+
         found = [text for r, w in zip(self.recordings, self.windows, strict=True) for text in remarks(self.model, r, w)]
         return tuple(dict.fromkeys(found))
 
@@ -138,8 +155,9 @@ class Identification:
         """Pickled without the transcription, which is larger than the recording and quickly made again."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
-    def start(self, kind: str | dict[str, float] | np.ndarray | Solution = "default", seed: int = 0,
-              number: int = 0) -> np.ndarray:
+    def start(
+        self, kind: str | dict[str, float] | np.ndarray | Solution = "default", seed: int = 0, number: int = 0
+    ) -> np.ndarray:
         """A free vector to start from.
 
         kind : "default" (made from the recording; for several episodes that no simulation follows,
@@ -165,6 +183,7 @@ class Identification:
     def load(self, path: str | Path) -> Solution:
         """The solution of this problem that `Solution.save` wrote; SolveError where it is that of another."""
         from symid.identification.saved import load
+
         return load(path, self)
 
     def nonlinear_program(self, start: np.ndarray, kept: Mapping[str, float] | None = None) -> NonlinearProgram:
@@ -185,9 +204,16 @@ class Identification:
         centre = start[columns] if self.ridge_about == "start" else 0.0
         return with_ridge(nlp, columns, self.ridge * len(layout.intervals), centre)
 
-    def solve_from(self, start: np.ndarray, *, on_iteration: Callable[[Iteration], bool | None] | None = None,
-                   warm_start: SolverResult | None = None, dual_limit: float = np.inf,
-                   kept: Mapping[str, float] | None = None, **solver) -> SolverResult:
+    def solve_from(
+        self,
+        start: np.ndarray,
+        *,
+        on_iteration: Callable[[Iteration], bool | None] | None = None,
+        warm_start: SolverResult | None = None,
+        dual_limit: float = np.inf,
+        kept: Mapping[str, float] | None = None,
+        **solver,
+    ) -> SolverResult:
         """Run Ipopt from one free vector; `solver` goes to `symid.ipopt_solver.solve_nlp`.
 
         dual_limit : dual infeasibility above which the solve is given up. Where several episodes
@@ -204,10 +230,19 @@ class Identification:
 
         return solve_nlp(self.nonlinear_program(start, kept), on_iteration=watch, warm_start=warm_start, **solver)
 
-    def solve(self, starts: int = 1, *, start: str | dict[str, float] | Solution = "default", seed: int = 0,
-              executor: Executor | None = None, store: str | Path | None = None,
-              on_iteration: Callable[[Iteration], bool | None] | None = None,
-              on_start: Callable[[StartRow], None] | None = None, check: bool = True, **solver) -> Solution:
+    def solve(
+        self,
+        starts: int = 1,
+        *,
+        start: str | dict[str, float] | Solution = "default",
+        seed: int = 0,
+        executor: Executor | None = None,
+        store: str | Path | None = None,
+        on_iteration: Callable[[Iteration], bool | None] | None = None,
+        on_start: Callable[[StartRow], None] | None = None,
+        check: bool = True,
+        **solver,
+    ) -> Solution:
         """Solve from one start or from many, and return the best solution found.
 
         Parameters
@@ -237,8 +272,17 @@ class Identification:
         self.transcription  # noqa: B018 - a problem that cannot be transcribed is refused before any start
         for remark in self.remarks if check else ():
             warnings.warn(remark, RecordingWarning, stacklevel=2)
-        study = Study({f"start {k + 1}": Solve(self, kind, k, seed, solver)
-                       for k, kind in enumerate(start_kinds(self, starts, start))}, store)
+        study = Study(
+            {
+                f"start {k + 1}": Solve(self, kind, k, seed, solver)
+                for k, kind in enumerate(start_kinds(self, starts, start))
+            },
+            store,
+        )
         on_finished = None if on_start is None else lambda finished: on_start(finished.row)
-        ended = study.run_here(on_finished, on_iteration) if executor is None else study.run(executor, on_finished=on_finished)
+        ended = (
+            study.run_here(on_finished, on_iteration)
+            if executor is None
+            else study.run(executor, on_finished=on_finished)
+        )
         return to_likelihood(ended.best(), on_iteration=on_iteration, **solver)

@@ -47,7 +47,8 @@ def load(path: str | Path, problem: Identification) -> Solution:
         noise = json.loads((Path(path) / SUMMARY).read_text(encoding="utf-8"))["noise"]
     except (OSError, ValueError, KeyError, TypeError) as absent:
         raise SolveError(
-            f"{path} holds no saved solution ({absent}): give the directory that Solution.save wrote") from None
-    problem = replace(problem, noise=problem.noise or noise)     # what the solve estimated belongs to its problem
+            f"{path} holds no saved solution ({absent}): give the directory that Solution.save wrote"
+        ) from None
+    problem = replace(problem, noise=problem.noise or noise)  # what the solve estimated belongs to its problem
     outcome = _directory(path, problem)[KEY]
     return build_solution(problem, outcome.result, (outcome.row,), 0)

@@ -23,8 +23,12 @@ PROBES = 2
 
 def output_arguments(t: Transcription, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
     layout, node = t.layout, t.program.data[e].node
-    return (np.ascontiguousarray(layout.sample_view(z, e)), z[layout.parameter_columns(e)],
-            np.ascontiguousarray(node[:, :node.shape[1] - len(t.model.outputs)]), t.program.error_constants)
+    return (
+        np.ascontiguousarray(layout.sample_view(z, e)),
+        z[layout.parameter_columns(e)],
+        np.ascontiguousarray(node[:, : node.shape[1] - len(t.model.outputs)]),
+        t.program.error_constants,
+    )
 
 
 def outputs_and_targets(t: Transcription, z: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -43,8 +47,12 @@ def output_jacobian(t: Transcription, z: np.ndarray) -> sparse.csr_matrix:
     kernel, layout = compile_program(output_program(t.model), backend="numpy"), t.layout
     rows, columns, values, first = [], [], [], 0
     for e, samples in enumerate(sample_counts(t)):
-        places = np.hstack([layout.sample_view(np.arange(layout.size), e),
-                            np.broadcast_to(layout.parameter_columns(e), (samples, kernel.n_shared))])
+        places = np.hstack(
+            [
+                layout.sample_view(np.arange(layout.size), e),
+                np.broadcast_to(layout.parameter_columns(e), (samples, kernel.n_shared)),
+            ]
+        )
         rows.append((first + kernel.m * np.arange(samples)[:, None] + kernel.jacobian_rows).ravel())
         columns.append(places[:, kernel.jacobian_cols].ravel())
         values.append(kernel.jacobian(*output_arguments(t, z, e)).ravel())
@@ -95,8 +103,12 @@ class Sensitivity:
     def weights(self) -> np.ndarray:
         """(rows,) of the objective, a sum of weighted squares, in the order of `outputs`; zero where none was recorded."""
         p, t = self.t.program, self.t
-        return np.concatenate([(np.isfinite(t.measured[r].recorded) * (d.step * w)).ravel()
-                               for d, w, r in zip(p.data, p.weights, t.recording_of, strict=True)])
+        return np.concatenate(
+            [
+                (np.isfinite(t.measured[r].recorded) * (d.step * w)).ravel()
+                for d, w, r in zip(p.data, p.weights, t.recording_of, strict=True)
+            ]
+        )
 
     @cached_property
     def curvatures(self) -> np.ndarray:
@@ -113,7 +125,9 @@ class Sensitivity:
         """Derivatives of the rows that hold: equations, and inequalities that push."""
         p = self.t.program
         rows = (p.constraint_lower == p.constraint_upper) | (np.abs(self.multipliers) > ACTIVE)
-        jacobian = sparse.coo_matrix((p.jacobian(self.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, len(self.z)))
+        jacobian = sparse.coo_matrix(
+            (p.jacobian(self.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, len(self.z))
+        )
         return jacobian.tocsr()[rows].tocsc()
 
     def symmetric(self, values: np.ndarray) -> sparse.csr_matrix:
@@ -146,10 +160,14 @@ class Sensitivity:
     def by_recording(self, rows: np.ndarray, over=np.mean) -> list[np.ndarray]:
         """(rows, q) in the order of `outputs` -> per recording (K + 1, m, q), the mean (or sum) over its episodes."""
         m, counts = len(self.t.model.outputs), sample_counts(self.t)
-        blocks = [b.reshape(k, m, rows.shape[1])
-                  for b, k in zip(np.split(rows, np.cumsum([m * k for k in counts])[:-1]), counts, strict=True)]
-        return [over([b for b, of in zip(blocks, self.t.recording_of, strict=True) if of == r], axis=0)
-                for r in range(len(self.t.measured))]
+        blocks = [
+            b.reshape(k, m, rows.shape[1])
+            for b, k in zip(np.split(rows, np.cumsum([m * k for k in counts])[:-1]), counts, strict=True)
+        ]
+        return [
+            over([b for b, of in zip(blocks, self.t.recording_of, strict=True) if of == r], axis=0)
+            for r in range(len(self.t.measured))
+        ]
 
 
 class Reduced:
@@ -162,18 +180,20 @@ class Reduced:
     def __init__(self, s: Sensitivity, hessian: sparse.csr_matrix):
         self.s = s
         self.states, self.parameters = s.columns
-        unit = s.t.program.objective_scale      # the factors do not depend on the units of the outputs
+        unit = s.t.program.objective_scale  # the factors do not depend on the units of the outputs
         hessian = hessian / unit
         inner = hessian[self.states][:, self.states]
         inner = inner + DAMPING * (abs(inner.diagonal()).max(initial=0.0) or 1.0) * sparse.identity(len(self.states))
         a = s.constraints[:, self.states]
-        nothing = -1e-14 * sparse.identity(a.shape[0])    # where a bound cuts the motion off there are more rows than states
+        nothing = -1e-14 * sparse.identity(
+            a.shape[0]
+        )  # where a bound cuts the motion off there are more rows than states
         self.factor = splu(sparse.block_array([[inner, a.T], [a, nothing]], format="csc"), permc_spec="COLAMD")
         border = sparse.vstack([hessian[self.states][:, self.parameters], s.constraints[:, self.parameters]]).toarray()
         solved = self.factor.solve(border)
-        follow = -solved[:len(self.states)]
+        follow = -solved[: len(self.states)]
         self.beside, self.prior = (self._reduced(m, follow) for m in (s.beside, s.prior))
-        self.slopes = s.outputs[:, self.parameters].toarray() - s.outputs[:, self.states] @ solved[:len(self.states)]
+        self.slopes = s.outputs[:, self.parameters].toarray() - s.outputs[:, self.states] @ solved[: len(self.states)]
         self.curvature = hessian[self.parameters][:, self.parameters].toarray() - border.T @ solved
         self.curvature = 0.5 * unit * (self.curvature + self.curvature.T) + s.penalty * np.eye(len(self.parameters))
 
@@ -189,5 +209,7 @@ class Reduced:
         """(rows, count) outputs that the motion can add for itself, with the parameters kept: a random basis of them."""
         probes = np.random.default_rng(0).standard_normal((self.s.outputs.shape[0], count))
         pull = self.s.outputs[:, self.states].T @ (self.s.curvatures[:, None] * probes)
-        solved = self.factor.solve(np.vstack([pull / self.s.t.program.objective_scale, np.zeros((self.s.constraints.shape[0], count))]))
-        return self.s.outputs[:, self.states] @ solved[:len(self.states)]
+        solved = self.factor.solve(
+            np.vstack([pull / self.s.t.program.objective_scale, np.zeros((self.s.constraints.shape[0], count))])
+        )
+        return self.s.outputs[:, self.states] @ solved[: len(self.states)]

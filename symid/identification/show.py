@@ -29,8 +29,9 @@ def problem_facts(problem: Identification) -> dict[str, str]:
         start, end = window or recording.interval
         facts[f"recording {recording.name}"] = f"{start:g} s to {end:g} s"
     given = "" if problem.weights is None else " (weight {:g})"
-    facts["compared"] = ", ".join(y.channel + given.format((problem.weights or {}).get(name, 1.0))
-                                  for name, y in model.outputs.items()) + (", weighted by their noise" if by_noise(problem) else "")
+    facts["compared"] = ", ".join(
+        y.channel + given.format((problem.weights or {}).get(name, 1.0)) for name, y in model.outputs.items()
+    ) + (", weighted by their noise" if by_noise(problem) else "")
     facts["scheme"] = problem.scheme.name
     facts["episodes"] = str(e.count) if e.count == 1 else f"{e.count}, {e.distribution} noise, seed {e.seed}"
     return facts
@@ -54,24 +55,33 @@ def headline(solution: Solution) -> str:
     if solution.solved and solution.result.status != 0:
         word = "ACCEPTABLE, not solved to the tolerance,"
     units = {name: y.unit for name, y in solution.model.outputs.items()}
-    return (f"{word} in {solution.result.iterations} iterations and {solution.seconds['total']:.2f} s. "
-            f"RMS error: {fit_text(solution.fit['rms'], units)}")
+    return (
+        f"{word} in {solution.result.iterations} iterations and {solution.seconds['total']:.2f} s. "
+        f"RMS error: {fit_text(solution.fit['rms'], units)}"
+    )
 
 
 def warnings(solution: Solution) -> list[str]:
     """A sentence for each mistake of units or signs that shows, and for each state that its bounds cut off."""
     states = solution.model.states
     checked = solution.solved and solution.transcription.layout.size <= VERIFIED
-    return [*solution.problem.remarks, *_at_bounds(solution), *(solution.verification.sentences if checked else ())] + [f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} {states[name].unit}) at "
-            f"{100 * share:.2g} % of the nodes: they cut the motion off, which biases the parameters; widen them with "
-            f"model.with_bounds({name}=(lower, upper))" for name, share in solution.cut_off.items()]
+    return [*solution.problem.remarks, *_at_bounds(solution), *(solution.verification.sentences if checked else ())] + [
+        f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} {states[name].unit}) at "
+        f"{100 * share:.2g} % of the nodes: they cut the motion off, which biases the parameters; widen them with "
+        f"model.with_bounds({name}=(lower, upper))"
+        for name, share in solution.cut_off.items()
+    ]
 
 
 def _at_bounds(solution: Solution) -> list[str]:
     """A sentence for each parameter at a bound, if it was solved."""
     table = solution.parameters[solution.parameters["at_bound"]] if solution.solved else solution.parameters[:0]
-    return [f"{name} lies at its bound ({p.value:.5g} {p.unit}): the data ask for a value beyond it, and the other parameters "
-            "depend on where it stands" for name, p in table.iterrows() if p.lower < p.upper]
+    return [
+        f"{name} lies at its bound ({p.value:.5g} {p.unit}): the data ask for a value beyond it, and the other parameters "
+        "depend on where it stands"
+        for name, p in table.iterrows()
+        if p.lower < p.upper
+    ]
 
 
 def error_notes(solution: Solution) -> list[str]:
@@ -80,8 +90,10 @@ def error_notes(solution: Solution) -> list[str]:
     if e is None:
         return []
     outputs = solution.model.outputs
-    noise = "; ".join(", ".join(f"{name} {x:.3g} {outputs[name].unit}" for name, x in zip(outputs, row, strict=True))
-                      for row in e.noise[:SHOWN])
+    noise = "; ".join(
+        ", ".join(f"{name} {x:.3g} {outputs[name].unit}" for name, x in zip(outputs, row, strict=True))
+        for row in e.noise[:SHOWN]
+    )
     more = f"; and {len(e.noise) - SHOWN} more recordings" if len(e.noise) > SHOWN else ""
     notes = [f"Standard errors: {e.model} noise, {e.why}. Noise (standard deviation): {noise}{more}"]
     lost = [name for name, u in zip(solution.values, e.undetermined, strict=True) if u]
@@ -103,17 +115,34 @@ def html(solution: Solution) -> str:
     """The same for a notebook; a parameter at a bound is red."""
     rows = []
     for name, p in solution.parameters.iterrows():
-        cells = [(f"<code>{escape(name)}</code>", "left"), (f"{p.value:.5g}", "right"),
-                 ("none" if p.std_error != p.std_error else f"{p.std_error:.2g}", "right"), (escape(p.unit), "left"),
-                 (f"{p.lower:g} to {p.upper:g}{', at bound' if p.at_bound else ''}", "left"), (escape(p.meaning), "left")]
+        cells = [
+            (f"<code>{escape(name)}</code>", "left"),
+            (f"{p.value:.5g}", "right"),
+            ("none" if p.std_error != p.std_error else f"{p.std_error:.2g}", "right"),
+            (escape(p.unit), "left"),
+            (f"{p.lower:g} to {p.upper:g}{', at bound' if p.at_bound else ''}", "left"),
+            (escape(p.meaning), "left"),
+        ]
         colour = ";color:#c0392b" if p.at_bound else ""
         rows.append("".join(f'<td style="text-align:{side}{colour}">{text}</td>' for text, side in cells))
-    head = "".join(f'<th style="text-align:{side}">{h}</th>' for h, side in (
-        ("parameter", "left"), ("value", "right"), ("std. error", "right"), ("unit", "left"), ("bounds", "left"),
-        ("meaning", "left")))
+    head = "".join(
+        f'<th style="text-align:{side}">{h}</th>'
+        for h, side in (
+            ("parameter", "left"),
+            ("value", "right"),
+            ("std. error", "right"),
+            ("unit", "left"),
+            ("bounds", "left"),
+            ("meaning", "left"),
+        )
+    )
     colour = "#666" if solution.solved else "#c0392b"
-    return (f"<h4>{escape(solution.model.name)}</h4><p>{escape(headline(solution))}</p>"
-            f'<p style="color:{colour}">{escape(solution.message)}</p>'
-            + "".join(f'<p style="color:#c0392b">{escape(warning)}.</p>' for warning in solution.warnings) +
-            "".join(f"<p>{escape(note)}.</p>" for note in error_notes(solution)) +
-            f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>")
+    return (
+        f"<h4>{escape(solution.model.name)}</h4><p>{escape(headline(solution))}</p>"
+        f'<p style="color:{colour}">{escape(solution.message)}</p>'
+        + "".join(f'<p style="color:#c0392b">{escape(warning)}.</p>' for warning in solution.warnings)
+        + "".join(f"<p>{escape(note)}.</p>" for note in error_notes(solution))
+        + f"<table><tr>{head}</tr>"
+        + "".join(f"<tr>{row}</tr>" for row in rows)
+        + "</table>"
+    )

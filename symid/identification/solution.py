@@ -57,15 +57,33 @@ class StartRow:
     def of(cls, t: Transcription, result: SolverResult, kind, number: int, at_start: float) -> StartRow:
         error = np.concatenate([(y - d).ravel() for y, d in outputs_and_targets(t, result.z)])
         values = dict(zip(t.layout.parameter_names, map(float, t.layout.parameters(result.z)), strict=True))
-        return cls(number=number, kind=kind if isinstance(kind, str) else "given", solved=result.solved,
-                   status=result.status_name, objective=result.objective, rms=float(np.sqrt(np.nanmean(error**2))),
-                   iterations=result.iterations, seconds=result.seconds["total"] + at_start, parameters=values,
-                   message=result.message)
+        return cls(
+            number=number,
+            kind=kind if isinstance(kind, str) else "given",
+            solved=result.solved,
+            status=result.status_name,
+            objective=result.objective,
+            rms=float(np.sqrt(np.nanmean(error**2))),
+            iterations=result.iterations,
+            seconds=result.seconds["total"] + at_start,
+            parameters=values,
+            message=result.message,
+        )
 
     @classmethod
     def without_result(cls, status: str, kind, number: int, message: str) -> StartRow:
-        return cls(number=number, kind=kind if isinstance(kind, str) else "given", solved=False, status=status,
-                   objective=np.nan, rms=np.nan, iterations=0, seconds=0.0, parameters={}, message=message)
+        return cls(
+            number=number,
+            kind=kind if isinstance(kind, str) else "given",
+            solved=False,
+            status=status,
+            objective=np.nan,
+            rms=np.nan,
+            iterations=0,
+            seconds=0.0,
+            parameters={},
+            message=message,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,9 +148,14 @@ class Solution:
         if not self.solved:
             return None
         known = noise_levels(replace(self.problem, noise=None))
-        return parameter_errors(self.transcription, self.result, known, self.error_model,
-                                self.problem.ridge * self.problem.episodes.count * len(self.problem.recordings),
-                                self.problem.loss)
+        return parameter_errors(
+            self.transcription,
+            self.result,
+            known,
+            self.error_model,
+            self.problem.ridge * self.problem.episodes.count * len(self.problem.recordings),
+            self.problem.loss,
+        )
 
     @cached_property
     def covariance(self) -> pd.DataFrame:
@@ -142,13 +165,17 @@ class Solution:
         if self.errors is not None:
             known = np.isfinite(self.errors.std_errors)
             matrix[np.ix_(known, known)] = self.errors.covariance[np.ix_(known, known)]
-            np.fill_diagonal(matrix, self.errors.std_errors ** 2)
+            np.fill_diagonal(matrix, self.errors.std_errors**2)
         return pd.DataFrame(matrix, index=names, columns=names)
 
     @cached_property
     def determined(self) -> dict[str, tuple[float, float]]:
         """Combinations of parameters that are determined where these alone are not -> (value, standard error) [SI]."""
-        found = [] if self.errors is None else self.errors.determined(list(self.values), np.array(list(self.values.values())))
+        found = (
+            []
+            if self.errors is None
+            else self.errors.determined(list(self.values), np.array(list(self.values.values())))
+        )
         return {c.text: (c.value, error) for c, error in found}
 
     @cached_property
@@ -157,17 +184,24 @@ class Solution:
         t = self.transcription
         first, scale = t.layout.offsets[-1], t.layout.parameter_scale
         parts = [self.model.parameters[name.split("[")[0]] for name in self.values]
-        return pd.DataFrame({
-            "value": list(self.values.values()), "std_error": np.sqrt(np.diag(self.covariance)),
-            "unit": [p.unit for p in parts], "lower": t.program.lower[first:] * scale,
-            "upper": t.program.upper[first:] * scale, "at_bound": bound_active(t, self.result)[first:],
-            "meaning": [p.meaning for p in parts]}, index=pd.Index(self.values, name="parameter"))
+        return pd.DataFrame(
+            {
+                "value": list(self.values.values()),
+                "std_error": np.sqrt(np.diag(self.covariance)),
+                "unit": [p.unit for p in parts],
+                "lower": t.program.lower[first:] * scale,
+                "upper": t.program.upper[first:] * scale,
+                "at_bound": bound_active(t, self.result)[first:],
+                "meaning": [p.meaning for p in parts],
+            },
+            index=pd.Index(self.values, name="parameter"),
+        )
 
     @cached_property
     def cut_off(self) -> dict[str, float]:
         """States that lie at a bound of theirs, and at which share of the nodes: the motion is cut off there."""
         t = self.transcription
-        free = t.program.lower < t.program.upper       # what a Boundary fixes is not cut off
+        free = t.program.lower < t.program.upper  # what a Boundary fixes is not cut off
         active = (bound_active(t, self.result) & free).astype(float)
         share = np.mean(np.concatenate([t.layout.states(active, e) != 0 for e in range(len(t.recording_of))]), axis=0)
         return {name: float(s) for name, s in zip(t.model.states, share, strict=True) if s > 0}
@@ -177,12 +211,14 @@ class Solution:
         """What should be looked at before the numbers are trusted, one sentence each: mistakes of units and signs that show
         in the recording, the body or the motion (`symid.plausibility`), and states that their bounds cut off."""
         from symid.identification.show import warnings
+
         return tuple(warnings(self))
 
     @cached_property
     def verification(self) -> Verification:
         """What a finer mesh, an integrator and the optimality conditions say of it, see `identification.verify`."""
         from symid.identification.verify import verify
+
         return verify(self)
 
     def refined(self, factor: int | None = None) -> Solution:
@@ -192,6 +228,7 @@ class Solution:
         """
         if factor is None:
             from symid.identification.verify import FINE
+
             mesh = self.verification.mesh
             worst = 0.0 if mesh is None else mesh["std_errors"].abs().max()
             factor = int(np.clip(np.ceil((worst / FINE) ** (1 / self.problem.scheme.order)), 2, 16))
@@ -203,7 +240,9 @@ class Solution:
         t, frames = self.transcription, []
         for e, (y, d) in enumerate(outputs_and_targets(t, self.result.z)):
             m = t.measured[t.recording_of[e]]
-            columns = dict(zip(t.layout.node_names, (t.layout.sample_view(self.result.z, e) * t.layout.node_scale).T, strict=True))
+            columns = dict(
+                zip(t.layout.node_names, (t.layout.sample_view(self.result.z, e) * t.layout.node_scale).T, strict=True)
+            )
             for i, name in enumerate(t.model.outputs):
                 columns |= {name: y[:, i], f"{name} recorded": d[:, i]}
             frame = pd.DataFrame(columns, index=pd.Index(m.time[m.nodes], name="time_s"))
@@ -216,8 +255,11 @@ class Solution:
         """Fit of the collocation trajectory over all episodes, see `identification.fit`."""
         pairs = outputs_and_targets(self.transcription, self.result.z)
         outputs = self.model.outputs
-        return fit_measures(list(outputs), [y.unit for y in outputs.values()],
-                            *(np.concatenate(side) for side in zip(*pairs, strict=True)))
+        return fit_measures(
+            list(outputs),
+            [y.unit for y in outputs.values()],
+            *(np.concatenate(side) for side in zip(*pairs, strict=True)),
+        )
 
     def fit_on(self, window: tuple[float, float], recording=None) -> dict:
         """Fit of the `free_run` on another window, or another recording."""
@@ -234,15 +276,25 @@ class Solution:
         SolveError : parameters differ between recordings, or no such run was found.
         """
         from symid.identification.problem import Identification
+
         known = {name: value for name, value in self.values.items() if "[" not in name}
         if len(known) < len(self.values):
             raise SolveError("fit_on: parameters differ between recordings; fix those you mean with model.fixed()")
         p = self.problem
-        other = Identification(self.model.fixed(**known), recording or p.recordings[0], window, scheme=p.scheme,
-                               weights=p.weights, noise=p.noise and p.noise[:1], backend=p.backend)
+        other = Identification(
+            self.model.fixed(**known),
+            recording or p.recordings[0],
+            window,
+            scheme=p.scheme,
+            weights=p.weights,
+            noise=p.noise and p.noise[:1],
+            backend=p.backend,
+        )
         solution = other.solve(check=False)
         if not solution.solved:
-            raise SolveError(f"fit_on: the free run over {window[0]:g} to {window[1]:g} s was not found: {solution.message}")
+            raise SolveError(
+                f"fit_on: the free run over {window[0]:g} to {window[1]:g} s was not found: {solution.message}"
+            )
         return solution
 
     @cached_property
@@ -250,15 +302,27 @@ class Solution:
         """Versions, data and options, enough to repeat the identification."""
         p, t = self.problem, self.transcription
         return {
-            "created": self.created, "symid": version("symid"), "python": platform.python_version(),
-            "command": sys.argv, "model": self.model.name, "model_fingerprint": self.fingerprint,
+            "created": self.created,
+            "symid": version("symid"),
+            "python": platform.python_version(),
+            "command": sys.argv,
+            "model": self.model.name,
+            "model_fingerprint": self.fingerprint,
             "terms": [str(term) for term in self.model.terms],
             "constants": {c.name: c.value for c in self.model.constants.values()},
-            "recordings": [{"name": m.name, "window_s": [float(m.time[m.first]), float(m.time[m.last])],
-                            "nodes": m.intervals * p.refine + 1, "history": list(r.history)}
-                           for m, r in zip(t.measured, p.recordings, strict=True)],
-            "scheme": p.scheme.name, "episodes": asdict(p.episodes) | {"by_word": dict(p.episodes.by_word)},
-            "weights": p.weights, "noise": p.noise,
+            "recordings": [
+                {
+                    "name": m.name,
+                    "window_s": [float(m.time[m.first]), float(m.time[m.last])],
+                    "nodes": m.intervals * p.refine + 1,
+                    "history": list(r.history),
+                }
+                for m, r in zip(t.measured, p.recordings, strict=True)
+            ],
+            "scheme": p.scheme.name,
+            "episodes": asdict(p.episodes) | {"by_word": dict(p.episodes.by_word)},
+            "weights": p.weights,
+            "noise": p.noise,
         }
 
     def to_dict(self) -> dict:
@@ -266,13 +330,22 @@ class Solution:
         rows = self.parameters.drop(columns="meaning").to_dict("index")
         return {
             "format": "symid solution 1",
-            "parameters": {name: {k: row[k] for k in ("value", "std_error", "unit", "at_bound")}
-                           | {"bounds": [row["lower"], row["upper"]]} for name, row in rows.items()},
+            "parameters": {
+                name: {k: row[k] for k in ("value", "std_error", "unit", "at_bound")}
+                | {"bounds": [row["lower"], row["upper"]]}
+                for name, row in rows.items()
+            },
             "errors": self._errors_said(),
             "fit": self.fit,
-            "solver": {"status": self.result.status_name, "solved": self.solved, "sentence": self.message,
-                       "iterations": self.result.iterations, "seconds": self.seconds,
-                       "interface": self.result.interface, "linear_solver": asdict(self.result.linear_solver)},
+            "solver": {
+                "status": self.result.status_name,
+                "solved": self.solved,
+                "sentence": self.message,
+                "iterations": self.result.iterations,
+                "seconds": self.seconds,
+                "interface": self.result.interface,
+                "linear_solver": asdict(self.result.linear_solver),
+            },
             "warnings": list(self.warnings),
             "starts": [asdict(row) for row in self.starts],
             "provenance": self.provenance,
@@ -280,22 +353,37 @@ class Solution:
 
     def _errors_said(self) -> dict | None:
         e = self.errors
-        return None if e is None else {
-            "model": e.model, "why": e.why, "noise": [dict(zip(self.model.outputs, map(float, row), strict=True)) for row in e.noise],
-            "undetermined": [n for n, u in zip(self.values, e.undetermined, strict=True) if u],
-            "determined": {text: {"value": value, "std_error": error} for text, (value, error) in self.determined.items()}}
+        return (
+            None
+            if e is None
+            else {
+                "model": e.model,
+                "why": e.why,
+                "noise": [dict(zip(self.model.outputs, map(float, row), strict=True)) for row in e.noise],
+                "undetermined": [n for n, u in zip(self.values, e.undetermined, strict=True) if u],
+                "determined": {
+                    text: {"value": value, "std_error": error} for text, (value, error) in self.determined.items()
+                },
+            }
+        )
 
     @property
     def seconds(self) -> dict[str, float]:
         """Wall time [s]: build (compile included), compile, functions, linear_algebra (with the rest of Ipopt), total."""
         build, spent = self.transcription.seconds, self.result.seconds
         compiled = sum(v for k, v in build.items() if k != "build")
-        return {"build": build["build"], "compile": compiled, "functions": spent["functions"],
-                "linear_algebra": spent["solver"], "total": build["build"] + spent["total"]}
+        return {
+            "build": build["build"],
+            "compile": compiled,
+            "functions": spent["functions"],
+            "linear_algebra": spent["solver"],
+            "total": build["build"] + spent["total"],
+        }
 
     def save(self, path: str | Path) -> None:
         """Write the result to the directory `path`, see `identification.saved`; `Identification.load` reads it."""
         from symid.identification.saved import save
+
         save(self, path)
 
     def plot(self):
@@ -305,13 +393,16 @@ class Solution:
 
     def __repr__(self) -> str:
         from symid.identification.show import text
+
         return text(self)
 
     def _repr_html_(self) -> str:
         from symid.identification.show import html
+
         return html(self)
 
 
 def build_solution(problem: Identification, result: SolverResult, starts: tuple[StartRow, ...], best: int) -> Solution:
-    return Solution(problem, result, starts, best, problem.model.fingerprint,
-                    datetime.now(UTC).isoformat(timespec="seconds"))
+    return Solution(
+        problem, result, starts, best, problem.model.fingerprint, datetime.now(UTC).isoformat(timespec="seconds")
+    )

@@ -46,8 +46,9 @@ class StudyDirectory:
         known = self._read_register()
         _refuse_other_study(self.path, known, identities)
         if not known.keys() >= identities.keys():
-            self._write(lambda: write_json(self.path / "study.json",
-                                           {"format": FORMAT, "solves": known | dict(identities)}))
+            self._write(
+                lambda: write_json(self.path / "study.json", {"format": FORMAT, "solves": known | dict(identities)})
+            )
 
     def _read_register(self) -> dict:
         file = self.path / "study.json"
@@ -56,29 +57,40 @@ class StudyDirectory:
             found, solves = register["format"], register["solves"]
         except FileNotFoundError:
             if self.path.is_dir() and any(f.suffix != ".part" for f in self.path.iterdir()):
-                raise SolveError(f"{self.path} holds other files and no study.json: give an empty or new directory "
-                                 "for the study") from None
+                raise SolveError(
+                    f"{self.path} holds other files and no study.json: give an empty or new directory for the study"
+                ) from None
             return {}
         except NotADirectoryError:
             raise SolveError(f"{self.path} is a file: give a directory for the study") from None
         except OSError as problem:
-            raise SolveError(f"{file} cannot be read ({problem.strerror}): give another directory for the study") from None
+            raise SolveError(
+                f"{file} cannot be read ({problem.strerror}): give another directory for the study"
+            ) from None
         except (ValueError, KeyError, TypeError, RecursionError) as damage:
             raise SolveError(f"{file} is damaged ({str(damage)[:200]}): give another directory for the study") from None
         if found != FORMAT:
-            raise SolveError(f"{file} has the format {str(found)[:60]!r}, and this version of symid reads '{FORMAT}': give "
-                             "another directory, or use the version that wrote it")
-        if not (isinstance(solves, dict) and all(isinstance(parts, dict) and isinstance(parts.get("key"), str)
-                                                 for parts in solves.values())):
-            raise SolveError(f"{file} is damaged (its 'solves' are no names with their keys): give another directory for the study")
+            raise SolveError(
+                f"{file} has the format {str(found)[:60]!r}, and this version of symid reads '{FORMAT}': give "
+                "another directory, or use the version that wrote it"
+            )
+        if not (
+            isinstance(solves, dict)
+            and all(isinstance(parts, dict) and isinstance(parts.get("key"), str) for parts in solves.values())
+        ):
+            raise SolveError(
+                f"{file} is damaged (its 'solves' are no names with their keys): give another directory for the study"
+            )
         return solves
 
     def _write(self, act) -> None:
         try:
             act()
         except OSError as problem:
-            raise SolveError(f"the study cannot write to {self.path} ({problem.strerror}); what was finished before is "
-                             "kept: make room or give the right to write, and run the study again") from problem
+            raise SolveError(
+                f"the study cannot write to {self.path} ({problem.strerror}); what was finished before is "
+                "kept: make room or give the right to write, and run the study again"
+            ) from problem
 
     def __setitem__(self, key: str, outcome: Outcome) -> None:
         content, arrays = _taken_apart(outcome)
@@ -87,6 +99,7 @@ class StudyDirectory:
         def both():
             write_atomically(self.path / f"{key}.npz", arrays)
             write_json(self.path / f"{key}.json", content)
+
         self._write(both)
 
     def get(self, key: str) -> Outcome | None:
@@ -103,8 +116,10 @@ class StudyDirectory:
     def __getitem__(self, key: str) -> Outcome:
         outcome = self.get(key)
         if outcome is None:
-            raise SolveError(f"{self.path / key}.json or .npz was removed or damaged: run the study again, which "
-                             "repeats this solve alone")
+            raise SolveError(
+                f"{self.path / key}.json or .npz was removed or damaged: run the study again, which "
+                "repeats this solve alone"
+            )
         return outcome
 
 
@@ -112,8 +127,10 @@ def _refuse_other_study(path: Path, known: Mapping, wanted: Mapping) -> None:
     for name, parts in wanted.items():
         if name in known and known[name]["key"] != parts["key"]:
             parts = [p for p in parts if p != "key" and known[name].get(p) != parts[p]]
-            raise SolveError(f"{path} belongs to another study: its solve '{name}' differs in {' and '.join(parts)}. "
-                             "Give another directory, or the problem as it was")
+            raise SolveError(
+                f"{path} belongs to another study: its solve '{name}' differs in {' and '.join(parts)}. "
+                "Give another directory, or the problem as it was"
+            )
 
 
 def _taken_apart(outcome: Outcome) -> tuple[dict, bytes]:

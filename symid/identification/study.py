@@ -57,8 +57,11 @@ class Solve:
     def identity(self) -> dict[str, str]:
         """Part -> fingerprint; "key" is that of all of them, and the name of the solve's files."""
         parts = self.problem.identity | {
-            "start": digest(self.start), "number of the start": str(self.number), "seed": str(self.seed),
-            "solver options": digest({k: v for k, v in self.options.items() if k != "time_limit_s"})}
+            "start": digest(self.start),
+            "number of the start": str(self.number),
+            "seed": str(self.seed),
+            "solver options": digest({k: v for k, v in self.options.items() if k != "time_limit_s"}),
+        }
         return {"key": digest(parts)} | parts
 
     @property
@@ -85,8 +88,11 @@ class Finished:
 def tell(finished: Finished) -> None:
     """Print one line of progress on stderr."""
     row, width = finished.row, len(str(finished.total))
-    how = row.message if np.isnan(row.objective) else (
-        f"objective {row.objective:.6g}  {row.iterations} iterations  {row.seconds:.1f} s")
+    how = (
+        row.message
+        if np.isnan(row.objective)
+        else (f"objective {row.objective:.6g}  {row.iterations} iterations  {row.seconds:.1f} s")
+    )
     count = f"{finished.done:{width}d}/{finished.total}"
     say(f"{count}  {finished.name}  {row.status}  {how}")
 
@@ -114,8 +120,16 @@ class Study:
         self._store = {} if store is None else StudyDirectory(store, {n: s.identity for n, s in self.solves.items()})
 
     @classmethod
-    def product(cls, problems: Mapping[str | tuple, Identification], starts: int = 10, seed: int = 0, *,
-                labels: Sequence[str] = ("problem",), store: str | Path | None = None, **options) -> Study:
+    def product(
+        cls,
+        problems: Mapping[str | tuple, Identification],
+        starts: int = 10,
+        seed: int = 0,
+        *,
+        labels: Sequence[str] = ("problem",),
+        store: str | Path | None = None,
+        **options,
+    ) -> Study:
         """Every problem from every start, as `Identification.solve` makes them.
 
         Parameters
@@ -129,15 +143,24 @@ class Study:
         for label, problem in problems.items():
             words = label if isinstance(label, tuple) else (label,)
             if len(words) != len(labels):
-                raise SolveError(f"study: the problem {label!r} has {len(words)} labels, and {len(labels)} were named: "
-                                 f"{', '.join(labels)}")
+                raise SolveError(
+                    f"study: the problem {label!r} has {len(words)} labels, and {len(labels)} were named: "
+                    f"{', '.join(labels)}"
+                )
             named = dict(zip(labels, words, strict=True))
-            solves |= {"/".join(map(str, (*words, number))): Solve(problem, start, number, seed, options, named)
-                       for number, start in enumerate(start_kinds(problem, starts))}
+            solves |= {
+                "/".join(map(str, (*words, number))): Solve(problem, start, number, seed, options, named)
+                for number, start in enumerate(start_kinds(problem, starts))
+            }
         return cls(solves, store)
 
-    def run(self, executor: Executor | None = None, *, jobs: int | None = None,
-            on_finished: Callable[[Finished], None] | None = tell) -> StudyResult:
+    def run(
+        self,
+        executor: Executor | None = None,
+        *,
+        jobs: int | None = None,
+        on_finished: Callable[[Finished], None] | None = tell,
+    ) -> StudyResult:
         """Do what is not done yet.
 
         Parameters
@@ -162,8 +185,11 @@ class Study:
         with LocalPool(jobs) if executor is None else nullcontext(executor) as chosen:
             return self._collect(self.outcomes(chosen), on_finished)
 
-    def run_here(self, on_finished: Callable[[Finished], None] | None = tell,
-                 on_iteration: Callable[[Iteration], bool | None] | None = None) -> StudyResult:
+    def run_here(
+        self,
+        on_finished: Callable[[Finished], None] | None = tell,
+        on_iteration: Callable[[Iteration], bool | None] | None = None,
+    ) -> StudyResult:
         """`run` in this process, one solve after the other; `on_iteration` sees every iteration."""
         return self._collect(self.outcomes(None, on_iteration), on_finished)
 
@@ -225,8 +251,13 @@ class StudyResult:
             solve = self.solves[name]
             angles = all(y.unit == "rad" for y in solve.problem.model.outputs.values())
             said = {k: getattr(row, k) for k in ("number", "kind", "solved", "status", "objective", "rms")}
-            records.append(dict(solve.labels) | said | {"rms_deg": np.rad2deg(row.rms) if angles else np.nan}
-                           | {k: getattr(row, k) for k in ("iterations", "seconds", "message")} | row.parameters)
+            records.append(
+                dict(solve.labels)
+                | said
+                | {"rms_deg": np.rad2deg(row.rms) if angles else np.nan}
+                | {k: getattr(row, k) for k in ("iterations", "seconds", "message")}
+                | row.parameters
+            )
         return pd.DataFrame(records, index=pd.Index(self.rows, name="solve"))
 
     @property
@@ -249,15 +280,26 @@ class StudyResult:
         if len(problems) != 1:
             known = sorted({f"{k}={v!r}" for s in self.solves.values() for k, v in s.labels.items()})
             asked = ", ".join(f"{k}={v!r}" for k, v in labels.items())
-            raise SolveError(f"best({asked}): {len(problems)} problems of the study have these labels, and only solves of "
-                             f"one problem compare; its labels: {', '.join(known)}")
+            raise SolveError(
+                f"best({asked}): {len(problems)} problems of the study have these labels, and only solves of "
+                f"one problem compare; its labels: {', '.join(known)}"
+            )
         rows = [self.rows[n] for n in names]
-        place = min(range(len(rows)), key=lambda i: (not rows[i].solved, not rows[i].solved or not accept(rows[i]),
-                                                  np.nan_to_num(rows[i].objective, nan=np.inf)))
+        place = min(
+            range(len(rows)),
+            key=lambda i: (
+                not rows[i].solved,
+                not rows[i].solved or not accept(rows[i]),
+                np.nan_to_num(rows[i].objective, nan=np.inf),
+            ),
+        )
         outcome = self._store[self.solves[names[place]].key]
         if outcome.result is None:
-            raise SolveError(f"none of {len(rows)} starts gave a result; the first says: {rows[0].message}"
-                             if len(rows) > 1 else rows[0].message)
+            raise SolveError(
+                f"none of {len(rows)} starts gave a result; the first says: {rows[0].message}"
+                if len(rows) > 1
+                else rows[0].message
+            )
         return build_solution(self.solves[names[place]].problem, outcome.result, tuple(rows), place)
 
     def __repr__(self) -> str:

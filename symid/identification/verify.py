@@ -53,7 +53,10 @@ class Verification:
     sentences: tuple[str, ...]
 
     def __repr__(self) -> str:
-        return "\n".join(f"{s}." for s in self.sentences) or "Mesh, integrator and optimality conditions agree with the solution."
+        return (
+            "\n".join(f"{s}." for s in self.sentences)
+            or "Mesh, integrator and optimality conditions agree with the solution."
+        )
 
 
 @one_blas_thread
@@ -62,8 +65,10 @@ def verify(solution: Solution) -> Verification:
     mesh, departures, optimality = mesh_error(solution), integrated(solution), optimality_of(solution)
     departs, sentences = _departs(solution, departures), []
     if not optimality.ok:
-        sentences.append(f"Measured without Ipopt the point is not optimal: {str(optimality).splitlines()[1].strip()}; "
-                         f"{str(optimality).splitlines()[2].strip()}")
+        sentences.append(
+            f"Measured without Ipopt the point is not optimal: {str(optimality).splitlines()[1].strip()}; "
+            f"{str(optimality).splitlines()[2].strip()}"
+        )
     if departs:
         sentences.append(_said_of_departure(solution, departures))
     sentences += _said_of_mesh(solution, mesh)
@@ -91,8 +96,10 @@ def mesh_error(solution: Solution) -> pd.DataFrame | None:
     floor = ROUNDED * np.abs(values)
     std = np.maximum(solution.parameters["std_error"].to_numpy(), floor)
     known = np.isfinite(std) & (std > 0) & (np.abs(error) > floor)
-    return pd.DataFrame({"error": error, "std_errors": np.where(known, error / np.where(known, std, 1.0), 0.0)},
-                        index=solution.parameters.index)
+    return pd.DataFrame(
+        {"error": error, "std_errors": np.where(known, error / np.where(known, std, 1.0), 0.0)},
+        index=solution.parameters.index,
+    )
 
 
 def integrated(solution: Solution) -> tuple[np.ndarray, ...] | None:
@@ -115,16 +122,25 @@ def _integrate(solution: Solution, loop, e: int) -> np.ndarray:
     m, d, parameters = t.measured[t.recording_of[e]], t.program.data[e], t.layout.parameters(solution.result.z)
     time = m.mesh(PIECES)
     inputs = {u: np.append(input_at(t.model, t.scheme, m, u, 0.0, PIECES), m.inputs[u][m.last]) for u in m.inputs}
-    if t.scheme.order == 2 and t.layout.refine == 1:    # its mesh sees straight lines
+    if t.scheme.order == 2 and t.layout.refine == 1:  # its mesh sees straight lines
         inputs |= {u: np.interp(time, m.time, m.inputs[u]) for u in m.inputs if t.model.inputs[u].hold == "smooth"}
     noise = {w: np.append(np.repeat(x, PIECES), 0.0) for w, x in zip(t.model.noises, d.noise.T, strict=True)}
     before = slice(0, m.first + 1)
     history = (m.time[before], m.states[before]) if t.model.delays and m.first else None
     size, last = np.std(m.targets[m.nodes], axis=0), None
     for halvings in range(HALVINGS):
-        run = loop.simulate(parameters[t.layout.parameter_index[e]], t.layout.states(solution.result.z, e)[0], time, inputs,
-                            noise=noise, history=history, substeps=2**halvings, limit=1e200, keep="outputs").y[::PIECES]
-        large = np.maximum(np.maximum(size, np.abs(run)), np.finfo(float).tiny)      # a recording of zeros has no size
+        run = loop.simulate(
+            parameters[t.layout.parameter_index[e]],
+            t.layout.states(solution.result.z, e)[0],
+            time,
+            inputs,
+            noise=noise,
+            history=history,
+            substeps=2**halvings,
+            limit=1e200,
+            keep="outputs",
+        ).y[::PIECES]
+        large = np.maximum(np.maximum(size, np.abs(run)), np.finfo(float).tiny)  # a recording of zeros has no size
         if last is not None and np.nanmax(np.abs(run - last) / large, initial=0.0) < AGREES:
             break
         last = run
@@ -135,14 +151,21 @@ def _departs(solution: Solution, departures) -> bool:
     t = solution.transcription
     rms = np.array([solution.fit["rms"][name] for name in t.model.outputs])
     size = [np.std(t.measured[r].targets[t.measured[r].nodes], axis=0) for r in t.recording_of]
-    return departures is not None and any(np.any(d > np.maximum(DEPARTS * s, 3 * rms)) for d, s in zip(departures, size, strict=True))
+    return departures is not None and any(
+        np.any(d > np.maximum(DEPARTS * s, 3 * rms)) for d, s in zip(departures, size, strict=True)
+    )
 
 
 def _said_of_departure(solution: Solution, departures) -> str:
     worst = np.max(departures, axis=0)
-    parts = [f"{name} by up to {x:.3g} {y.unit or '1'}" for (name, y), x in zip(solution.model.outputs.items(), worst, strict=True)]
-    return ("No integrator reproduces this motion: from the fitted initial state with the fitted parameters it departs from the "
-            f"fitted one, {', '.join(parts)}. The model with these parameters is unstable, or the mesh far too coarse")
+    parts = [
+        f"{name} by up to {x:.3g} {y.unit or '1'}"
+        for (name, y), x in zip(solution.model.outputs.items(), worst, strict=True)
+    ]
+    return (
+        "No integrator reproduces this motion: from the fitted initial state with the fitted parameters it departs from the "
+        f"fitted one, {', '.join(parts)}. The model with these parameters is unstable, or the mesh far too coarse"
+    )
 
 
 def _said_of_mesh(solution: Solution, mesh: pd.DataFrame | None) -> list[str]:
@@ -153,6 +176,8 @@ def _said_of_mesh(solution: Solution, mesh: pd.DataFrame | None) -> list[str]:
         return []
     name, p = worst.idxmax(), solution.problem
     factor = int(np.ceil((worst.max() / FINE) ** (1 / p.scheme.order)))
-    return [f"The mesh is too coarse: it shifts {name} by {mesh.loc[name, 'std_errors']:.2g} standard errors "
-            f"({mesh.loc[name, 'error']:+.3g} {solution.model.parameters[name.split('[')[0]].unit}); solution.refined() solves again with "
-            f"{p.refine * factor} intervals in a sample interval"]
+    return [
+        f"The mesh is too coarse: it shifts {name} by {mesh.loc[name, 'std_errors']:.2g} standard errors "
+        f"({mesh.loc[name, 'error']:+.3g} {solution.model.parameters[name.split('[')[0]].unit}); solution.refined() solves again with "
+        f"{p.refine * factor} intervals in a sample interval"
+    ]

@@ -48,14 +48,19 @@ def noise_levels(problem: Identification) -> np.ndarray:
     outputs = problem.model.outputs
     tables = problem.noise or [{}] * len(problem.recordings)
     if len(tables) != len(problem.recordings):
-        raise TranscriptionError(f"{len(tables)} tables of noise were given for {len(problem.recordings)} recordings; "
-                                 "give one for each")
+        raise TranscriptionError(
+            f"{len(tables)} tables of noise were given for {len(problem.recordings)} recordings; give one for each"
+        )
     for name, value in ((n, v) for table in tables for n, v in table.items()):
         _refuse(problem, "noise", name)
         if not (np.isfinite(value) and value > 0):
             raise TranscriptionError(f"noise: the standard deviation {value:g} of '{name}' must be a positive number")
-    return np.array([[table.get(name, recording.noise.get(y.channel, np.nan)) for name, y in outputs.items()]
-                     for table, recording in zip(tables, problem.recordings, strict=True)]).reshape(len(tables), len(outputs))
+    return np.array(
+        [
+            [table.get(name, recording.noise.get(y.channel, np.nan)) for name, y in outputs.items()]
+            for table, recording in zip(tables, problem.recordings, strict=True)
+        ]
+    ).reshape(len(tables), len(outputs))
 
 
 def weights_of(problem: Identification, measured: Sequence[Measured]) -> np.ndarray:
@@ -69,7 +74,9 @@ def weights_of(problem: Identification, measured: Sequence[Measured]) -> np.ndar
     for name, weight in given.items():
         _refuse(problem, "weights", name)
         if not (np.isfinite(weight) and weight >= 0):
-            raise TranscriptionError(f"weights: the weight {weight:g} of '{name}' must be a finite number of at least 0")
+            raise TranscriptionError(
+                f"weights: the weight {weight:g} of '{name}' must be a finite number of at least 0"
+            )
     spread = np.array([_spread(m.recorded) for m in measured]).reshape(len(measured), len(outputs))
     if by_noise(problem):
         return _likelihood(problem, measured, spread)
@@ -97,8 +104,10 @@ def information_of(problem: Identification, measured: Sequence[Measured], weight
 def _likelihood(problem: Identification, measured: Sequence[Measured], spread: np.ndarray) -> np.ndarray:
     sigma = noise_levels(problem)
     for r, j in np.argwhere(np.isnan(sigma)):
-        raise TranscriptionError(f"noise: neither the table nor {problem.recordings[r].name} says the noise of "
-                                 f"'{list(problem.model.outputs)[j]}'; give it, or leave out the whole table to estimate it")
+        raise TranscriptionError(
+            f"noise: neither the table nor {problem.recordings[r].name} says the noise of "
+            f"'{list(problem.model.outputs)[j]}'; give it, or leave out the whole table to estimate it"
+        )
     steps = np.array([[m.step] for m in measured])
     counts = np.array([np.isfinite(m.recorded).sum(axis=0) for m in measured])
     weights = 1 / (steps * np.maximum(sigma, RESOLUTION * spread) ** 2)
@@ -115,8 +124,12 @@ def _spread(targets: np.ndarray) -> np.ndarray:
 def estimated(solution: Solution) -> np.ndarray:
     """(recordings, m) noise [SI]: as known where the residual does not say otherwise, else the residual's RMS."""
     known = noise_levels(replace(solution.problem, noise=None))
-    rms = np.array([np.sqrt(np.nanmean((y - d) ** 2, axis=0))
-                    for y, d in outputs_and_targets(solution.transcription, solution.result.z)])
+    rms = np.array(
+        [
+            np.sqrt(np.nanmean((y - d) ** 2, axis=0))
+            for y, d in outputs_and_targets(solution.transcription, solution.result.z)
+        ]
+    )
     return np.where(rms < TRUST * known, known, rms)
 
 
@@ -127,8 +140,16 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
     of one recording needs none. `solver` goes to `Identification.solve_from`.
     """
     p = solution.problem
-    if p.weights is not None or p.noise is not None or p.episodes.count > 1 or p.ridge or p.loss or not solution.solved \
-            or (len(p.recordings) * len(p.model.outputs) == 1 and not p.model.informed) or solution.errors.model != "white":
+    if (
+        p.weights is not None
+        or p.noise is not None
+        or p.episodes.count > 1
+        or p.ridge
+        or p.loss
+        or not solution.solved
+        or (len(p.recordings) * len(p.model.outputs) == 1 and not p.model.informed)
+        or solution.errors.model != "white"
+    ):
         return solution
     old = np.nan
     for _ in range(TURNS):
@@ -147,5 +168,6 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
 
 def _refuse(problem: Identification, what: str, name: str) -> None:
     if name not in problem.model.outputs:
-        raise TranscriptionError(f"{what}: model '{problem.model.name}' has no output '{name}'; "
-                                 f"{nearest(name, problem.model.outputs)}")
+        raise TranscriptionError(
+            f"{what}: model '{problem.model.name}' has no output '{name}'; {nearest(name, problem.model.outputs)}"
+        )

@@ -75,7 +75,9 @@ def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | 
         with deadline(limit):
             z = solve.problem.start(solve.start, solve.seed, solve.number)
             at_start = time.perf_counter() - began
-            result = _kept_near(solve, z, solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options), on_iteration)
+            result = _kept_near(
+                solve, z, solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options), on_iteration
+            )
     except TimeUp as late:
         made = _without_result(OUT_OF_TIME, solve, f"no start was found within {limit:g} s: {late}")
         return replace(made, row=replace(made.row, seconds=limit))
@@ -84,8 +86,12 @@ def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | 
     except SymidError as refused:
         return _without_result("failed", solve, str(refused))
     except (MemoryError, ImportError) as failure:
-        return _without_result("lost", solve, f"{type(failure).__name__}: {failure}. Does the machine have memory enough? "
-                                              "Run the study again to repeat it.")
+        return _without_result(
+            "lost",
+            solve,
+            f"{type(failure).__name__}: {failure}. Does the machine have memory enough? "
+            "Run the study again to repeat it.",
+        )
     return Outcome(StartRow.of(transcription, result, solve.start, solve.number, at_start), result)
 
 

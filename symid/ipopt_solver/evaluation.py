@@ -49,8 +49,12 @@ class Evaluation:
         The last iterate.
     """
 
-    def __init__(self, nlp: NonlinearProgram, on_iteration: Callable[[Iteration], bool | None] | None,
-                 objective_scale: float = 1.0):
+    def __init__(
+        self,
+        nlp: NonlinearProgram,
+        on_iteration: Callable[[Iteration], bool | None] | None,
+        objective_scale: float = 1.0,
+    ):
         self.nlp, self.objective_scale = nlp, objective_scale
         self.on_iteration = on_iteration
         self.seconds = dict.fromkeys(("objective", "gradient", "constraints", "jacobian", "hessian"), 0.0)
@@ -67,7 +71,7 @@ class Evaluation:
         return value
 
     def gradient(self, z: np.ndarray) -> np.ndarray:
-        self.point = z    # at trial points Ipopt asks for no gradient
+        self.point = z  # at trial points Ipopt asks for no gradient
         values = self._timed("gradient", z)
         self._insist(values, lambda k: f"The gradient for {self.nlp.describe_variable(k)}")
         return values
@@ -96,7 +100,9 @@ class Evaluation:
             return False
         if self.on_iteration is None:
             return True
-        return self.on_iteration(Iteration(number, objective * self.objective_scale, primal, dual, barrier)) is not False
+        return (
+            self.on_iteration(Iteration(number, objective * self.objective_scale, primal, dual, barrier)) is not False
+        )
 
     def _timed(self, name: str, *arguments):
         start = time.perf_counter()
@@ -133,7 +139,4 @@ class Evaluation:
 
     def _hessian_words(self, k: int) -> str:
         row, column = int(self.nlp.hessian_rows[k]), int(self.nlp.hessian_cols[k])
-        return (
-            f"The second derivative by {self.nlp.describe_variable(row)} "
-            f"and {self.nlp.describe_variable(column)}"
-        )
+        return f"The second derivative by {self.nlp.describe_variable(row)} and {self.nlp.describe_variable(column)}"

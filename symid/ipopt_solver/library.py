@@ -20,9 +20,7 @@ from symid.nlp import NonlinearProgram
 _F = ctypes.CFUNCTYPE(c_int, c_int, c_void_p, c_bool, POINTER(c_double), c_void_p)
 _GRAD = ctypes.CFUNCTYPE(c_int, c_int, c_void_p, c_bool, c_void_p, c_void_p)
 _G = ctypes.CFUNCTYPE(c_int, c_int, c_void_p, c_bool, c_int, c_void_p, c_void_p)
-_JAC = ctypes.CFUNCTYPE(
-    c_int, c_int, c_void_p, c_bool, c_int, c_int, c_void_p, c_void_p, c_void_p, c_void_p
-)
+_JAC = ctypes.CFUNCTYPE(c_int, c_int, c_void_p, c_bool, c_int, c_int, c_void_p, c_void_p, c_void_p, c_void_p)
 _HESS = ctypes.CFUNCTYPE(
     c_int, c_int, c_void_p, c_bool, c_double, c_int, c_void_p, c_bool, c_int,
     c_void_p, c_void_p, c_void_p, c_void_p,
@@ -32,8 +30,7 @@ _STEP = ctypes.CFUNCTYPE(c_int, c_int, c_int, *[c_double] * 8, c_int, c_void_p)
 _SIGNATURES = {
     "CreateIpoptProblem": (
         c_void_p,
-        [c_int, c_void_p, c_void_p, c_int, c_void_p, c_void_p, c_int, c_int, c_int]
-        + [_F, _G, _GRAD, _JAC, _HESS],
+        [c_int, c_void_p, c_void_p, c_int, c_void_p, c_void_p, c_int, c_int, c_int] + [_F, _G, _GRAD, _JAC, _HESS],
     ),
     "FreeIpoptProblem": (None, [c_void_p]),
     "AddIpoptStrOption": (c_bool, [c_void_p, c_char_p, c_char_p]),

@@ -13,8 +13,12 @@ CHAIN: dict[str, str | float] = {"linear_solver": "ma27", "linear_system_scaling
 # MUMPS without its matching and scaling: collocation systems are well scaled already. Its ordering for
 # quasi-dense rows (QAMD), because every equation holds the parameters: against its own choice a third
 # to a fifth of the time with several episodes, and half with one.
-MUMPS: dict[str, str | float] = {"linear_solver": "mumps", "mumps_permuting_scaling": 0, "mumps_scaling": 0,
-                                 "mumps_pivot_order": 6}
+MUMPS: dict[str, str | float] = {
+    "linear_solver": "mumps",
+    "mumps_permuting_scaling": 0,
+    "mumps_scaling": 0,
+    "mumps_pivot_order": 6,
+}
 
 
 @dataclass(frozen=True)

@@ -72,8 +72,13 @@ class SolverResult:
 
 
 def make_result(
-    nlp: NonlinearProgram, evaluation: Evaluation, status: int, point: dict, total: float,
-    linear: LinearSolver, interface: str,
+    nlp: NonlinearProgram,
+    evaluation: Evaluation,
+    status: int,
+    point: dict,
+    total: float,
+    linear: LinearSolver,
+    interface: str,
 ) -> SolverResult:
     """Put together what Ipopt left in `point` after `total` seconds."""
     name, message = explain(status)

@@ -180,8 +180,7 @@ def _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian) ->
         raise SolveError(f"hessian={hessian!r} is unknown: choose 'exact' or 'limited-memory'.")
     if hessian == "exact" and nlp.hessian is None:
         raise SolveError(
-            "The program has no exact Hessian: give NonlinearProgram.hessian or solve with "
-            "hessian='limited-memory'."
+            "The program has no exact Hessian: give NonlinearProgram.hessian or solve with hessian='limited-memory'."
         )
     chosen = DEFAULTS | {"hessian_approximation": hessian, "max_iter": int(max_iterations)}
     if nlp.variable_scale is not None or nlp.constraint_scale is not None:

@@ -13,7 +13,22 @@ from symid.mechanics.terms import CANONICAL, LIBRARY, suspects
 from symid.mechanics.wrap import from_kane, from_lagrange, from_system
 
 __all__ = [
-    "CANONICAL", "LIBRARY", "PD", "BenchDoublePendulum", "Chain", "ChainLink", "DelayedFullState",
-    "DoubleLinkPendulum", "Feedback", "FullStatePD", "NeuralNetwork", "from_kane", "from_lagrange", "from_system",
-    "lagrange_residuals", "model_of", "rig_model", "suspects",
+    "CANONICAL",
+    "LIBRARY",
+    "PD",
+    "BenchDoublePendulum",
+    "Chain",
+    "ChainLink",
+    "DelayedFullState",
+    "DoubleLinkPendulum",
+    "Feedback",
+    "FullStatePD",
+    "NeuralNetwork",
+    "from_kane",
+    "from_lagrange",
+    "from_system",
+    "lagrange_residuals",
+    "model_of",
+    "rig_model",
+    "suspects",
 ]

@@ -55,8 +55,14 @@ class BenchDoublePendulum:
             relative rate); it is the ordinary Term `viscous_friction`.
         """
         links = (
-            ChainLink("link1", self.m1, self.a1, self.I1, self.L1,
-                      (("mass", "m1"), ("com", "a1"), ("inertia", "I1"), ("length", "L1"))),
+            ChainLink(
+                "link1",
+                self.m1,
+                self.a1,
+                self.I1,
+                self.L1,
+                (("mass", "m1"), ("com", "a1"), ("inertia", "I1"), ("length", "L1")),
+            ),
             ChainLink("link2", self.m2, self.a2, self.I2, None, (("mass", "m2"), ("com", "a2"), ("inertia", "I2"))),
         )
         model = Chain(links, gravity=self.g, absolute=True, name="double pendulum on a bench").plant()

@@ -45,8 +45,18 @@ class ChainLink:
             value = getattr(self, quantity)
             if value is not None:
                 name = dict(self.constants).get(quantity, f"{self.name}_{quantity}")
-                setattr(model, name, Constant(value, unit=unit, role=role, at=self.name, latex=f"{sign}_{letter}",
-                                              meaning=meaning.format(self.name)))
+                setattr(
+                    model,
+                    name,
+                    Constant(
+                        value,
+                        unit=unit,
+                        role=role,
+                        at=self.name,
+                        latex=f"{sign}_{letter}",
+                        meaning=meaning.format(self.name),
+                    ),
+                )
                 symbols[quantity] = model[name].symbol
         return Link(**symbols)
 
@@ -86,15 +96,18 @@ class Chain:
             object.__setattr__(self, "joints", tuple(f"joint{i + 1}" for i in range(len(self.links))))
         names = (*self.joints, *(k.name for k in self.links))
         if len(self.joints) != len(self.links) or not self.links or len(set(names)) != len(names):
-            raise ModelError(f"a chain needs one joint before each link, all with different names; found joints "
-                             f"{self.joints} and links {tuple(k.name for k in self.links)}: name one joint per link")
+            raise ModelError(
+                f"a chain needs one joint before each link, all with different names; found joints "
+                f"{self.joints} and links {tuple(k.name for k in self.links)}: name one joint per link"
+            )
 
     @classmethod
     def uniform(cls, n: int, length: float = 1.0, mass: float = 1.0, **options) -> Chain:
         """`n` equal slender rods of `length` [m] and `mass` [kg]; options as for `Chain`."""
         rod = {"mass": mass, "com": length / 2, "inertia": mass * length**2 / 12}
-        return cls(tuple(ChainLink(f"link{i + 1}", length=length if i < n - 1 else None, **rod) for i in range(n)),
-                   **options)
+        return cls(
+            tuple(ChainLink(f"link{i + 1}", length=length if i < n - 1 else None, **rod) for i in range(n)), **options
+        )
 
     def with_feedback(self, law) -> Model:
         """The chain with the loop closed by a feedback law of `symid.mechanics`."""
@@ -107,13 +120,22 @@ class Chain:
         coordinates = tuple(k.name for k in self.links) if self.absolute else self.joints
         letters = subscripts(coordinates)
         self._declare_states(model, coordinates, letters)
-        links = tuple(k.declare(model, s.upper()) for k, s in
-                      zip(self.links, subscripts([k.name for k in self.links]), strict=True))
+        links = tuple(
+            k.declare(model, s.upper())
+            for k, s in zip(self.links, subscripts([k.name for k in self.links]), strict=True)
+        )
         around = self._declare_surroundings(model)
         angles = [model[f"{c}_angle"] for c in coordinates]
         rates = [model[f"{c}_velocity"] for c in coordinates]
-        balances = chain_residuals(links, tuple(a.symbol for a in angles), tuple(w.symbol for w in rates),
-                                   tuple(w.dot for w in rates), around, self.absolute, self.upright)
+        balances = chain_residuals(
+            links,
+            tuple(a.symbol for a in angles),
+            tuple(w.symbol for w in rates),
+            tuple(w.dot for w in rates),
+            around,
+            self.absolute,
+            self.upright,
+        )
         for c, angle, rate in zip(coordinates, angles, rates, strict=True):
             setattr(model, f"{c}_kinematics", Equation(rate - angle.dot, meaning=f"rate of the {c} angle"))
         for c, balance in zip(coordinates, balances, strict=True):
@@ -121,8 +143,17 @@ class Chain:
         self._declare_ports(model, coordinates)
         for joint, s in zip(self.joints, subscripts(self.joints), strict=True):
             noise = f"{joint}_torque_noise"
-            setattr(model, noise, Noise(unit="N*m", role="process_noise", at=joint, latex=f"w_{s}",
-                                        meaning=f"random torque at the {joint}, with the sign of a feedback torque"))
+            setattr(
+                model,
+                noise,
+                Noise(
+                    unit="N*m",
+                    role="process_noise",
+                    at=joint,
+                    latex=f"w_{s}",
+                    meaning=f"random torque at the {joint}, with the sign of a feedback torque",
+                ),
+            )
             model.add_effort(joint, -model[noise].symbol)
         for c in coordinates:
             setattr(model, f"measured_{c}_angle", Output(model[f"{c}_angle"], role="sensor", at=f"sensor:{c}"))
@@ -132,30 +163,76 @@ class Chain:
         origin = "upward" if self.upright else "downward"
         for i, (c, s) in enumerate(zip(coordinates, letters, strict=True)):
             what = f"from the {origin} vertical" if self.absolute or i == 0 else "relative to the link before"
-            setattr(model, f"{c}_angle", State(unit="rad", bounds=(-self.angle_bound, self.angle_bound), at=c,
-                                               latex=rf"\theta_{s}", meaning=f"angle {what}, positive forward"))
+            setattr(
+                model,
+                f"{c}_angle",
+                State(
+                    unit="rad",
+                    bounds=(-self.angle_bound, self.angle_bound),
+                    at=c,
+                    latex=rf"\theta_{s}",
+                    meaning=f"angle {what}, positive forward",
+                ),
+            )
         for c, s in zip(coordinates, letters, strict=True):
-            setattr(model, f"{c}_velocity", State(unit="rad/s", bounds=(-self.velocity_bound, self.velocity_bound),
-                                                  at=c, latex=rf"\omega_{s}", meaning=f"rate of the {c} angle"))
+            setattr(
+                model,
+                f"{c}_velocity",
+                State(
+                    unit="rad/s",
+                    bounds=(-self.velocity_bound, self.velocity_bound),
+                    at=c,
+                    latex=rf"\omega_{s}",
+                    meaning=f"rate of the {c} angle",
+                ),
+            )
 
     def _declare_surroundings(self, model: Model) -> Surroundings:
         model.gravity = Constant(self.gravity, unit="m/s^2", latex="g", meaning="acceleration of gravity")
-        model.gravity_horizontal = Expression(sm.S.Zero, unit="m/s^2", role="gravity", at="global", latex="g_x",
-                                              meaning="forward component of gravity")
-        model.gravity_vertical = Expression(model.gravity, unit="m/s^2", role="gravity", at="global", latex="g_y",
-                                            meaning="downward component of gravity")
-        model.friction_speed = Constant(self.friction_speed, unit="rad/s", role="friction_speed", latex=r"\omega_0",
-                                        meaning="width of the smoothed jump of dry friction")
+        model.gravity_horizontal = Expression(
+            sm.S.Zero, unit="m/s^2", role="gravity", at="global", latex="g_x", meaning="forward component of gravity"
+        )
+        model.gravity_vertical = Expression(
+            model.gravity,
+            unit="m/s^2",
+            role="gravity",
+            at="global",
+            latex="g_y",
+            meaning="downward component of gravity",
+        )
+        model.friction_speed = Constant(
+            self.friction_speed,
+            unit="rad/s",
+            role="friction_speed",
+            latex=r"\omega_0",
+            meaning="width of the smoothed jump of dry friction",
+        )
         moved = sm.S.Zero
         if self.base_channel:
-            setattr(model, self.base_channel, Input(
-                unit="m/s^2", channel=self.base_channel, role="excitation", at="input", latex="a",
-                meaning="recorded acceleration of the base, positive forward"))
+            setattr(
+                model,
+                self.base_channel,
+                Input(
+                    unit="m/s^2",
+                    channel=self.base_channel,
+                    role="excitation",
+                    at="input",
+                    latex="a",
+                    meaning="recorded acceleration of the base, positive forward",
+                ),
+            )
             moved = model[self.base_channel].symbol
-        model.base_acceleration = Expression(moved, unit="m/s^2", role="base_acceleration", at="base", latex="a_b",
-                                             meaning="acceleration of the base that the chain feels, forward")
-        return Surroundings(model.gravity_horizontal.symbol, model.gravity_vertical.symbol,
-                            model.base_acceleration.symbol)
+        model.base_acceleration = Expression(
+            moved,
+            unit="m/s^2",
+            role="base_acceleration",
+            at="base",
+            latex="a_b",
+            meaning="acceleration of the base that the chain feels, forward",
+        )
+        return Surroundings(
+            model.gravity_horizontal.symbol, model.gravity_vertical.symbol, model.base_acceleration.symbol
+        )
 
     def _declare_ports(self, model: Model, coordinates: Sequence[str]) -> None:
         """Joint torques act between neighbours, link torques from outside on one link."""
@@ -166,14 +243,34 @@ class Chain:
             if self.absolute and i > 0:
                 into[f"{coordinates[i - 1]}_balance"] = -1
                 at, rate = at - angles[i - 1], rate - rates[i - 1]
-            setattr(model, joint, Port(position=at, rate=rate, into=into, unit="N*m", role="joint", at=joint,
-                                       meaning=f"torque at the {joint} between its two sides"))
+            setattr(
+                model,
+                joint,
+                Port(
+                    position=at,
+                    rate=rate,
+                    into=into,
+                    unit="N*m",
+                    role="joint",
+                    at=joint,
+                    meaning=f"torque at the {joint} between its two sides",
+                ),
+            )
         for i, link in enumerate(self.links):
             first = i if self.absolute else 0
-            setattr(model, link.name, Port(
-                position=sum(angles[first:i + 1]), rate=sum(rates[first:i + 1]), unit="N*m", role="link", at=link.name,
-                into={f"{c}_balance": 1 for c in coordinates[first:i + 1]},
-                meaning=f"torque from outside on the {link.name}"))
+            setattr(
+                model,
+                link.name,
+                Port(
+                    position=sum(angles[first : i + 1]),
+                    rate=sum(rates[first : i + 1]),
+                    unit="N*m",
+                    role="link",
+                    at=link.name,
+                    into={f"{c}_balance": 1 for c in coordinates[first : i + 1]},
+                    meaning=f"torque from outside on the {link.name}",
+                ),
+            )
 
 
 def subscripts(names: Sequence[str]) -> list[str]:

@@ -11,8 +11,15 @@ from symid.mechanics.standing import DoubleLinkPendulum
 from symid.model import Model
 
 CONTROLLERS = {"PD": PD, "FPD": FullStatePD}
-_BODY = {"leg_length": "l_L_m", "leg_com": "d_L_m", "trunk_com": "d_T_m", "leg_mass": "m_L_kg",
-         "trunk_mass": "m_T_kg", "leg_inertia": "I_L_kg_m2", "trunk_inertia": "I_T_kg_m2"}
+_BODY = {
+    "leg_length": "l_L_m",
+    "leg_com": "d_L_m",
+    "trunk_com": "d_T_m",
+    "leg_mass": "m_L_kg",
+    "trunk_mass": "m_T_kg",
+    "leg_inertia": "I_L_kg_m2",
+    "trunk_inertia": "I_T_kg_m2",
+}
 
 
 def model_of(facts: Mapping, channels: Iterable[str] = ()) -> Model:
@@ -36,7 +43,9 @@ def model_of(facts: Mapping, channels: Iterable[str] = ()) -> Model:
 
 def _table(facts: Mapping, key: str) -> Mapping:
     if not isinstance(facts.get(key), Mapping):
-        raise ModelError(f"the key '{key}' is missing" if key not in facts else f"'{key}' is no table of names and numbers")
+        raise ModelError(
+            f"the key '{key}' is missing" if key not in facts else f"'{key}' is no table of names and numbers"
+        )
     return facts[key]
 
 

@@ -53,25 +53,40 @@ class Feedback(ABC):
         """A new model: `model` with this law at all of its joints."""
         joints = tuple(p.name for p in model.ports.values() if p.role == "joint")
         if not joints:
-            raise ModelError(f"model '{model.name}' has no joint at which {type(self).__name__} could act: "
-                             "declare a Port with role='joint'")
+            raise ModelError(
+                f"model '{model.name}' has no joint at which {type(self).__name__} could act: "
+                "declare a Port with role='joint'"
+            )
         closed = model.copy(f"{model.name}, {type(self).__name__}")
         if self.delay is not None:
-            closed.feedback_delay = Parameter(unit="s", bounds=self.delay, latex=r"\tau",
-                                              meaning="delay of all feedback signals")
+            closed.feedback_delay = Parameter(
+                unit="s", bounds=self.delay, latex=r"\tau", meaning="delay of all feedback signals"
+            )
         for joint, s, torque in zip(joints, subscripts(joints), self.torques(closed, joints), strict=True):
-            setattr(closed, f"{joint}_torque", Expression(torque, unit="N*m", role="feedback_torque", at=joint,
-                                                          latex=f"T_{s}", meaning=f"feedback torque at the {joint}"))
+            setattr(
+                closed,
+                f"{joint}_torque",
+                Expression(
+                    torque,
+                    unit="N*m",
+                    role="feedback_torque",
+                    at=joint,
+                    latex=f"T_{s}",
+                    meaning=f"feedback torque at the {joint}",
+                ),
+            )
             closed.add_effort(joint, -closed[f"{joint}_torque"].symbol)
         if self.muscle is not None:
-            closed.muscle_time_constant = Parameter(unit="s", bounds=self.muscle, latex="T_m",
-                                                    meaning="time constant of the muscles' activation")
+            closed.muscle_time_constant = Parameter(
+                unit="s", bounds=self.muscle, latex="T_m", meaning="time constant of the muscles' activation"
+            )
             for joint in joints:
                 lag_torque(closed, f"{joint}_torque", closed.muscle_time_constant.symbol, "muscle")
         return closed
 
-    def signals(self, model: Model, joints: tuple[str, ...], references: bool, lag: float = 0.0,
-                suffix: str = "") -> Signals:
+    def signals(
+        self, model: Model, joints: tuple[str, ...], references: bool, lag: float = 0.0, suffix: str = ""
+    ) -> Signals:
         """Declare the error and rate of each joint, late by `lag` [s] and by the unknown delay."""
         errors, rates = [], []
         late = lag + (model.feedback_delay.symbol if self.delay is not None else 0)
@@ -79,12 +94,22 @@ class Feedback(ABC):
             port = model[joint]
             error = port.position - (model[f"ref_{joint}"].symbol if references else 0)
             for name, expr, kind, unit, letter, into in (
-                    (f"{joint}_error{suffix}", error, "error", "rad", "e", errors),
-                    (f"{joint}_rate_signal{suffix}", port.rate, "rate", "rad/s", "r", rates)):
+                (f"{joint}_error{suffix}", error, "error", "rad", "e", errors),
+                (f"{joint}_rate_signal{suffix}", port.rate, "rate", "rad/s", "r", rates),
+            ):
                 expr = model.delayed(expr, late) if late != 0 else expr
-                setattr(model, name, Expression(expr, unit=unit, role=f"feedback_{kind}", at=joint,
-                                                latex=f"{letter}_{{{s}{suffix.replace('_', ',')}}}",
-                                                meaning=f"{kind} of the {joint} that the feedback reads"))
+                setattr(
+                    model,
+                    name,
+                    Expression(
+                        expr,
+                        unit=unit,
+                        role=f"feedback_{kind}",
+                        at=joint,
+                        latex=f"{letter}_{{{s}{suffix.replace('_', ',')}}}",
+                        meaning=f"{kind} of the {joint} that the feedback reads",
+                    ),
+                )
                 into.append(model[name].symbol)
         return Signals(tuple(errors), tuple(rates))
 
@@ -99,8 +124,10 @@ class PD(Feedback):
             gain(model, f"kd_{joint}", "N*m*s/rad", own=True, meaning=f"damping of the feedback at the {joint}")
         references(model, joints)
         signals = self.signals(model, joints, references=True)
-        return [model[f"kp_{j}"] * e + model[f"kd_{j}"] * r
-                for j, e, r in zip(joints, signals.errors, signals.rates, strict=True)]
+        return [
+            model[f"kp_{j}"] * e + model[f"kd_{j}"] * r
+            for j, e, r in zip(joints, signals.errors, signals.rates, strict=True)
+        ]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,8 +148,16 @@ def lag_torque(model: Model, torque: str, time_constant: sm.Expr, name: str) -> 
     begin it at the torque asked for.
     """
     old = model[torque]
-    setattr(model, f"{torque}_{name}", State(unit=old.unit, role="memory", at=old.at,
-                                             meaning=f"{old.meaning}, as it follows; begin it at what is asked for"))
+    setattr(
+        model,
+        f"{torque}_{name}",
+        State(
+            unit=old.unit,
+            role="memory",
+            at=old.at,
+            meaning=f"{old.meaning}, as it follows; begin it at what is asked for",
+        ),
+    )
     x = model[f"{torque}_{name}"]
     setattr(model, f"{torque}_{name}_equation", Equation(time_constant * x.dot + x - old.expr))
     model.redefine(torque, x)
@@ -131,17 +166,35 @@ def lag_torque(model: Model, torque: str, time_constant: sm.Expr, name: str) -> 
 def gain(model: Model, name: str, unit: str, own: bool, meaning: str) -> sm.Symbol:
     """Declare a gain; one that feeds a joint's own signal back is not negative."""
     kind, _, where = name.partition("_")
-    setattr(model, name, Parameter(unit=unit, bounds=(0.0 if own else -GAIN_BOUND, GAIN_BOUND), role="gain",
-                                   latex=f"k_{{{kind[1]},{where.replace('_', ',')}}}", meaning=meaning))
+    setattr(
+        model,
+        name,
+        Parameter(
+            unit=unit,
+            bounds=(0.0 if own else -GAIN_BOUND, GAIN_BOUND),
+            role="gain",
+            latex=f"k_{{{kind[1]},{where.replace('_', ',')}}}",
+            meaning=meaning,
+        ),
+    )
     return model[name].symbol
 
 
 def references(model: Model, joints: tuple[str, ...]) -> None:
     """Declare the reference angle of each joint."""
     for joint, s in zip(joints, subscripts(joints), strict=True):
-        setattr(model, f"ref_{joint}", Parameter(
-            unit="rad", bounds=(-REFERENCE_BOUND, REFERENCE_BOUND), role="reference", at=joint,
-            latex=rf"\theta_{{{s},0}}", meaning=f"angle of the {joint} at which its error is zero"))
+        setattr(
+            model,
+            f"ref_{joint}",
+            Parameter(
+                unit="rad",
+                bounds=(-REFERENCE_BOUND, REFERENCE_BOUND),
+                role="reference",
+                at=joint,
+                latex=rf"\theta_{{{s},0}}",
+                meaning=f"angle of the {joint} at which its error is zero",
+            ),
+        )
 
 
 def full_state_gains(model: Model, joints: tuple[str, ...], suffix: str = "") -> list[list[sm.Symbol]]:
@@ -153,6 +206,13 @@ def full_state_gains(model: Model, joints: tuple[str, ...], suffix: str = "") ->
         for kind, unit, signal in (("kp", "N*m/rad", "angle"), ("kd", "N*m*s/rad", "rate")):
             for source in joints:
                 pair = to[0] + source[0] if one_letter else f"{to}_{source}"
-                rows[to].append(gain(model, f"{kind}_{pair}{suffix}", unit, own=to == source and not suffix,
-                                     meaning=f"torque at the {to} per {signal} of the {source}"))
+                rows[to].append(
+                    gain(
+                        model,
+                        f"{kind}_{pair}{suffix}",
+                        unit,
+                        own=to == source and not suffix,
+                        meaning=f"torque at the {to} per {signal} of the {source}",
+                    )
+                )
     return list(rows.values())

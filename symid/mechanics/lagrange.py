@@ -60,8 +60,9 @@ def lagrange_residuals(kinetic: sm.Expr, potential: sm.Expr, q: Exprs, dq: Exprs
     return tuple(residuals)
 
 
-def chain_energies(links: Sequence[Link], angles: Exprs, rates: Exprs, around: Surroundings,
-                   upright: bool) -> tuple[sm.Expr, sm.Expr]:
+def chain_energies(
+    links: Sequence[Link], angles: Exprs, rates: Exprs, around: Surroundings, upright: bool
+) -> tuple[sm.Expr, sm.Expr]:
     """Kinetic energy relative to the base, and potential energy, of a planar chain [J].
 
     The acceleration of the base acts as a uniform field, as in any frame that moves without
@@ -77,24 +78,26 @@ def chain_energies(links: Sequence[Link], angles: Exprs, rates: Exprs, around: S
     for i, link in enumerate(links):
         arms = [*(k.length for k in links[:i]), link.com]
         pairs = [(j, k) for j in range(i + 1) for k in range(j + 1)]
-        speed_squared = sum((1 if j == k else 2) * arms[j] * arms[k] * rates[j] * rates[k]
-                            * sm.cos(angles[j] - angles[k]) for j, k in pairs)
+        speed_squared = sum(
+            (1 if j == k else 2) * arms[j] * arms[k] * rates[j] * rates[k] * sm.cos(angles[j] - angles[k])
+            for j, k in pairs
+        )
         kinetic += (link.mass * speed_squared + link.inertia * rates[i] ** 2) / 2
         forward = sum(r * sm.sin(a) for r, a in zip(arms, angles, strict=False))
         height = up * sum(r * sm.cos(a) for r, a in zip(arms, angles, strict=False))
-        potential += link.mass * (around.vertical * height
-                                  + (around.base_acceleration - around.horizontal) * forward)
+        potential += link.mass * (around.vertical * height + (around.base_acceleration - around.horizontal) * forward)
     return kinetic, potential
 
 
 @lru_cache(maxsize=32)
-def chain_residuals(links: tuple[Link, ...], q: tuple, dq: tuple, ddq: tuple, around: Surroundings,
-                    absolute: bool, upright: bool) -> tuple[sm.Expr, ...]:
+def chain_residuals(
+    links: tuple[Link, ...], q: tuple, dq: tuple, ddq: tuple, around: Surroundings, absolute: bool, upright: bool
+) -> tuple[sm.Expr, ...]:
     """Residuals (forces minus rates of momentum [N m]) of a planar chain, one per coordinate.
 
     `q` are absolute angles of the links, or angles of each link relative to the one before.
     """
-    angles = q if absolute else tuple(sum(q[:i + 1]) for i in range(len(q)))
-    rates = dq if absolute else tuple(sum(dq[:i + 1]) for i in range(len(q)))
+    angles = q if absolute else tuple(sum(q[: i + 1]) for i in range(len(q)))
+    rates = dq if absolute else tuple(sum(dq[: i + 1]) for i in range(len(q)))
     kinetic, potential = chain_energies(links, angles, rates, around, upright)
     return lagrange_residuals(kinetic, potential, q, dq, ddq)

@@ -27,15 +27,19 @@ def port_at(model: Model, role: str, place: str) -> Port:
     """The one port with this role at this place."""
     found = [c for c in model.find(role, place) if isinstance(c, Port)]
     if not found:
-        raise ModelError(f"model '{model.name}' has no Port with role='{role}' at='{place}', where a force could act: "
-                         "declare one")
+        raise ModelError(
+            f"model '{model.name}' has no Port with role='{role}' at='{place}', where a force could act: declare one"
+        )
     return found[0]
 
 
 def is_linear(model: Model, place: str) -> bool:
     """Whether a force [N] along a displacement acts at `place`, instead of a torque."""
-    return any(c.unit in ("N", "m", "m/s^2") for role in ("joint", "link", "feedback_torque", "feedback_error")
-               for c in model.find(role, place))
+    return any(
+        c.unit in ("N", "m", "m/s^2")
+        for role in ("joint", "link", "feedback_torque", "feedback_error")
+        for c in model.find(role, place)
+    )
 
 
 def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -54,7 +58,7 @@ def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
 
 def unit_along(unit: str, force: str, length: str) -> str:
     """The unit of a law's parameter, stated for a torque [N*m] and an angle, for another kind of force and coordinate."""
-    if force == "N":    # reads better than what pint would make of it
+    if force == "N":  # reads better than what pint would make of it
         return unit.replace("N*m", "N").replace("rad", length)
     return reduced(unit.replace("rad", length).replace("N*m", f"({force})"))
 
@@ -75,8 +79,13 @@ def dry(model: Model, port: Port, law: str) -> sm.Expr:
     stated = model.find("friction_speed")
     if stated:
         return sm.tanh(port.rate / stated[0].symbol)
-    width = fixed(model, parameter_name(law, port.at, "speed_width"), FRICTION_SPEED,
-                  "m/s" if is_linear(model, port.at) else "rad/s", "width of the smoothed jump of dry friction")
+    width = fixed(
+        model,
+        parameter_name(law, port.at, "speed_width"),
+        FRICTION_SPEED,
+        "m/s" if is_linear(model, port.at) else "rad/s",
+        "width of the smoothed jump of dry friction",
+    )
     return sm.tanh(port.rate / width)
 
 
@@ -85,13 +94,21 @@ def switched_on(model: Model, time, width) -> sm.Expr:
     return (1 + sm.tanh((model.time - time) / width)) / 2
 
 
-def effort_law(name: str, role: str, parameters: tuple[LawParameter, ...],
-               force: Callable[[Model, Port, SimpleNamespace], sm.Expr], sentence: str, source: str) -> Law:
+def effort_law(
+    name: str,
+    role: str,
+    parameters: tuple[LawParameter, ...],
+    force: Callable[[Model, Port, SimpleNamespace], sm.Expr],
+    sentence: str,
+    source: str,
+) -> Law:
     """A law whose whole effect is a force at a port: ``force(model, port, p)`` along its rate."""
+
     def build(model: Model, place: str, p: SimpleNamespace) -> None:
         port = port_at(model, role, place)
         fit_units(model, place, p)
         model.add_effort(port.name, force(model, port, p))
+
     return Law(name, role, parameters, build, sentence, source)
 
 

@@ -60,8 +60,9 @@ class NeuralNetwork(Feedback):
     def __post_init__(self):
         check_lags(self.lags, type(self).__name__)
         if self.activation not in ACTIVATIONS:
-            raise ModelError(f"NeuralNetwork: activation '{self.activation}' is not known; use one of "
-                             f"{list(ACTIVATIONS)}")
+            raise ModelError(
+                f"NeuralNetwork: activation '{self.activation}' is not known; use one of {list(ACTIVATIONS)}"
+            )
         if self.hidden < 1:
             raise ModelError(f"NeuralNetwork: hidden = {self.hidden!r} must be 1 or more nodes")
 
@@ -87,9 +88,17 @@ def _layer(model: Model, name: str, rows: int, inputs: list[sm.Expr], units: lis
         total = sm.S.Zero
         for j, (x, unit) in enumerate(zip((*inputs, sm.S.One), (*units, "1"), strict=True), start=1):
             weight = f"{name}_{i}_{j}"
-            setattr(model, weight, Parameter(unit=unit, bounds=(-WEIGHT_BOUND, WEIGHT_BOUND), role="weight",
-                                             latex=rf"w^{{\mathrm{{{mark}}}}}_{{{i},{j}}}",
-                                             meaning=f"weight of input {j} of node {i}, {layer} layer"))
+            setattr(
+                model,
+                weight,
+                Parameter(
+                    unit=unit,
+                    bounds=(-WEIGHT_BOUND, WEIGHT_BOUND),
+                    role="weight",
+                    latex=rf"w^{{\mathrm{{{mark}}}}}_{{{i},{j}}}",
+                    meaning=f"weight of input {j} of node {i}, {layer} layer",
+                ),
+            )
             total += model[weight] * x
         sums.append(total)
     return sums

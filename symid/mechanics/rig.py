@@ -24,8 +24,9 @@ _FIELDS = {"m": "mass", "a": "com", "I": "inertia", "L": "length"}
 _COUNT = {1: "pendulum", 2: "double pendulum", 3: "triple pendulum"}
 
 
-def rig_model(parameters: Mapping[str, object] | str | os.PathLike, channels: Iterable[str] = (),
-              friction: Iterable[str] = ()) -> Model:
+def rig_model(
+    parameters: Mapping[str, object] | str | os.PathLike, channels: Iterable[str] = (), friction: Iterable[str] = ()
+) -> Model:
     """A chain of links that hangs from a mount, as its parameters and its recording say.
 
     Parameters
@@ -53,18 +54,31 @@ def rig_model(parameters: Mapping[str, object] | str | os.PathLike, channels: It
     table = {_short(k): v for k, v in content.items()}
     numbers = [n for k in table for n in re.findall(r"^[maIL](\d+)_", k)]
     if any(len(n) > 3 or int(n) > MOST_LINKS for n in numbers):
-        raise RecordingError(f"{name}: the parameters name link {max(numbers, key=len)[:12]}; a rig has {MOST_LINKS} links at most")
+        raise RecordingError(
+            f"{name}: the parameters name link {max(numbers, key=len)[:12]}; a rig has {MOST_LINKS} links at most"
+        )
     count = max(map(int, numbers), default=0)
     if count == 0:
-        raise RecordingError(f"{name}: no link has a mass; give m1_kg, a1_m and I1_kg_m2 for one link, and m2_kg ... for more")
+        raise RecordingError(
+            f"{name}: no link has a mass; give m1_kg, a1_m and I1_kg_m2 for one link, and m2_kg ... for more"
+        )
     needed = {f"{q}{i}": unit for i in range(1, count + 1) for q, unit in _QUANTITIES.items() if q != "L" or i < count}
     gravity = {"g": "m/s^2"} if any(k.startswith("g_") for k in table) else {}
     own = {k: v for k, v in table.items() if k.split("_")[0] in needed | gravity}
     values = {"g": 9.81} | read_body(own, needed | gravity, name)
-    links = tuple(ChainLink(f"link{i}", constants=tuple((_FIELDS[q], f"{q}{i}") for q in _QUANTITIES),
-                            **{_FIELDS[q]: values.get(f"{q}{i}") for q in _QUANTITIES}) for i in range(1, count + 1))
-    return _driven(Chain(links, gravity=values["g"], name=f"{_COUNT.get(count, f'chain of {count} links')} on a bench"),
-                   set(channels), tuple(friction))
+    links = tuple(
+        ChainLink(
+            f"link{i}",
+            constants=tuple((_FIELDS[q], f"{q}{i}") for q in _QUANTITIES),
+            **{_FIELDS[q]: values.get(f"{q}{i}") for q in _QUANTITIES},
+        )
+        for i in range(1, count + 1)
+    )
+    return _driven(
+        Chain(links, gravity=values["g"], name=f"{_COUNT.get(count, f'chain of {count} links')} on a bench"),
+        set(channels),
+        tuple(friction),
+    )
 
 
 def _short(key: str) -> str:
@@ -81,11 +95,22 @@ def _driven(chain: Chain, channels: set[str], friction: tuple[str, ...]) -> Mode
     model = replace(chain, absolute=absolute, base_channel=base).plant()
     for joint in chain.joints:
         if (torque := f"{joint}_torque") in channels:
-            setattr(model, torque, Input(unit="N*m", channel=torque, role="excitation", at="input",
-                                         meaning=f"recorded torque of a drive at the {joint}"))
+            setattr(
+                model,
+                torque,
+                Input(
+                    unit="N*m",
+                    channel=torque,
+                    role="excitation",
+                    at="input",
+                    meaning=f"recorded torque of a drive at the {joint}",
+                ),
+            )
             model.add_effort(joint, model[torque].symbol)
     for joint in friction:
         if joint not in chain.joints:
-            raise ModelError(f"friction at '{joint}': the {chain.name} has no such joint; it has {', '.join(chain.joints)}")
+            raise ModelError(
+                f"friction at '{joint}': the {chain.name} has no such joint; it has {', '.join(chain.joints)}"
+            )
         model = model.with_term(LIBRARY["viscous_friction"].at(joint))
     return model

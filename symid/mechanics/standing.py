@@ -48,6 +48,14 @@ class DoubleLinkPendulum:
         """This body without feedback."""
         leg = ChainLink("leg", self.leg_mass, self.leg_com, self.leg_inertia, self.leg_length)
         trunk = ChainLink("trunk", self.trunk_mass, self.trunk_com, self.trunk_inertia)
-        return Chain((leg, trunk), ("ankle", "hip"), self.gravity, upright=True, base_channel="platform_acceleration",
-                     angle_bound=1.0, velocity_bound=2.0, friction_speed=0.02,
-                     name="standing on a moving platform").plant()
+        return Chain(
+            (leg, trunk),
+            ("ankle", "hip"),
+            self.gravity,
+            upright=True,
+            base_channel="platform_acceleration",
+            angle_bound=1.0,
+            velocity_bound=2.0,
+            friction_speed=0.02,
+            name="standing on a moving platform",
+        ).plant()

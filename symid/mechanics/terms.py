@@ -10,9 +10,20 @@ from symid.model import Law, Model, Term
 CANONICAL: tuple[str, ...] = tuple(law.name for law in (*FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS))
 """Names of the laws that answer files know."""
 
-LIBRARY: dict[str, Law] = {law.name: law for law in (
-    *FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS, *GEOMETRY_LAWS, *FURTHER_FEEDBACK_LAWS, *FURTHER_JOINT_LAWS,
-    *FURTHER_LINK_LAWS, *FURTHER_WORLD_LAWS)}
+LIBRARY: dict[str, Law] = {
+    law.name: law
+    for law in (
+        *FEEDBACK_LAWS,
+        *JOINT_LAWS,
+        *LINK_LAWS,
+        *WORLD_LAWS,
+        *GEOMETRY_LAWS,
+        *FURTHER_FEEDBACK_LAWS,
+        *FURTHER_JOINT_LAWS,
+        *FURTHER_LINK_LAWS,
+        *FURTHER_WORLD_LAWS,
+    )
+}
 """Every law by name: the canonical ones first, then what else the field knows."""
 
 

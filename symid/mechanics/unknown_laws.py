@@ -22,9 +22,13 @@ MEMORY_TIMES = (0.05, 0.2, 0.8)
 
 
 SHORT_PUSH = effort_law(
-    "short_push", "joint", (LawParameter("impulse_Nms", "N*m*s"), LawParameter("time_s", "s", null=None)),
+    "short_push",
+    "joint",
+    (LawParameter("impulse_Nms", "N*m*s"), LawParameter("time_s", "s", null=None)),
     lambda model, port, p: p.impulse_Nms * sm.exp(-(((model.time - p.time_s) / BRIEF) ** 2)) / (BRIEF * sm.sqrt(sm.pi)),
-    "", "")
+    "",
+    "",
+)
 """A push of unit impulse, to see how a loop answers."""
 
 
@@ -59,40 +63,88 @@ def unknown_force(role: str, scales: Mapping[str, tuple[float, float]], span: tu
     role : role of the ports. scales : place -> rms of position and rate there.
     span : start and end of the recording [s].
     """
+
     def build(model: Model, place: str, p) -> None:
         port = port_at(model, role, place)
         x, v = port.position / scales[place][0], port.rate / scales[place][1]
         t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
-        shapes = [x, x**2, x**3, x**4, x**5, v, v * sm.Abs(v), v**3, v**2, x * sm.Abs(v), x**2 * v, sm.tanh(3 * v),
-                  sm.tanh(10 * v), t, x * t, v * t]
+        shapes = [
+            x,
+            x**2,
+            x**3,
+            x**4,
+            x**5,
+            v,
+            v * sm.Abs(v),
+            v**3,
+            v**2,
+            x * sm.Abs(v),
+            x**2 * v,
+            sm.tanh(3 * v),
+            sm.tanh(10 * v),
+            t,
+            x * t,
+            v * t,
+        ]
         shapes += _memories(model, place, x)
         model.add_effort(port.name, sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
-    return Law("unknown_force", role, _parameters(16 + len(MEMORY_TIMES)), build,
-               "Something acts on the {place} that no known law describes")
+
+    return Law(
+        "unknown_force",
+        role,
+        _parameters(16 + len(MEMORY_TIMES)),
+        build,
+        "Something acts on the {place} that no known law describes",
+    )
 
 
 def unknown_sensor(scales: Mapping[str, float], span: tuple[float, float]) -> Law:
     """A sensor whose error depends on what it shows, now and before, how fast that changes, and time."""
+
     def build(model: Model, place: str, p) -> None:
         for sensor in model.find("sensor", place):
             y = sensor.expr / scales[place]
             t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
             waves = [f(k * WAVE * y) for k in (1, 2, 3, 4) for f in (sm.sin, sm.cos)]
             shapes = [y, *waves, t, y * t, time_derivative(model, y), *_memories(model, place, y)]
-            model.redefine(sensor.name, sensor.expr + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
-    return Law("unknown_sensor_error", "sensor", _parameters(12 + len(MEMORY_TIMES)), build,
-               "What the sensor {place} shows is distorted in a way that no known law describes")
+            model.redefine(
+                sensor.name, sensor.expr + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes))
+            )
+
+    return Law(
+        "unknown_sensor_error",
+        "sensor",
+        _parameters(12 + len(MEMORY_TIMES)),
+        build,
+        "What the sensor {place} shows is distorted in a way that no known law describes",
+    )
 
 
 def unknown_input(scales: Mapping[str, float], span: tuple[float, float]) -> Law:
     """An excitation whose error depends on what was recorded, now and before, and on time."""
+
     def build(model: Model, place: str, p) -> None:
         for u in model.find("excitation", place):
             present = u.symbol / scales[place]
             t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
             before = _memory_states(model, place)
-            shapes = [present, present**2, present**3, present * sm.Abs(present), t * present, *(z.symbol for z in before)]
-            model.substitute({u.symbol: u.symbol + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes))})
+            shapes = [
+                present,
+                present**2,
+                present**3,
+                present * sm.Abs(present),
+                t * present,
+                *(z.symbol for z in before),
+            ]
+            model.substitute(
+                {u.symbol: u.symbol + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes))}
+            )
             _filter(model, before, present)
-    return Law("unknown_input_error", "excitation", _parameters(5 + len(MEMORY_TIMES)), build,
-               "What drives the {place} differs from what was recorded in a way that no known law describes")
+
+    return Law(
+        "unknown_input_error",
+        "excitation",
+        _parameters(5 + len(MEMORY_TIMES)),
+        build,
+        "What drives the {place} differs from what was recorded in a way that no known law describes",
+    )

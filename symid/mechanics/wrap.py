@@ -43,8 +43,14 @@ class _Draft:
             self.violations.append(str(error))
 
 
-def from_kane(kane: KanesMethod, units: Mapping[str, str], *, constants: Mapping[str, float] | None = None,
-              bounds: Mapping[str, Bounds] | None = None, name: str = "Kane's method") -> Model:
+def from_kane(
+    kane: KanesMethod,
+    units: Mapping[str, str],
+    *,
+    constants: Mapping[str, float] | None = None,
+    bounds: Mapping[str, Bounds] | None = None,
+    name: str = "Kane's method",
+) -> Model:
     """A Model from a KanesMethod whose equations were formed (``kanes_equations``).
 
     Coordinates and speeds become states, other functions of time inputs, and symbols constants
@@ -64,23 +70,32 @@ def from_kane(kane: KanesMethod, units: Mapping[str, str], *, constants: Mapping
         With everything that is missing, unknown or unusable at once (`violations`).
     """
     from sympy.physics.mechanics import KanesMethod
+
     if not isinstance(kane, KanesMethod):
         raise ModelError(f"from_kane needs a KanesMethod, found {type(kane).__name__}")
     try:
         mass, forcing = kane.mass_matrix_full, kane.forcing_full
     except ValueError:
         raise ModelError("this KanesMethod has no equations yet: call kanes_equations(bodies, loads) first") from None
-    return _wrapped(name, list(kane.q), list(kane.u), {u: _name(u) for u in kane.u}, mass, forcing,
-                    units, constants, bounds)
+    return _wrapped(
+        name, list(kane.q), list(kane.u), {u: _name(u) for u in kane.u}, mass, forcing, units, constants, bounds
+    )
 
 
-def from_lagrange(lagrange: LagrangesMethod, units: Mapping[str, str], *, constants: Mapping[str, float] | None = None,
-                  bounds: Mapping[str, Bounds] | None = None, name: str = "Lagrange's method") -> Model:
+def from_lagrange(
+    lagrange: LagrangesMethod,
+    units: Mapping[str, str],
+    *,
+    constants: Mapping[str, float] | None = None,
+    bounds: Mapping[str, Bounds] | None = None,
+    name: str = "Lagrange's method",
+) -> Model:
     """A Model from a LagrangesMethod without constraints (``form_lagranges_equations``).
 
     The rate of a coordinate ``q`` becomes the state ``q_rate``; all else as in `from_kane`.
     """
     from sympy.physics.mechanics import LagrangesMethod
+
     if not isinstance(lagrange, LagrangesMethod):
         raise ModelError(f"from_lagrange needs a LagrangesMethod, found {type(lagrange).__name__}")
     try:
@@ -89,10 +104,21 @@ def from_lagrange(lagrange: LagrangesMethod, units: Mapping[str, str], *, consta
         raise ModelError("this LagrangesMethod has no equations yet: call form_lagranges_equations() first") from None
     q, rates = list(lagrange.q), [sm.diff(x, _time()) for x in lagrange.q]
     if mass.rows != 2 * len(q):
-        raise ModelError("this LagrangesMethod has constraints with multipliers, which a Model cannot hold: choose "
-                         "independent coordinates, or use Kane's method")
-    return _wrapped(name, q, rates, {r: f"{_name(x)}_rate" for x, r in zip(q, rates, strict=True)}, mass, forcing,
-                    units, constants, bounds)
+        raise ModelError(
+            "this LagrangesMethod has constraints with multipliers, which a Model cannot hold: choose "
+            "independent coordinates, or use Kane's method"
+        )
+    return _wrapped(
+        name,
+        q,
+        rates,
+        {r: f"{_name(x)}_rate" for x, r in zip(q, rates, strict=True)},
+        mass,
+        forcing,
+        units,
+        constants,
+        bounds,
+    )
 
 
 def from_system(system: System, units: Mapping[str, str], **options) -> Model:
@@ -101,13 +127,22 @@ def from_system(system: System, units: Mapping[str, str], **options) -> Model:
     if method is None:
         raise ModelError("this System has no equations yet: call form_eoms() first")
     from sympy.physics.mechanics import KanesMethod
+
     wrap = from_kane if isinstance(method, KanesMethod) else from_lagrange
     return wrap(method, units, **options)
 
 
-def _wrapped(name: str, q: list, speeds: list, speed_names: dict, mass: sm.Matrix, forcing: sm.Matrix,
-             units: Mapping[str, str], constants: Mapping[str, float] | None,
-             bounds: Mapping[str, Bounds] | None) -> Model:
+def _wrapped(
+    name: str,
+    q: list,
+    speeds: list,
+    speed_names: dict,
+    mass: sm.Matrix,
+    forcing: sm.Matrix,
+    units: Mapping[str, str],
+    constants: Mapping[str, float] | None,
+    bounds: Mapping[str, Bounds] | None,
+) -> Model:
     constants, bounds = constants or {}, bounds or {}
     draft = _Draft(Model(name), units, bounds)
     for x, own in [*((x, _name(x)) for x in q), *speed_names.items()]:
@@ -126,8 +161,11 @@ def _wrapped(name: str, q: list, speeds: list, speed_names: dict, mass: sm.Matri
     draft.table |= {s: sm.Symbol(str(s), real=True) for s in rest} | {_time(): TIME}
     known = {*speed_names.values(), *map(_name, (*q, *signals)), *map(str, rest)}
     for what, names in (("units", units), ("constants", constants), ("bounds", bounds)):
-        draft.violations += [f"{what} has '{n}', which the equations do not contain; {nearest(n, known)}"
-                             for n in names if n not in known]
+        draft.violations += [
+            f"{what} has '{n}', which the equations do not contain; {nearest(n, known)}"
+            for n in names
+            if n not in known
+        ]
     _equations(draft, q, speeds, speed_names, mass, forcing)
     if draft.violations:
         lines = "\n".join(f"  - {v}" for v in draft.violations)
@@ -144,22 +182,33 @@ def _equations(draft: _Draft, q: list, speeds: list, speed_names: dict, mass: sm
     first = {sm.diff(x, _time()): model[_name(x)].dot for x in q} | {u: draft.table[u] for u in speeds}
     residuals = (forcing - mass * sm.Matrix(rates)).xreplace(first).xreplace(draft.table)
     for derivative in sorted(residuals.atoms(sm.Derivative), key=str):
-        draft.violations.append(f"the equations contain {derivative}, the derivative of an input: give it as an input "
-                                "of its own")
+        draft.violations.append(
+            f"the equations contain {derivative}, the derivative of an input: give it as an input of its own"
+        )
     labels = [f"{_name(x)}_kinematics" for x in q] + [f"{speed_names[u]}_balance" for u in speeds]
     for label, residual in zip(labels, residuals, strict=True):
         setattr(model, label, Equation(residual))
-    for x, kinematics in zip(map(_name, q), list(residuals)[:len(q)], strict=True):
+    for x, kinematics in zip(map(_name, q), list(residuals)[: len(q)], strict=True):
         setattr(model, f"measured_{x}", Output(model[x], role="sensor", at=f"sensor:{x}"))
         for own in speed_names.values():
             if sm.expand(kinematics**2 - (model[own] - model[x].dot) ** 2) == 0:
-                setattr(model, f"{x}_joint", Port(
-                    position=model[x].symbol, rate=model[own].symbol, role="joint", at=x,
-                    into={f"{own}_balance": 1}, unit="N" if model[x].unit == "m" else "N*m"))
+                setattr(
+                    model,
+                    f"{x}_joint",
+                    Port(
+                        position=model[x].symbol,
+                        rate=model[own].symbol,
+                        role="joint",
+                        at=x,
+                        into={f"{own}_balance": 1},
+                        unit="N" if model[x].unit == "m" else "N*m",
+                    ),
+                )
 
 
 def _time() -> sm.Symbol:
     from sympy.physics.mechanics import dynamicsymbols
+
     return dynamicsymbols._t
 
 

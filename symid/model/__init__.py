@@ -2,7 +2,19 @@
 
 from symid.model.conditions import Boundary, Constraint, Objective, Row
 from symid.model.declare import (
-    Algebraic, Component, Constant, Control, Delay, Equation, Expression, Input, Noise, Output, Parameter, Port, Process,
+    Algebraic,
+    Component,
+    Constant,
+    Control,
+    Delay,
+    Equation,
+    Expression,
+    Input,
+    Noise,
+    Output,
+    Parameter,
+    Port,
+    Process,
     State,
 )
 from symid.model.model import TIME, Model, nearest
@@ -11,7 +23,34 @@ from symid.model.quantity import initial, symbol, terminal
 from symid.model.term import Law, LawParameter, Term
 
 __all__ = [
-    "TIME", "Algebraic", "Boundary", "Component", "Constant", "Constraint", "Control", "Delay", "Equation", "Expression",
-    "Input", "Law", "LawParameter", "LogNormal", "Model", "Noise", "Normal", "Objective", "Output", "Parameter", "Port", "Prior", "Process", "Row", "State", "Term",
-    "initial", "nearest", "symbol", "terminal",
+    "TIME",
+    "Algebraic",
+    "Boundary",
+    "Component",
+    "Constant",
+    "Constraint",
+    "Control",
+    "Delay",
+    "Equation",
+    "Expression",
+    "Input",
+    "Law",
+    "LawParameter",
+    "LogNormal",
+    "Model",
+    "Noise",
+    "Normal",
+    "Objective",
+    "Output",
+    "Parameter",
+    "Port",
+    "Prior",
+    "Process",
+    "Row",
+    "State",
+    "Term",
+    "initial",
+    "nearest",
+    "symbol",
+    "terminal",
 ]

@@ -21,7 +21,11 @@ def hint(part) -> str:
     """What a thing that is no part could become, for an error message."""
     if isinstance(part, sm.core.relational.Relational):
         return " (a comparison becomes a Constraint(...))"
-    return " (an expression becomes an Equation(...), which is zero, or an Expression(...))" if isinstance(part, sm.Expr) else ""
+    return (
+        " (an expression becomes an Equation(...), which is zero, or an Expression(...))"
+        if isinstance(part, sm.Expr)
+        else ""
+    )
 
 
 def completed(model: Model, part: Component, name: str) -> Component:
@@ -36,7 +40,7 @@ def completed(model: Model, part: Component, name: str) -> Component:
         changes["unit"] = part.unit or getattr(shown, "unit", "")
         changes["channel"] = part.channel or (shown.name if isinstance(shown, AlongTime) else name)
     if isinstance(getattr(part, "bounds", None), tuple):
-        with suppress(TypeError, ValueError):           # what is no pair of numbers, check() says in words
+        with suppress(TypeError, ValueError):  # what is no pair of numbers, check() says in words
             changes["bounds"] = tuple(float(b) for b in part.bounds)
     if isinstance(part, Input):
         changes["channel"] = part.channel or name
@@ -53,8 +57,10 @@ def completed(model: Model, part: Component, name: str) -> Component:
 def refuse_odd_name(model: Model, name: str) -> None:
     """Names stand in generated code and in files: they are identifiers, or indices behind one."""
     if not (name.isidentifier() and name.isprintable()):
-        raise ModelError(f"model '{_short(model.name)}': {_short(name)!r} cannot name a part; take letters, digits and _, with a "
-                         "letter first")
+        raise ModelError(
+            f"model '{_short(model.name)}': {_short(name)!r} cannot name a part; take letters, digits and _, with a "
+            "letter first"
+        )
 
 
 def _short(text: str) -> str:
@@ -65,14 +71,18 @@ def _refuse_wrong_types(model: Model, part: Component, name: str) -> None:
     kind = type(part).__name__
     unit = getattr(part, "unit", "1")
     if not isinstance(unit, str):
-        raise ModelError(f"model '{model.name}': the {kind} '{name}' has no unit: write {kind}(..., unit=\"m\"), or "
-                         "unit=\"1\" for a number without one")
+        raise ModelError(
+            f"model '{model.name}': the {kind} '{name}' has no unit: write {kind}(..., unit=\"m\"), or "
+            'unit="1" for a number without one'
+        )
     if isinstance(part, Constant) and not isinstance(part.value, (int, float)):
         try:
             float(part.value)
         except (TypeError, ValueError):
-            raise ModelError(f"model '{model.name}': the value of the Constant '{name}' is {part.value!r}; give a "
-                             f"number [{part.unit}]") from None
+            raise ModelError(
+                f"model '{model.name}': the value of the Constant '{name}' is {part.value!r}; give a "
+                f"number [{part.unit}]"
+            ) from None
 
 
 def _expression(model: Model, expr, name: str) -> sm.Expr:
@@ -82,13 +92,16 @@ def _expression(model: Model, expr, name: str) -> sm.Expr:
     except ModelError:
         found = None
     if not isinstance(found, sm.Expr):
-        raise ModelError(f"model '{model.name}': '{name}' is made of {expr!r}, which is no expression: write it with the "
-                         "model's parts, for instance m.x.dot - m.v (a comparison belongs into a Constraint)")
+        raise ModelError(
+            f"model '{model.name}': '{name}' is made of {expr!r}, which is no expression: write it with the "
+            "model's parts, for instance m.x.dot - m.v (a comparison belongs into a Constraint)"
+        )
     return found
 
 
 def _unit_of_force(model: Model, port: Port, position: sm.Expr) -> str:
     """Unit of the first equation that a port's force enters; "" where that cannot be told."""
     from symid.model.dimensions import unit_of
+
     equation = model.components.get(next(iter(port.into), ""))
     return unit_of(model, equation.expr, about=position) if isinstance(equation, Equation) else ""

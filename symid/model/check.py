@@ -10,7 +10,18 @@ import sympy as sm
 from symid.errors import ModelError, SymidError
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
-    HOLDS, Algebraic, Constant, Control, Equation, Expression, Input, Output, Parameter, Port, Process, State,
+    HOLDS,
+    Algebraic,
+    Constant,
+    Control,
+    Equation,
+    Expression,
+    Input,
+    Output,
+    Parameter,
+    Port,
+    Process,
+    State,
 )
 from symid.model.dimensions import Mismatch, dimension_of, dimensions_of_symbols
 from symid.model.model import TIME, Model, nearest
@@ -94,16 +105,22 @@ def _unknown_symbols(model: Model) -> Iterator[str]:
         used = set().union(*(e.free_symbols for e in _expressions(model, c)))
         if isinstance(c, Objective):
             used = c.running.free_symbols | c.terminal.free_symbols - ends
-        allowed = known | (ends if isinstance(c, Boundary) else set() if isinstance(c, (Constraint, Objective)) else rates)
+        allowed = known | (
+            ends if isinstance(c, Boundary) else set() if isinstance(c, (Constraint, Objective)) else rates
+        )
         for s in sorted(used - allowed, key=str):
             kind = type(c).__name__.lower()
             if s in rates | ends:
-                yield (f"{kind} '{c.name}' uses '{s}', which has no value there: a constraint and an objective see the "
-                       "nodes, which have no rates, and .initial and .terminal belong to a Boundary or an objective's end")
+                yield (
+                    f"{kind} '{c.name}' uses '{s}', which has no value there: a constraint and an objective see the "
+                    "nodes, which have no rates, and .initial and .terminal belong to a Boundary or an objective's end"
+                )
                 continue
             if str(s) in model.components or any(str(s) == str(k) for k in known):
-                yield (f"{kind} '{c.name}' uses a symbol '{s}' that is not the model's own: write model.{s}, "
-                       "not sympy.symbols")
+                yield (
+                    f"{kind} '{c.name}' uses a symbol '{s}' that is not the model's own: write model.{s}, "
+                    "not sympy.symbols"
+                )
             else:
                 yield f"{kind} '{c.name}' uses the unknown symbol '{s}'; {nearest(str(s), names)}"
 
@@ -112,16 +129,20 @@ def _ports(model: Model) -> Iterator[str]:
     for port in model.ports.values():
         for name in port.into:
             if name not in model.equations:
-                yield (f"port '{port.name}' acts on the equation '{name}', which the model does not have; "
-                       + nearest(name, model.equations))
+                yield (
+                    f"port '{port.name}' acts on the equation '{name}', which the model does not have; "
+                    + nearest(name, model.equations)
+                )
 
 
 def _missing_equations(model: Model, residual) -> Iterator[str]:
     used = set().union(*(r.free_symbols for r in residual)) if residual else set()
     for s in model.states.values():
         if s.dot not in used:
-            yield (f"state '{s.name}' has no equation that contains its rate {s.name}.dot; what has no rate at all is "
-                   "an Algebraic")
+            yield (
+                f"state '{s.name}' has no equation that contains its rate {s.name}.dot; what has no rate at all is "
+                "an Algebraic"
+            )
     for a in model.algebraics.values():
         if a.symbol not in used:
             yield f"algebraic '{a.name}' occurs in no equation, so nothing determines it"
@@ -129,13 +150,20 @@ def _missing_equations(model: Model, residual) -> Iterator[str]:
     if states + algebraics == 0 and not model.outputs:
         yield "there is no State"
     if states + algebraics != equations:
-        yield (f"there are {states} states" + (f" and {algebraics} algebraic variables" if algebraics else "")
-               + f" but {equations} equations: each state{' and algebraic' if algebraics else ''} needs one equation")
+        yield (
+            f"there are {states} states"
+            + (f" and {algebraics} algebraic variables" if algebraics else "")
+            + f" but {equations} equations: each state{' and algebraic' if algebraics else ''} needs one equation"
+        )
 
 
 def _unused(model: Model, residual) -> Iterator[str]:
-    conditions = [e for c in model.components.values() if isinstance(c, (Constraint, Boundary, Objective))
-                  for e in _expressions(model, c)]
+    conditions = [
+        e
+        for c in model.components.values()
+        if isinstance(c, (Constraint, Boundary, Objective))
+        for e in _expressions(model, c)
+    ]
     used = set().union(*(e.free_symbols for e in (*residual, *model.observed(), *map(model.inline, conditions))))
     used |= set().union(*(d.lag.free_symbols for k, d in model.delays.items() if k in used))
     for u in model.controls.values():
@@ -159,7 +187,7 @@ def _dimensions(model: Model) -> Iterator[str]:
     table |= {f(s): table[s] for s in along_time(model) & table.keys() for f in (initial, terminal)}
     found_of = {}
     for c in model.components.values():
-        for expr in _expressions(model, c) if not isinstance(c, Objective) else ():     # its weights are the user's
+        for expr in _expressions(model, c) if not isinstance(c, Objective) else ():  # its weights are the user's
             if not expr.free_symbols <= table.keys():
                 continue
             try:
@@ -168,18 +196,29 @@ def _dimensions(model: Model) -> Iterator[str]:
                 yield f"units of {type(c).__name__.lower()} '{c.name}': {error}"
                 continue
             found_of[c.name] = found
-            if isinstance(c, (Expression, Output)) and c.symbol in table and c.expr != sm.S.Zero and found != table[c.symbol]:
-                yield (f"{type(c).__name__.lower()} '{c.name}' is declared in {c.unit or '1'}, but its expression "
-                       f"has the dimension {found}")
+            if (
+                isinstance(c, (Expression, Output))
+                and c.symbol in table
+                and c.expr != sm.S.Zero
+                and found != table[c.symbol]
+            ):
+                yield (
+                    f"{type(c).__name__.lower()} '{c.name}' is declared in {c.unit or '1'}, but its expression "
+                    f"has the dimension {found}"
+                )
     for port in model.ports.values():
         yield from _dimension_of_port(port, found_of)
 
 
 def _dimension_of_port(port: Port, found_of: dict) -> Iterator[str]:
     if not port.unit and port.into:
-        yield (f"port '{port.name}' has no unit, and none follows from the equation '{next(iter(port.into))}': attach the "
-               "port after that equation, or give its unit")
+        yield (
+            f"port '{port.name}' has no unit, and none follows from the equation '{next(iter(port.into))}': attach the "
+            "port after that equation, or give its unit"
+        )
     for name in port.into if port.unit else ():
         if name in found_of and found_of[name] != dimension(port.unit):
-            yield (f"port '{port.name}' is declared in {port.unit}, but the equation '{name}', which its force enters, has the "
-                   f"dimension {found_of[name]}")
+            yield (
+                f"port '{port.name}' is declared in {port.unit}, but the equation '{name}', which its force enters, has the "
+                f"dimension {found_of[name]}"
+            )

@@ -98,8 +98,18 @@ class Boundary(Component):
 
     def __init__(self, *conditions, initial=None, terminal=None, periodic=(), **common):
         periodic = periodic if isinstance(periodic, Mapping) else {x: x for x in periodic}
-        values = {"conditions": conditions, "initial": _plain(initial), "terminal": _plain(terminal),
-                  "periodic": _plain(periodic), "meaning": "", "role": "", "at": "", "latex": "", "name": "", "index": None}
+        values = {
+            "conditions": conditions,
+            "initial": _plain(initial),
+            "terminal": _plain(terminal),
+            "periodic": _plain(periodic),
+            "meaning": "",
+            "role": "",
+            "at": "",
+            "latex": "",
+            "name": "",
+            "index": None,
+        }
         for name, value in (values | common).items():
             object.__setattr__(self, name, value)
 
@@ -116,15 +126,18 @@ class Boundary(Component):
                     continue
                 expr, (low, high) = sympified(quantity).xreplace(table), _interval(value)
                 found.append(Row(expr, low, high) if low is not None else Row(expr - high.xreplace(table), 0.0, 0.0))
-        return found + [Row(sympified(x).xreplace(last) - sympified(y).xreplace(first), 0.0, 0.0)
-                        for x, y in self.periodic.items()]
-
+        return found + [
+            Row(sympified(x).xreplace(last) - sympified(y).xreplace(first), 0.0, 0.0) for x, y in self.periodic.items()
+        ]
 
     def penalties(self, along: set[sm.Symbol]) -> list[sm.Expr]:
         """-2 log of the density of each value that has a prior."""
-        return [value.penalty(sympified(quantity).xreplace({s: f(s) for s in along}))
-                for ends, f in ((self.initial, initial), (self.terminal, terminal))
-                for quantity, value in ends.items() if isinstance(value, Prior)]
+        return [
+            value.penalty(sympified(quantity).xreplace({s: f(s) for s in along}))
+            for ends, f in ((self.initial, initial), (self.terminal, terminal))
+            for quantity, value in ends.items()
+            if isinstance(value, Prior)
+        ]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -167,12 +180,17 @@ def row_of(condition, lower: float | None = None, upper: float | None = None) ->
     except (sm.SympifyError, TypeError, AttributeError):
         raise ModelError(f"a condition must be a comparison or an expression, not {condition!r}") from None
     if condition in (sm.true, sm.false):
-        raise ModelError(f"a condition is always {condition}: compare parts of the model, for instance m.x <= 1 "
-                         "(== compares the parts themselves: use sympy.Eq)")
+        raise ModelError(
+            f"a condition is always {condition}: compare parts of the model, for instance m.x <= 1 "
+            "(== compares the parts themselves: use sympy.Eq)"
+        )
     if not isinstance(condition, Relational):
         both = lower is None and upper is None
-        return Row(condition, 0.0 if both else -inf if lower is None else float(lower),
-                   0.0 if both else inf if upper is None else float(upper))
+        return Row(
+            condition,
+            0.0 if both else -inf if lower is None else float(lower),
+            0.0 if both else inf if upper is None else float(upper),
+        )
     if lower is not None or upper is not None:
         raise ModelError(f"the condition {condition} is a comparison already: give no lower and upper besides")
     if isinstance(condition, sm.Ne):

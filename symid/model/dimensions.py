@@ -44,7 +44,7 @@ def dimension_of(expr: sm.Expr, table: Mapping[sm.Symbol, object]):
         return dimension_of(expr.base, table) ** float(expr.exp)
     if isinstance(expr, (sm.sign, ExprCondPair)):
         return none
-    for argument in expr.args:      # every other function, and powers with a variable exponent
+    for argument in expr.args:  # every other function, and powers with a variable exponent
         found = dimension_of(argument, table)
         if found != none:
             raise Mismatch(f"{expr.func.__name__} needs an argument without dimension, but '{argument}' has {found}")
@@ -56,8 +56,9 @@ def _common(parts, table, whole):
     seen = [(p, dimension_of(p, table)) for p in parts if not (p.is_number and (p.is_zero or p.is_infinite))]
     for part, found in seen[1:]:
         if found != seen[0][1]:
-            raise Mismatch(f"'{seen[0][0]}' has the dimension {seen[0][1]}, but '{part}' has {found}: "
-                           "they cannot be added")
+            raise Mismatch(
+                f"'{seen[0][0]}' has the dimension {seen[0][1]}, but '{part}' has {found}: they cannot be added"
+            )
     return seen[0][1] if seen else dimension("1")
 
 

@@ -14,8 +14,21 @@ from symid.errors import ModelError
 from symid.model.attach import completed, hint
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
-    Algebraic, Bounds, Component, Constant, Control, Delay, Equation, Expression, Input, Noise, Output,
-    Parameter, Port, Process, State,
+    Algebraic,
+    Bounds,
+    Component,
+    Constant,
+    Control,
+    Delay,
+    Equation,
+    Expression,
+    Input,
+    Noise,
+    Output,
+    Parameter,
+    Port,
+    Process,
+    State,
 )
 from symid.model.quantity import symbol, sympified
 
@@ -113,8 +126,11 @@ class Model:
     @property
     def informed(self) -> bool:
         """Whether something is known beside the data: a prior, or the size of process noise."""
-        return (any(p.prior is not None for p in self.parameters.values()) or bool(self._of(Process))
-                or any(b.penalties(set()) for b in self.boundaries.values()))
+        return (
+            any(p.prior is not None for p in self.parameters.values())
+            or bool(self._of(Process))
+            or any(b.penalties(set()) for b in self.boundaries.values())
+        )
 
     @property
     def time(self) -> sm.Symbol:
@@ -200,14 +216,19 @@ class Model:
 
     def with_bounds(self, **bounds: Bounds) -> Model:
         """A new model with other bounds on states, controls or parameters [in their own units]."""
-        return self._with({k: replace(self._part(k, (State, Algebraic, Control, Parameter)), bounds=b)
-                          for k, b in bounds.items()})
+        return self._with(
+            {k: replace(self._part(k, (State, Algebraic, Control, Parameter)), bounds=b) for k, b in bounds.items()}
+        )
 
     def fixed(self, **values: float) -> Model:
         """A new model in which these parameters are known constants."""
         parts = {k: (self._part(k, Parameter), v) for k, v in values.items()}
-        return self._with({k: Constant(float(v), unit=c.unit, meaning=c.meaning, role=c.role, at=c.at,
-                                       latex=c.latex, name=k) for k, (c, v) in parts.items()})
+        return self._with(
+            {
+                k: Constant(float(v), unit=c.unit, meaning=c.meaning, role=c.role, at=c.at, latex=c.latex, name=k)
+                for k, (c, v) in parts.items()
+            }
+        )
 
     def free(self, *names: str, **bounds: Bounds) -> Model:
         """A new model in which these constants are parameters to be identified, their values as guesses.
@@ -223,11 +244,21 @@ class Model:
         for name in (*names, *bounds):
             c = self._part(name, Constant)
             if not c.value and name not in bounds:
-                raise ModelError(f"model '{self.name}': the constant '{name}' is zero, which says nothing about its range; "
-                                 f"give bounds [{c.unit}]: free({name}=(lower, upper))")
+                raise ModelError(
+                    f"model '{self.name}': the constant '{name}' is zero, which says nothing about its range; "
+                    f"give bounds [{c.unit}]: free({name}=(lower, upper))"
+                )
             ends = sorted((c.value / FREE_FACTOR, c.value * FREE_FACTOR))
-            parts[name] = Parameter(unit=c.unit, bounds=bounds.get(name, tuple(ends)), guess=c.value, meaning=c.meaning,
-                                    role=c.role, at=c.at, latex=c.latex, name=name)
+            parts[name] = Parameter(
+                unit=c.unit,
+                bounds=bounds.get(name, tuple(ends)),
+                guess=c.value,
+                meaning=c.meaning,
+                role=c.role,
+                at=c.at,
+                latex=c.latex,
+                name=name,
+            )
         return self._with(parts)
 
     def controlled(self, *names: str, **bounds: Bounds) -> Model:
@@ -238,15 +269,24 @@ class Model:
         parts = {}
         for name in (*names, *bounds):
             u = self._part(name, Input)
-            parts[name] = Control(unit=u.unit, bounds=bounds.get(name, (-inf, inf)), hold="zero" if u.hold == "zero" else "linear",
-                                  meaning=u.meaning, role=u.role, at=u.at, latex=u.latex, name=name)
+            parts[name] = Control(
+                unit=u.unit,
+                bounds=bounds.get(name, (-inf, inf)),
+                hold="zero" if u.hold == "zero" else "linear",
+                meaning=u.meaning,
+                role=u.role,
+                at=u.at,
+                latex=u.latex,
+                name=name,
+            )
         return self._with(parts)
 
     def _part(self, name: str, kind) -> Component:
         part = self[name]
         if not isinstance(part, kind):
             raise ModelError(
-                f"model '{self.name}': '{name}' is a {type(part).__name__}, which has no such thing to set")
+                f"model '{self.name}': '{name}' is a {type(part).__name__}, which has no such thing to set"
+            )
         return part
 
     def _with(self, parts: Mapping[str, Component]) -> Model:
@@ -286,8 +326,13 @@ class Model:
     def _new_fingerprint(self) -> str:
         kinds = [(type(c).__name__, c.name) for c in self.components.values()]
         kinds += [(u.name, u.hold) for u in self.inputs.values() if u.hold != "smooth"]
-        text = repr((kinds, [sm.srepr(e) for e in (*self.residual(), *self.observed())],
-                     [(str(k), str(d.of), sm.srepr(d.lag)) for k, d in self.delays.items()]))
+        text = repr(
+            (
+                kinds,
+                [sm.srepr(e) for e in (*self.residual(), *self.observed())],
+                [(str(k), str(d.of), sm.srepr(d.lag)) for k, d in self.delays.items()],
+            )
+        )
         conditions = [c for c in self.components.values() if isinstance(c, (Constraint, Boundary, Objective))]
         text += "".join(map(repr, conditions))
         return hashlib.sha256(text.encode()).hexdigest()[:16]
@@ -298,6 +343,7 @@ class Model:
         `units=False` leaves out the check of physical dimensions, which takes most of the time.
         """
         from symid.model.check import violations
+
         found = tuple(violations(self, units))
         if found:
             lines = "\n".join(f"  - {v}" for v in found)
@@ -305,21 +351,26 @@ class Model:
         return self
 
     def __repr__(self) -> str:
-        counts = [(len(self._of(k)), k.__name__.lower())
-                   for k in (State, Algebraic, Control, Input, Parameter, Constant, Equation, Output)]
+        counts = [
+            (len(self._of(k)), k.__name__.lower())
+            for k in (State, Algebraic, Control, Input, Parameter, Constant, Equation, Output)
+        ]
         return f"<Model '{self.name}': " + ", ".join(f"{n} {k}{'s' * (n != 1)}" for n, k in counts if n) + ">"
 
     def _repr_html_(self) -> str:
         from symid.model.show import html
+
         return html(self)
 
     def _repr_latex_(self) -> str:
         from symid.model.show import latex
+
         return latex(self)
 
 
 def nearest(name: str, names) -> str:
     """A phrase with the known names most like `name`, for error messages."""
     from difflib import get_close_matches
+
     close = get_close_matches(name, list(names), n=3, cutoff=0.5)
     return f"did you mean {', '.join(map(repr, close))}?" if close else f"known: {', '.join(names) or 'none'}"

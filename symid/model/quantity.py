@@ -99,4 +99,5 @@ def sympified(other) -> sm.Expr:
         return sm.sympify(other, strict=True)
     except (sm.SympifyError, AttributeError, TypeError):
         raise ModelError(
-            f"{other!r} cannot stand in an equation; use parts of the model, numbers and SymPy expressions") from None
+            f"{other!r} cannot stand in an equation; use parts of the model, numbers and SymPy expressions"
+        ) from None

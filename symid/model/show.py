@@ -35,8 +35,10 @@ def latex(model: Model) -> str:
 def latex_lines(model: Model) -> list[str]:
     """The same line by line, with an ampersand where they are to be aligned."""
     names = _names(model)
+
     def tex(e):
         return sm.latex(e, symbol_names=names)
+
     lines = [_broken("0", e.expr, tex) for e in model.equations.values()]
     lines += [_broken(names[e.symbol], e.expr, tex) for e in model.expressions.values()]
     return lines + [line for c in model.components.values() for line in _conditions(c, model, tex)]
@@ -46,10 +48,17 @@ def _conditions(part, model: Model, tex) -> list[str]:
     """What a Constraint, Boundary or Objective says."""
     if isinstance(part, Objective):
         return [rf"\text{{minimise}} &\quad \int {tex(part.running)}\,dt + {tex(part.terminal)}"]
-    along = {c.symbol for c in (*model.states.values(), *model.algebraics.values(), *model.controls.values(), *model.inputs.values())}
+    along = {
+        c.symbol
+        for c in (*model.states.values(), *model.algebraics.values(), *model.controls.values(), *model.inputs.values())
+    }
     rows = [part.row] if isinstance(part, Constraint) else part.rows(along) if isinstance(part, Boundary) else []
-    return [rf"{_number(r.lower)} &= {tex(r.expr)}" if r.equality else
-            rf"{_number(r.lower)} &\le {tex(r.expr)} \le {_number(r.upper)}" for r in rows]
+    return [
+        rf"{_number(r.lower)} &= {tex(r.expr)}"
+        if r.equality
+        else rf"{_number(r.lower)} &\le {tex(r.expr)} \le {_number(r.upper)}"
+        for r in rows
+    ]
 
 
 def _number(value: float) -> str:
@@ -71,16 +80,30 @@ def _broken(left: str, expr: sm.Expr, tex) -> str:
 def html(model: Model) -> str:
     """Name, equations and tables of all parts, for a notebook."""
     rows = []
-    for kind, parts in (("state", model.states), ("algebraic", model.algebraics),
-                        ("control", model.controls), ("input", model.inputs), ("parameter", model.parameters),
-                        ("constant", model.constants), ("noise", model.noises), ("output", model.outputs)):
+    for kind, parts in (
+        ("state", model.states),
+        ("algebraic", model.algebraics),
+        ("control", model.controls),
+        ("input", model.inputs),
+        ("parameter", model.parameters),
+        ("constant", model.constants),
+        ("noise", model.noises),
+        ("output", model.outputs),
+    ):
         for c in parts.values():
-            value = f"{c.value:g}" if kind == "constant" else (
-                "[{:g}, {:g}]".format(*c.bounds) if hasattr(c, "bounds") else "")
+            value = (
+                f"{c.value:g}"
+                if kind == "constant"
+                else ("[{:g}, {:g}]".format(*c.bounds) if hasattr(c, "bounds") else "")
+            )
             cells = (kind, f"<code>{escape(c.name)}</code>", value, escape(c.unit), escape(c.meaning))
             rows.append("".join(f'<td style="text-align:left">{cell}</td>' for cell in cells))
-    head = "".join(f'<th style="text-align:left">{h}</th>' for h in ("part", "name", "value or bounds", "unit", "meaning"))
+    head = "".join(
+        f'<th style="text-align:left">{h}</th>' for h in ("part", "name", "value or bounds", "unit", "meaning")
+    )
     table = f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>"
     terms = f"<p>terms added: {escape(', '.join(map(str, model.terms)))}</p>" if model.terms else ""
-    return (f"<h4>{escape(model.name)}</h4><p>{escape(model.description)}</p>{terms}"
-            f'<div style="overflow-x:auto">{escape(latex(model), quote=False)}</div>{table}')
+    return (
+        f"<h4>{escape(model.name)}</h4><p>{escape(model.description)}</p>{terms}"
+        f'<div style="overflow-x:auto">{escape(latex(model), quote=False)}</div>{table}'
+    )

@@ -16,11 +16,14 @@ def unchanged(model: Model, powers: Mapping[str, float], as_factors: bool) -> bo
     ----------
     powers : parameter name -> rate of its change; with `as_factors` the rate of its logarithm.
     """
-    rates = {model.parameters[n].symbol: sm.nsimplify(x, rational=True) * (model.parameters[n].symbol if as_factors else 1)
-             for n, x in powers.items()}
+    rates = {
+        model.parameters[n].symbol: sm.nsimplify(x, rational=True) * (model.parameters[n].symbol if as_factors else 1)
+        for n, x in powers.items()
+    }
 
     def change(expr):
         return sum((rate * expr.diff(p) for p, rate in rates.items()), sm.Integer(0))
+
     if any(sm.simplify(change(y)) != 0 for y in model.observed()):
         return False
     lags = {p for d in model.delays.values() for p in d.lag.free_symbols}

@@ -102,8 +102,17 @@ class Term:
             )
         p = SimpleNamespace()
         for q in self.law.parameters:
-            setattr(model, self.parameter_name(q.key), Parameter(unit=q.unit, bounds=q.bounds,
-                    role="term", at=self.location, meaning=f"{self.law.name} at {self.location}: {q.key}"))
+            setattr(
+                model,
+                self.parameter_name(q.key),
+                Parameter(
+                    unit=q.unit,
+                    bounds=q.bounds,
+                    role="term",
+                    at=self.location,
+                    meaning=f"{self.law.name} at {self.location}: {q.key}",
+                ),
+            )
             setattr(p, q.key, model[self.parameter_name(q.key)].symbol)
         self.law.build(model, self.location, p)
 

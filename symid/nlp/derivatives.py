@@ -86,15 +86,11 @@ def check_derivatives(
     def compare(function: Callable, matrix: sparse.csr_array) -> tuple[float, int, int | None]:
         return _worst_entry(function, matrix, z, step, moved)
 
-    gradient = compare(
-        lambda v: np.array([nlp.objective(v)]), sparse.csr_array(nlp.gradient(z)[None, :])
-    )
+    gradient = compare(lambda v: np.array([nlp.objective(v)]), sparse.csr_array(nlp.gradient(z)[None, :]))
     jacobian = compare(nlp.constraints, nlp.jacobian_matrix(z)) if nlp.m else None
     hessian = None
     if nlp.hessian is not None:
-        hessian = compare(
-            lambda v: nlp.gradient(v) + nlp.jacobian_matrix(v).T @ lam, nlp.hessian_matrix(z, lam)
-        )
+        hessian = compare(lambda v: nlp.gradient(v) + nlp.jacobian_matrix(v).T @ lam, nlp.hessian_matrix(z, lam))
     return DerivativeReport(
         gradient[0], _words(gradient, lambda _: "the objective", nlp.describe_variable),
         jacobian and jacobian[0], _words(jacobian, nlp.describe_constraint, nlp.describe_variable),
@@ -126,13 +122,13 @@ def _worst_entry(function, matrix, z, step, moved) -> tuple[float, int, int | No
     floor = 1e-2 * (size @ step + np.abs(function(z))) + np.finfo(float).tiny
 
     def error(direction: np.ndarray) -> np.ndarray:
-        one, two = (np.array(function(z + k * direction)) - function(z - k * direction)
-                    for k in (RELATIVE_STEP, 2 * RELATIVE_STEP))
+        one, two = (
+            np.array(function(z + k * direction)) - function(z - k * direction)
+            for k in (RELATIVE_STEP, 2 * RELATIVE_STEP)
+        )
         # Fourth order: sharp bends, as of a network's nodes, would show at second order.
         difference = (8 * one - two) / (12 * RELATIVE_STEP)
-        return np.abs(difference - matrix @ direction) / (
-            np.abs(difference) + size @ np.abs(direction) + floor
-        )
+        return np.abs(difference - matrix @ direction) / (np.abs(difference) + size @ np.abs(direction) + floor)
 
     worst = (-1.0, 0, None)
     for column, direction in moved:

@@ -13,8 +13,9 @@ LIMIT = 100.0
 """Largest entry of L."""
 
 
-def with_hurwitz(nlp: NonlinearProgram, columns: np.ndarray, base: np.ndarray, slopes: np.ndarray,
-                 margin: float) -> NonlinearProgram:
+def with_hurwitz(
+    nlp: NonlinearProgram, columns: np.ndarray, base: np.ndarray, slopes: np.ndarray, margin: float
+) -> NonlinearProgram:
     """`nlp` with the condition that every eigenvalue of A(z) has a real part of less than -margin.
 
     A = base + sum_i slopes[i] z[columns[i]] is so if and only if a positive definite P with
@@ -37,7 +38,9 @@ def with_hurwitz(nlp: NonlinearProgram, columns: np.ndarray, base: np.ndarray, s
     own = np.append(columns, first + np.arange(count))
     rows = nlp.m + np.arange(count)
     # Only pairs with an entry of L: A is affine.
-    a, b = (np.concatenate(pair) for pair in zip(np.tril_indices(count), np.divmod(np.arange(count * k), k), strict=True))
+    a, b = (
+        np.concatenate(pair) for pair in zip(np.tril_indices(count), np.divmod(np.arange(count * k), k), strict=True)
+    )
     cross = np.arange(len(a)) >= count * (count + 1) // 2
     b_column = np.where(cross, columns[np.where(cross, b, 0)], first + np.where(cross, 0, b))
 
@@ -46,12 +49,16 @@ def with_hurwitz(nlp: NonlinearProgram, columns: np.ndarray, base: np.ndarray, s
 
     def hessian(y, multipliers, factor):
         z, p, entries = parts(y)
-        triangle, mixed = test.hessian(p, entries, multipliers[nlp.m:])
-        return np.concatenate([nlp.hessian(z, multipliers[:nlp.m], factor), triangle[np.tril_indices(count)], mixed.ravel()])
+        triangle, mixed = test.hessian(p, entries, multipliers[nlp.m :])
+        return np.concatenate(
+            [nlp.hessian(z, multipliers[: nlp.m], factor), triangle[np.tril_indices(count)], mixed.ravel()]
+        )
 
     limit = np.full(count, LIMIT)
     return replace(
-        nlp, lower=np.append(nlp.lower, -limit), upper=np.append(nlp.upper, limit),
+        nlp,
+        lower=np.append(nlp.lower, -limit),
+        upper=np.append(nlp.upper, limit),
         start=np.append(nlp.start, test.entries(nlp.start[columns])),
         constraint_lower=np.append(nlp.constraint_lower, np.zeros(count)),
         constraint_upper=np.append(nlp.constraint_upper, np.zeros(count)),
@@ -62,10 +69,13 @@ def with_hurwitz(nlp: NonlinearProgram, columns: np.ndarray, base: np.ndarray, s
         jacobian_rows=np.append(nlp.jacobian_rows, np.repeat(rows, len(own))),
         jacobian_cols=np.append(nlp.jacobian_cols, np.tile(own, count)),
         hessian=None if nlp.hessian is None else hessian,
-        hessian_rows=np.append(nlp.hessian_rows, first + a), hessian_cols=np.append(nlp.hessian_cols, b_column),
-        variable_scale=_extended(nlp.variable_scale, count), constraint_scale=_extended(nlp.constraint_scale, count),
+        hessian_rows=np.append(nlp.hessian_rows, first + a),
+        hessian_cols=np.append(nlp.hessian_cols, b_column),
+        variable_scale=_extended(nlp.variable_scale, count),
+        constraint_scale=_extended(nlp.constraint_scale, count),
         describe_variable=lambda i: nlp.describe_variable(i) if i < first else "Lyapunov matrix",
-        describe_constraint=lambda i: nlp.describe_constraint(i) if i < nlp.m else "stability")
+        describe_constraint=lambda i: nlp.describe_constraint(i) if i < nlp.m else "stability",
+    )
 
 
 def _extended(scale: np.ndarray | None, count: int) -> np.ndarray | None:

@@ -17,5 +17,10 @@ def with_unit_objective(nlp: NonlinearProgram) -> NonlinearProgram:
     if size == 1:
         return nlp
     hessian = None if nlp.hessian is None else lambda z, multipliers, factor: nlp.hessian(z, multipliers, factor / size)
-    return replace(nlp, objective=lambda z: nlp.objective(z) / size, gradient=lambda z: nlp.gradient(z) / size,
-                   hessian=hessian, objective_scale=1.0)
+    return replace(
+        nlp,
+        objective=lambda z: nlp.objective(z) / size,
+        gradient=lambda z: nlp.gradient(z) / size,
+        hessian=hessian,
+        objective_scale=1.0,
+    )

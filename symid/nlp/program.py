@@ -114,18 +114,12 @@ class NonlinearProgram:
         places = (self.jacobian_rows, self.jacobian_cols)
         return sparse.csr_array((self.jacobian(z), places), shape=(self.m, self.n))
 
-    def hessian_matrix(
-        self, z: Vector, multipliers: Vector, objective_factor: float = 1.0
-    ) -> sparse.csr_array:
+    def hessian_matrix(self, z: Vector, multipliers: Vector, objective_factor: float = 1.0) -> sparse.csr_array:
         """Evaluate the full symmetric Hessian of the Lagrangian at `z`, shape (n, n)."""
         if self.hessian is None:
-            raise TranscriptionError(
-                "The nonlinear program has no Hessian: give `hessian` with its rows and columns."
-            )
+            raise TranscriptionError("The nonlinear program has no Hessian: give `hessian` with its rows and columns.")
         values = self.hessian(z, multipliers, objective_factor)
-        triangle = sparse.csr_array(
-            (values, (self.hessian_rows, self.hessian_cols)), shape=(self.n, self.n)
-        )
+        triangle = sparse.csr_array((values, (self.hessian_rows, self.hessian_cols)), shape=(self.n, self.n))
         return (triangle + sparse.tril(triangle, -1).T).tocsr()
 
     def __repr__(self) -> str:
@@ -137,9 +131,7 @@ class NonlinearProgram:
     def _freeze_vector(self, name: str, size: int) -> None:
         value = np.array(getattr(self, name), dtype=float)
         if value.shape != (size,):
-            raise TranscriptionError(
-                f"NonlinearProgram.{name}: found shape {value.shape}, expected ({size},)."
-            )
+            raise TranscriptionError(f"NonlinearProgram.{name}: found shape {value.shape}, expected ({size},).")
         if np.isnan(value).any():
             raise TranscriptionError(
                 f"NonlinearProgram.{name}: entry {int(np.argmax(np.isnan(value)))} is NaN; "

@@ -9,8 +9,9 @@ import numpy as np
 from symid.nlp.program import NonlinearProgram
 
 
-def with_ridge(nlp: NonlinearProgram, columns: np.ndarray, weight: float,
-               centre: np.ndarray | float = 0.0) -> NonlinearProgram:
+def with_ridge(
+    nlp: NonlinearProgram, columns: np.ndarray, weight: float, centre: np.ndarray | float = 0.0
+) -> NonlinearProgram:
     """`nlp` with weight * sum of (z[columns] - centre)^2 added to its objective (Hoerl & Kennard 1970;
     about a point that is not zero: Rockafellar 1976, the proximal point method).
 
@@ -27,7 +28,7 @@ def with_ridge(nlp: NonlinearProgram, columns: np.ndarray, weight: float,
 
     def hessian(z, multipliers, factor):
         values = np.zeros(len(rows))
-        values[:len(nlp.hessian_rows)] = nlp.hessian(z, multipliers, factor)
+        values[: len(nlp.hessian_rows)] = nlp.hessian(z, multipliers, factor)
         values[places] += 2 * weight * factor
         return values
 
@@ -36,9 +37,14 @@ def with_ridge(nlp: NonlinearProgram, columns: np.ndarray, weight: float,
         slope[columns] += 2 * weight * (z[columns] - centre)
         return slope
 
-    return replace(nlp, objective=lambda z: nlp.objective(z) + weight * float(np.sum((z[columns] - centre) ** 2)),
-                   gradient=gradient, hessian=None if nlp.hessian is None else hessian,
-                   hessian_rows=rows, hessian_cols=cols)
+    return replace(
+        nlp,
+        objective=lambda z: nlp.objective(z) + weight * float(np.sum((z[columns] - centre) ** 2)),
+        gradient=gradient,
+        hessian=None if nlp.hessian is None else hessian,
+        hessian_rows=rows,
+        hessian_cols=cols,
+    )
 
 
 def _with_diagonal(nlp: NonlinearProgram, columns: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

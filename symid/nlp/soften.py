@@ -29,12 +29,20 @@ def soften(nlp: NonlinearProgram, rows: np.ndarray, weight: float) -> NonlinearP
         return np.append(nlp.hessian(y[:n], multipliers, factor), np.full(count, 2 * weight * factor))
 
     return replace(
-        nlp, lower=np.append(nlp.lower, -free), upper=np.append(nlp.upper, free),
+        nlp,
+        lower=np.append(nlp.lower, -free),
+        upper=np.append(nlp.upper, free),
         start=np.append(nlp.start, -nlp.constraints(nlp.start)[rows]),
         objective=lambda y: nlp.objective(y[:n]) + weight * float(y[n:] @ y[n:]),
         gradient=lambda y: np.append(nlp.gradient(y[:n]), 2 * weight * y[n:]),
-        constraints=constraints, jacobian=lambda y: np.append(nlp.jacobian(y[:n]), np.ones(count)),
-        jacobian_rows=np.append(nlp.jacobian_rows, rows), jacobian_cols=np.append(nlp.jacobian_cols, slack),
+        constraints=constraints,
+        jacobian=lambda y: np.append(nlp.jacobian(y[:n]), np.ones(count)),
+        jacobian_rows=np.append(nlp.jacobian_rows, rows),
+        jacobian_cols=np.append(nlp.jacobian_cols, slack),
         hessian=None if nlp.hessian is None else hessian,
-        hessian_rows=np.append(nlp.hessian_rows, slack), hessian_cols=np.append(nlp.hessian_cols, slack),
-        describe_variable=lambda i: nlp.describe_variable(i) if i < n else f"slack of {nlp.describe_constraint(rows[i - n])}")
+        hessian_rows=np.append(nlp.hessian_rows, slack),
+        hessian_cols=np.append(nlp.hessian_cols, slack),
+        describe_variable=lambda i: (
+            nlp.describe_variable(i) if i < n else f"slack of {nlp.describe_constraint(rows[i - n])}"
+        ),
+    )

@@ -24,8 +24,9 @@ class Free:
 
     def __post_init__(self):
         if not 0 < self.lower <= self.upper < float("inf"):
-            raise TranscriptionError(f"Free({self.lower}, {self.upper}): a free duration needs finite bounds above 0 s, "
-                                     "the lower one first")
+            raise TranscriptionError(
+                f"Free({self.lower}, {self.upper}): a free duration needs finite bounds above 0 s, the lower one first"
+            )
         if self.guess is not None and not self.lower <= self.guess <= self.upper:
             raise TranscriptionError(f"Free: the guess {self.guess} s lies outside {self.lower} to {self.upper} s")
 
@@ -44,14 +45,24 @@ def with_duration(model: Model, duration) -> tuple[Model, float, str | None]:
         lower, upper = model[duration.name].bounds
         if not 0 < lower <= upper < float("inf"):
             raise TranscriptionError(
-                f"duration: the parameter '{duration.name}' needs finite bounds above 0 s, not {lower} to {upper}")
+                f"duration: the parameter '{duration.name}' needs finite bounds above 0 s, not {lower} to {upper}"
+            )
         timed = model.copy()
         timed.components[duration.name] = replace(model[duration.name], role="duration")
         return timed, 1.0, duration.name
     if isinstance(duration, Free):
         timed = model.copy()
-        setattr(timed, NAME, Parameter(unit="s", bounds=(duration.lower, duration.upper), guess=duration.guess,
-                                       meaning="duration of the motion", role="duration"))
+        setattr(
+            timed,
+            NAME,
+            Parameter(
+                unit="s",
+                bounds=(duration.lower, duration.upper),
+                guess=duration.guess,
+                meaning="duration of the motion",
+                role="duration",
+            ),
+        )
         return timed, 1.0, NAME
     if isinstance(duration, (int, float)) and isfinite(duration) and duration > 0:
         return model, float(duration), None

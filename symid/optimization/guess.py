@@ -52,7 +52,9 @@ def _along(name: str, value, time: np.ndarray, shares: np.ndarray) -> np.ndarray
     try:
         value = np.asarray(value, dtype=float)
     except (TypeError, ValueError):
-        raise SolveError(f"start: '{name}' is {value!r}; give a number, an array along the motion, or a function of time") from None
+        raise SolveError(
+            f"start: '{name}' is {value!r}; give a number, an array along the motion, or a function of time"
+        ) from None
     if value.ndim > 1 or not np.isfinite(value).all():
         raise SolveError(f"start: '{name}' must be one finite number or a row of them along the motion")
     return np.interp(shares, np.linspace(0, 1, value.size), value) if value.ndim else np.full(len(time), value)

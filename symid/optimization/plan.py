@@ -60,6 +60,7 @@ class Plan:
     def trajectories(self) -> pd.DataFrame:
         """States, controls and algebraic variables at the nodes, SI, by time [s]."""
         import pandas as pd
+
         layout = self.problem.transcription.layout
         time = pd.Index(self.duration * self.problem.shares, name="time_s")
         return pd.DataFrame(layout.nodes(self.result.z, 0), index=time, columns=list(layout.node_names))
@@ -71,6 +72,7 @@ class Plan:
 
         def along(column):
             return lambda t: np.interp(t, time, column)
+
         return {name: along(c) for name, c in zip(layout.node_names, columns, strict=True)} | self.values
 
     def __getitem__(self, name) -> np.ndarray:
@@ -88,8 +90,13 @@ class Plan:
 
     def __repr__(self) -> str:
         r = self.result
-        lines = [f"Plan of '{self.problem.model.name}': objective {r.objective:.6g}, duration {self.duration:.6g} s, "
-                 f"{len(self.problem.shares)} nodes, {self.problem.scheme.name}, {r.iterations} iterations, "
-                 f"{r.seconds['total']:.2f} s", r.message]
-        lines += [f"  {k} = {v:.6g} {self.problem.transcription.model.parameters[k].unit}" for k, v in self.values.items()]
+        lines = [
+            f"Plan of '{self.problem.model.name}': objective {r.objective:.6g}, duration {self.duration:.6g} s, "
+            f"{len(self.problem.shares)} nodes, {self.problem.scheme.name}, {r.iterations} iterations, "
+            f"{r.seconds['total']:.2f} s",
+            r.message,
+        ]
+        lines += [
+            f"  {k} = {v:.6g} {self.problem.transcription.model.parameters[k].unit}" for k, v in self.values.items()
+        ]
         return "\n".join(lines)

@@ -51,11 +51,15 @@ class Optimization:
         if not isinstance(self.model, Model):
             raise TranscriptionError(f"Optimization needs a Model first, not {type(self.model).__name__}")
         if not isinstance(self.scheme, Scheme):
-            raise TranscriptionError(f"scheme={self.scheme!r}: give a scheme, for instance HermiteSimpson() or Midpoint()")
+            raise TranscriptionError(
+                f"scheme={self.scheme!r}: give a scheme, for instance HermiteSimpson() or Midpoint()"
+            )
         object.__setattr__(self, "shares", _shares(self.nodes))
         if self.model.inputs:
-            raise TranscriptionError(f"model '{self.model.name}' has the inputs {', '.join(self.model.inputs)}, which only a "
-                                     "recording gives; write them as expressions of model.time, or declare a Control")
+            raise TranscriptionError(
+                f"model '{self.model.name}' has the inputs {', '.join(self.model.inputs)}, which only a "
+                "recording gives; write them as expressions of model.time, or declare a Control"
+            )
         timed, length, name = with_duration(self.model, self.duration)
         object.__setattr__(self, "_timed", (timed, length, name))
 
@@ -72,9 +76,19 @@ class Optimization:
         before = {str(getattr(k, "symbol", k)): float(v) for k, v in self.history.items()}
         axis, count = length * self.shares, len(self.shares)
         past = np.array([before.get(s, 0.0) for s in model.states])
-        grid = Measured(model.name, axis, {}, None, np.tile(past, (count, 1)), 0, count - 1,
-                        {u: np.full(count, before.get(u, 0.0)) for u in model.controls})
-        made = transcribe(model, [grid], self.scheme, Episodes(), np.ones((1, len(model.outputs))), (), self.backend, duration=name)
+        grid = Measured(
+            model.name,
+            axis,
+            {},
+            None,
+            np.tile(past, (count, 1)),
+            0,
+            count - 1,
+            {u: np.full(count, before.get(u, 0.0)) for u in model.controls},
+        )
+        made = transcribe(
+            model, [grid], self.scheme, Episodes(), np.ones((1, len(model.outputs))), (), self.backend, duration=name
+        )
         made.seconds["build"] = time.perf_counter() - began
         return made
 
@@ -82,8 +96,15 @@ class Optimization:
         """A free vector to start from, see `solve`."""
         return start_vector(self, values)
 
-    def solve(self, start: Mapping | Plan | None = None, *, starts: int = 1, seed: int = 0,
-              on_iteration: Callable[[Iteration], bool | None] | None = None, **solver) -> Plan:
+    def solve(
+        self,
+        start: Mapping | Plan | None = None,
+        *,
+        starts: int = 1,
+        seed: int = 0,
+        on_iteration: Callable[[Iteration], bool | None] | None = None,
+        **solver,
+    ) -> Plan:
         """Solve with Ipopt, and return the best plan found.
 
         Parameters
@@ -115,7 +136,9 @@ class Optimization:
         return min(plans, key=lambda plan: (not plan.solved, plan.objective))
 
     def __repr__(self) -> str:
-        return f"<Optimization of {self.model!r}: duration {self.duration}, {len(self.shares)} nodes, {self.scheme.name}>"
+        return (
+            f"<Optimization of {self.model!r}: duration {self.duration}, {len(self.shares)} nodes, {self.scheme.name}>"
+        )
 
 
 def _shares(nodes) -> np.ndarray:
@@ -125,6 +148,7 @@ def _shares(nodes) -> np.ndarray:
     several = isinstance(nodes, (Sequence, np.ndarray)) and not isinstance(nodes, str)
     shares = np.array(nodes if several else [], dtype=float)
     if shares.ndim != 1 or len(shares) < 3 or shares[0] != 0 or shares[-1] != 1 or not (np.diff(shares) > 0).all():
-        raise TranscriptionError(f"nodes={nodes!r}: give a whole number of at least 3, or shares of the duration that increase "
-                                 "from 0 to 1")
+        raise TranscriptionError(
+            f"nodes={nodes!r}: give a whole number of at least 3, or shares of the duration that increase from 0 to 1"
+        )
     return shares

@@ -7,9 +7,26 @@ Each function returns a figure that shows itself in a notebook and has matplotli
 from symid.plots.diagnosis import plot_before_after, plot_latent, plot_scores, plot_spectra
 from symid.plots.plan import plot_plan
 from symid.plots.solution import (
-    plot_fit, plot_inputs, plot_parameters, plot_residual_spectra, plot_starts, typical_stretch,
+    plot_fit,
+    plot_inputs,
+    plot_parameters,
+    plot_residual_spectra,
+    plot_starts,
+    typical_stretch,
 )
 from symid.plots.style import Picture
 
-__all__ = ["Picture", "plot_before_after", "plot_fit", "plot_inputs", "plot_latent", "plot_parameters", "plot_plan",
-           "plot_residual_spectra", "plot_scores", "plot_spectra", "plot_starts", "typical_stretch"]
+__all__ = [
+    "Picture",
+    "plot_before_after",
+    "plot_fit",
+    "plot_inputs",
+    "plot_latent",
+    "plot_parameters",
+    "plot_plan",
+    "plot_residual_spectra",
+    "plot_scores",
+    "plot_spectra",
+    "plot_starts",
+    "typical_stretch",
+]

@@ -43,10 +43,19 @@ def plot_starts_spread(findings: Sequence) -> Picture:
     opened(axis)
     for i, f in enumerate(findings):
         solved = f.starts[f.starts["solved"]]["rms_deg"]
-        axis.plot([i - 0.12] * len(f.case.rms_deg), f.case.rms_deg, "o", color=RECORDED, ms=5, label="article" if not i else None)
+        axis.plot(
+            [i - 0.12] * len(f.case.rms_deg),
+            f.case.rms_deg,
+            "o",
+            color=RECORDED,
+            ms=5,
+            label="article" if not i else None,
+        )
         axis.plot([i + 0.12] * len(solved), solved, "x", color=MODEL, ms=5, label="symid" if not i else None)
     axis.set_xticks(range(len(findings)), [f.case.name for f in findings], rotation=45, fontsize=8)
     axis.set_yscale("log")
     axis.set_ylabel("RMS [deg]")
-    axis.legend(frameon=False, fontsize=8, ncols=2, loc="lower right", bbox_to_anchor=(1, 1))  # above: starts may end anywhere
+    axis.legend(
+        frameon=False, fontsize=8, ncols=2, loc="lower right", bbox_to_anchor=(1, 1)
+    )  # above: starts may end anywhere
     return picture

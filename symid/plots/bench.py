@@ -23,9 +23,19 @@ def plot_growth(found: Mapping[str, Sequence[Mapping]]) -> Picture:
         size, total = np.array([r[by] for r in runs]), np.array([r["total"] for r in runs])
         nodes = np.array([r["nodes"] for r in runs])
         reference = nodes * np.log(nodes)
-        axis.loglog(size, reference * np.exp(np.mean(np.log(total / reference))), "--", color=RECORDED, lw=1, label="n log n")
+        axis.loglog(
+            size, reference * np.exp(np.mean(np.log(total / reference))), "--", color=RECORDED, lw=1, label="n log n"
+        )
         axis.loglog(size, total, "o-", color=MODEL, ms=5, label="build and solve")
-        axis.loglog(size, [r["solve"] / max(1, r["iterations"]) for r in runs], "s:", color=INK, ms=3.5, lw=1, label="one iteration")
+        axis.loglog(
+            size,
+            [r["solve"] / max(1, r["iterations"]) for r in runs],
+            "s:",
+            color=INK,
+            ms=3.5,
+            lw=1,
+            label="one iteration",
+        )
         slope = np.polyfit(np.log(size), np.log(total), 1)[0]
         axis.set_title(f"time ~ {by}$^{{{slope:.2f}}}$", fontsize=9)
         axis.set_xticks(size, [str(s) for s in size], rotation=45 if by == "nodes" else 0, fontsize=8)
@@ -36,8 +46,12 @@ def plot_growth(found: Mapping[str, Sequence[Mapping]]) -> Picture:
     return picture
 
 
-PANELS = (("stable", "stable controllers [%]"), ("gain_error", "error of the gains [%]"),
-          ("held_out_deg", "held-out RMS [deg]"), ("seconds", "processor time [s]"))
+PANELS = (
+    ("stable", "stable controllers [%]"),
+    ("gain_error", "error of the gains [%]"),
+    ("held_out_deg", "held-out RMS [deg]"),
+    ("seconds", "processor time [s]"),
+)
 
 
 def plot_formulations(rows: pd.DataFrame) -> Picture:

@@ -28,20 +28,32 @@ def plot_before_after(diagnosis: Diagnosis) -> Picture:
     windows = [(k, t) for k, t in WINDOWS if f"baseline_{k}" in diagnosis.runs]
     outputs = list(diagnosis.baseline.model.outputs.values())
     figure = Picture(figsize=(9.5, 2.5 * len(outputs) + 0.6), layout="constrained")
-    grid = figure.subplots(2 * len(outputs), len(windows), sharex="col", squeeze=False,
-                           height_ratios=[2.4, 1] * len(outputs))
+    grid = figure.subplots(
+        2 * len(outputs), len(windows), sharex="col", squeeze=False, height_ratios=[2.4, 1] * len(outputs)
+    )
     for first, column, (key, title) in zip((True, False), grid.T, windows, strict=False):
         before, after = diagnosis.runs[f"baseline_{key}"], diagnosis.runs[f"augmented_{key}"]
         rows = _where_most_changes(before, after)
         for i, output in enumerate(outputs):
-            _panel(column[2 * i], column[2 * i + 1], before, after, rows, i, shown_unit(output.unit), bool(diagnosis.effects))
+            _panel(
+                column[2 * i],
+                column[2 * i + 1],
+                before,
+                after,
+                rows,
+                i,
+                shown_unit(output.unit),
+                bool(diagnosis.effects),
+            )
             if first:
                 unit = shown_unit(output.unit)[0]
                 column[2 * i].set_ylabel(f"{output.channel.replace('_', ' ')}\n[{unit}]", fontsize=9)
                 column[2 * i + 1].set_ylabel(f"error\n[{unit}]", fontsize=8)
         column[0].set_title(title, loc="left", fontsize=10)
         column[-1].set_xlabel("time [s]")
-    figure.legend(*grid[0, 0].get_legend_handles_labels(), loc="outside upper right", ncols=3, frameon=False, fontsize=8.5)
+    figure.legend(
+        *grid[0, 0].get_legend_handles_labels(), loc="outside upper right", ncols=3, frameon=False, fontsize=8.5
+    )
     figure.align_ylabels(grid[:, 0])
     return figure
 
@@ -101,17 +113,32 @@ def plot_scores(diagnosis: Diagnosis) -> Picture:
     chosen = {(e.name, e.location) for e in diagnosis.effects}
     alike = {str(c.suspect.term) for c in diagnosis.equivalent}
     scores = [c.score for c in shown]
-    colors = [MODEL if (c.suspect.term.name, c.suspect.term.location) in chosen else
-              "#8fb3d9" if str(c.suspect.term) in alike else QUIET for c in shown]
+    colors = [
+        MODEL
+        if (c.suspect.term.name, c.suspect.term.location) in chosen
+        else "#8fb3d9"
+        if str(c.suspect.term) in alike
+        else QUIET
+        for c in shown
+    ]
     places = np.arange(len(shown))
     axes.barh(places, np.maximum(scores, 0), color=colors, height=0.7)
     for y, s in zip(places, scores, strict=True):
-        axes.annotate(f"{s:,.0f}".replace("-", "\N{MINUS SIGN}"), (max(s, 0), y), xytext=(4, 0), textcoords="offset points",
-                      va="center", fontsize=8.5, color=INK)
+        axes.annotate(
+            f"{s:,.0f}".replace("-", "\N{MINUS SIGN}"),
+            (max(s, 0), y),
+            xytext=(4, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=8.5,
+            color=INK,
+        )
     axes.set_yticks(places, [law_name(c.suspect.term.name, c.suspect.term.location) for c in shown], fontsize=8.5)
     axes.invert_yaxis()
     axes.set_xlim(0, 1.12 * max([*scores, 1.0]))
-    axes.set_xlabel("score of each suspect alone: growth of twice the log-likelihood less the penalty of its parameters", fontsize=9)
+    axes.set_xlabel(
+        "score of each suspect alone: growth of twice the log-likelihood less the penalty of its parameters", fontsize=9
+    )
     opened(axes)
     return figure
 
@@ -126,7 +153,10 @@ def plot_latent(before: Sequence[Latent], after: Sequence[Latent] = ()) -> Pictu
         top = 1.25 * np.abs(latent.torque[margin:-margin]).max() or 1.0
         prefix, factor = next((p, f) for p, f in (("", 1.0), ("m", 1e3), ("µ", 1e6)) if top * f > 0.5 or p == "µ")
         axes.axhline(0, color=INK, lw=0.5)
-        for one, color, label in [(latent, WARN, "model as given"), *((a, MODEL, "improved") for a in after[i:i + 1])]:
+        for one, color, label in [
+            (latent, WARN, "model as given"),
+            *((a, MODEL, "improved") for a in after[i : i + 1]),
+        ]:
             torque, error = one.torque * factor, one.error * factor
             low, high = torque - 2 * error, torque + 2 * error
             axes.fill_between(one.time, low, high, color=color, alpha=0.18, lw=0)

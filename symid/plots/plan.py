@@ -24,9 +24,9 @@ def plot_plan(plan: Plan) -> Picture:
         ax.set_title(name.replace("_", " "), loc="left", fontsize=10)
         ax.set_ylabel(unit)
         opened(ax)
-    for ax in axes[len(frame.columns):]:
+    for ax in axes[len(frame.columns) :]:
         ax.set_visible(False)
-    for ax in axes[max(0, len(frame.columns) - 2):len(frame.columns)]:
+    for ax in axes[max(0, len(frame.columns) - 2) : len(frame.columns)]:
         ax.set_xlabel("time [s]")
         ax.tick_params(labelbottom=True)
     axes[0].set_xlim(time[0], time[-1])

@@ -22,7 +22,7 @@ def plot_fit(solution: Solution, episode: int = 0, window: tuple[float, float] |
     window : part of the time [s] that is drawn, all by default; the errors in the titles are those of this part.
     """
     frame = solution.trajectories[episode]
-    frame = frame if window is None else frame.loc[window[0]:window[1]]
+    frame = frame if window is None else frame.loc[window[0] : window[1]]
     outputs = solution.model.outputs
     figure = Picture(figsize=(9, 2.6 * len(outputs) + 0.5), layout="constrained")
     axes = figure.subplots(2 * len(outputs), 1, sharex=True, squeeze=False, height_ratios=[2.6, 1] * len(outputs))[:, 0]
@@ -92,7 +92,10 @@ def plot_residual_spectra(solution: Solution, episode: int = 0) -> Picture:
     for (name, output), axes in zip(outputs.items(), panels, strict=True):
         unit, factor = shown_unit(output.unit)
         recorded = frame[f"{name} recorded"].to_numpy() * factor
-        signals = {"recorded": (recorded, RECORDED, 2.0), "residual": (recorded - frame[name].to_numpy() * factor, WARN, 1.0)}
+        signals = {
+            "recorded": (recorded, RECORDED, 2.0),
+            "residual": (recorded - frame[name].to_numpy() * factor, WARN, 1.0),
+        }
         for label, (signal, colour, width) in signals.items():
             frequency, power = welch(np.nan_to_num(signal - np.nanmean(signal)), rate, nperseg=length)
             axes.loglog(frequency[1:], np.maximum(power[1:], 1e-300), color=colour, lw=width, label=label)
@@ -136,15 +139,21 @@ def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
         else:
             if np.isfinite(h):
                 axes.plot(np.clip([v - h, v + h], low, high), [y, y], color=MODEL, lw=2, solid_capstyle="butt")
-                for end, mark in ((v - h, 8), (v + h, 9)):    # matplotlib's caret markers, left and right
+                for end, mark in ((v - h, 8), (v + h, 9)):  # matplotlib's caret markers, left and right
                     if not low <= end <= high:
                         axes.plot(np.clip(end, low, high), y, marker=mark, color=MODEL, ms=6, clip_on=False)
             axes.plot(v, y, "o", color=MODEL, ms=5)
             text = with_error(v, h / 1.96, digits=4) + ("" if np.isfinite(h) else "  (no standard error)")
         if name in truth:
             axes.plot(truth[name], y, "x", color=INK, ms=7, mew=1.6, zorder=5)
-        axes.annotate(text.replace("-", "\N{MINUS SIGN}"), (1.01, y), xycoords=("axes fraction", "data"), va="center", fontsize=8.5,
-                      color=WARN if bound else INK)
+        axes.annotate(
+            text.replace("-", "\N{MINUS SIGN}"),
+            (1.01, y),
+            xycoords=("axes fraction", "data"),
+            va="center",
+            fontsize=8.5,
+            color=WARN if bound else INK,
+        )
     axes.set_yticks(places, table.index, fontsize=8.5)
     axes.set(xlim=(low, high), ylim=(-0.7, len(table) - 0.3))
     legend = "   ( × true value )" if truth else ""
@@ -172,18 +181,32 @@ def plot_starts(solution: Solution) -> Picture:
     left, right = figure.subplots(1, 2, width_ratios=[1, 1.3])
     rank, error = np.arange(1, len(rows) + 1), np.array([r.rms for r in rows]) * factor
     solved = np.array([r.solved for r in rows])
-    for chosen, look, label in ((solved, {"color": MODEL}, "solved"), (~solved, {"mfc": "white", "mec": WARN}, "not solved")):
+    for chosen, look, label in (
+        (solved, {"color": MODEL}, "solved"),
+        (~solved, {"mfc": "white", "mec": WARN}, "not solved"),
+    ):
         if chosen.any():
             left.plot(rank[chosen], error[chosen], "o", ms=6, label=label, ls="", **look)
     left.legend(frameon=False, fontsize=8.5)
-    left.set(xlabel="start, best first", ylabel="RMS error" + (f" [{unit or '1'}]" if together else ", outputs of different units together"), xlim=(0.3, len(rows) + 0.7))
+    left.set(
+        xlabel="start, best first",
+        ylabel="RMS error" + (f" [{unit or '1'}]" if together else ", outputs of different units together"),
+        xlim=(0.3, len(rows) + 0.7),
+    )
     left.xaxis.get_major_locator().set_params(integer=True)
     best = solution.starts[solution.best].parameters
     largest = {k: max(abs(r.parameters[k]) for r in rows) or 1.0 for k in names}
     for row in reversed(rows):
         away = [(row.parameters[k] - best[k]) / largest[k] for k in names]
-        right.plot(away, np.arange(len(names)), "o", ms=5, alpha=0.6, mec="none" if row.solved else WARN,
-                   color=MODEL if row.solved else "white")
+        right.plot(
+            away,
+            np.arange(len(names)),
+            "o",
+            ms=5,
+            alpha=0.6,
+            mec="none" if row.solved else WARN,
+            color=MODEL if row.solved else "white",
+        )
     right.set_yticks(np.arange(len(names)), names, fontsize=8)
     right.invert_yaxis()
     right.set_xlabel("difference from the best start,\nas a share of the largest magnitude", fontsize=9)

@@ -22,9 +22,7 @@ LARGEST = 1e30
 
 
 def read_body(
-    source: str | os.PathLike | Mapping[str, object],
-    required: Mapping[str, str],
-    name: str = "body",
+    source: str | os.PathLike | Mapping[str, object], required: Mapping[str, str], name: str = "body"
 ) -> dict[str, float]:
     """Numbers of a body, in SI, from JSON with ``name_unit`` keys such as ``leg_length_m``.
 

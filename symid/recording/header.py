@@ -90,13 +90,11 @@ def _check_delimiter(path: Path, cells: list[str]):
     for mark, word in ((";", "semicolons"), ("\t", "tabs"), ("|", "bars"), (" ", "spaces")):
         if len(cells) == 1 and mark in cells[0]:
             raise RecordingError(
-                f"{path}: columns are separated by {word}; commas are expected "
-                f"(and a point in decimal numbers)"
+                f"{path}: columns are separated by {word}; commas are expected (and a point in decimal numbers)"
             )
     if all(_is_number(cell) for cell in cells):
         raise RecordingError(
-            f"{path}: the first line holds numbers; a header such as "
-            f"time_s,ankle_angle_deg is expected"
+            f"{path}: the first line holds numbers; a header such as time_s,ankle_angle_deg is expected"
         )
 
 
@@ -158,8 +156,6 @@ def contradictions(columns: list[Column]) -> list[str]:
     problems = []
     for column in columns:
         if column.name in seen:
-            problems.append(
-                f"columns '{seen[column.name]}' and '{column.text}' both give {column.name}"
-            )
+            problems.append(f"columns '{seen[column.name]}' and '{column.text}' both give {column.name}")
         seen[column.name] = column.text
     return problems

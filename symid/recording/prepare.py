@@ -86,16 +86,11 @@ def resample(recording: Recording, rate_hz: float) -> Recording:
     if recording.sampling_interval is None:
         note += ", after putting uneven times onto an even grid"
     if max(rates) > rate_hz * (1 + 1e-9):
-        note += (
-            f", after a zero-phase Butterworth low-pass at {_PASSBAND * rate_hz / 2:g} Hz "
-            f"against aliasing"
-        )
+        note += f", after a zero-phase Butterworth low-pass at {_PASSBAND * rate_hz / 2:g} Hz against aliasing"
     return _by_segment(recording, change).noted(note)
 
 
-def lowpass(
-    recording: Recording, cutoff_hz: float, *channels: str, order: int = 2
-) -> Recording:
+def lowpass(recording: Recording, cutoff_hz: float, *channels: str, order: int = 2) -> Recording:
     """Low-pass some channels (all, if none is named) by a Butterworth filter without phase shift.
 
     The filter runs forward and backward, so the attenuation at the cut-off is 6 dB and nothing
@@ -127,8 +122,7 @@ def lowpass(
     def smooth(values: FloatArray) -> FloatArray:
         if values.size <= shortest:
             raise RecordingError(
-                f"{recording.name}: {values.size} samples are too few to filter; more than "
-                f"{shortest} are needed"
+                f"{recording.name}: {values.size} samples are too few to filter; more than {shortest} are needed"
             )
         return sosfiltfilt(sections, values)
 
@@ -157,8 +151,7 @@ def differentiate(recording: Recording, channel: str, name: str | None = None) -
     for run in recording.runs:
         if run.stop - run.start < 7:
             raise RecordingError(
-                f"{recording.name}: {run.stop - run.start} samples are too few to differentiate; "
-                f"seven are needed"
+                f"{recording.name}: {run.stop - run.start} samples are too few to differentiate; seven are needed"
             )
         values[run] = savgol_filter(recording[channel][run], 7, 3, deriv=1, delta=step)
     name = name or rate_name(channel)
@@ -190,9 +183,7 @@ def _by_segment(recording: Recording, verb: Callable[[Recording], Recording]) ->
     return replace(
         recording,
         time=np.concatenate([part.time for part in parts]),
-        channels={
-            name: np.concatenate([part[name] for part in parts]) for name in recording.channels
-        },
+        channels={name: np.concatenate([part[name] for part in parts]) for name in recording.channels},
         noise=parts[0].noise,
         segment=_joined(part.segment for part in parts),
         split=_joined(part.split for part in parts),
@@ -216,13 +207,7 @@ def _mapped(recording: Recording, names, verb, note: str) -> Recording:
 def _resampled(part: Recording, time: FloatArray, channels: dict) -> Recording:
     """One segment at other times; its labels are the same in all rows."""
     label = lambda old: None if old is None else np.repeat(old[:1], time.size)  # noqa: E731
-    return replace(
-        part,
-        time=time,
-        channels=channels,
-        segment=label(part.segment),
-        split=label(part.split),
-    )
+    return replace(part, time=time, channels=channels, segment=label(part.segment), split=label(part.split))
 
 
 def _grid(time: FloatArray, step: float, name: str) -> FloatArray:
@@ -232,8 +217,7 @@ def _grid(time: FloatArray, step: float, name: str) -> FloatArray:
     places = np.searchsorted(grid, time - step / 2)
     if np.any(np.diff(places) == 0) or np.abs(grid[places] - time).max() > 0.1 * step:
         raise RecordingError(
-            f"{name}: the times do not lie on an even grid of {step:g} s, even with gaps; "
-            f"use resample()"
+            f"{name}: the times do not lie on an even grid of {step:g} s, even with gaps; use resample()"
         )
     return grid
 
@@ -271,9 +255,7 @@ def _evened(part: Recording, step: float) -> Recording:
     """Unevenly timed samples interpolated onto an even grid of about this step [s]."""
     widest = int(np.argmax(np.diff(part.time)))
     if np.diff(part.time)[widest] > 1.5 * step:
-        raise RecordingError(
-            f"{part.name}: samples are missing after {part.time[widest]:g} s; use fill_gaps() first"
-        )
+        raise RecordingError(f"{part.name}: samples are missing after {part.time[widest]:g} s; use fill_gaps() first")
     count = round(_few_enough(part.name, float(part.time[-1] - part.time[0]) / step))
     time = np.linspace(part.time[0], part.time[-1], count + 1)
     values = {name: _spline(part.time, part[name], time) for name in part.channels}

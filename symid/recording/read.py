@@ -35,10 +35,7 @@ _MISSING = {"", "nan", "na", "n/a", "null", "none"}
 
 
 def read_recording(
-    path: str | os.PathLike,
-    *,
-    allow_gaps: bool = False,
-    columns: Mapping[str, str] | str | os.PathLike | None = None,
+    path: str | os.PathLike, *, allow_gaps: bool = False, columns: Mapping[str, str] | str | os.PathLike | None = None
 ) -> Recording:
     """Read a recording into SI, from a file whose ending says what it is.
 
@@ -148,15 +145,13 @@ def _check_first_row(path: Path, columns: list[Column]):
     line, cells = next(islice(file_rows(path), 1, None))
     for column, cell in zip(columns, cells, strict=False):
         if cell.strip().lower() in ("true", "false"):
-            raise RecordingError(
-                f"{path}: column '{column.text}', row 1 (line {line}): {_shown(cell)} is not a number"
-            )
+            raise RecordingError(f"{path}: column '{column.text}', row 1 (line {line}): {_shown(cell)} is not a number")
 
 
 def _check_lengths(path: Path, columns: list[Column]):
     """Refuse a row with a cell too few or too many: pandas would fill it up at its end, and so shift its values."""
     for row, (line, cells) in enumerate(file_rows(path)):
-        cells = cells[:-1] if len(cells) == len(columns) + 1 and not cells[-1].strip() else cells    # a comma at its end
+        cells = cells[:-1] if len(cells) == len(columns) + 1 and not cells[-1].strip() else cells  # a comma at its end
         if row and len(cells) != len(columns):
             raise _wrong_length(path, row, line, len(cells), len(columns))
 
@@ -253,9 +248,7 @@ def _assemble(path: Path, columns: list[Column], table: dict, allow_gaps: bool) 
     )
 
 
-def _checked_time(
-    path: Path, text: str, table: dict, allow_gaps: bool
-) -> tuple[FloatArray, str | None]:
+def _checked_time(path: Path, text: str, table: dict, allow_gaps: bool) -> tuple[FloatArray, str | None]:
     """Times of all rows [s], moved onto an even grid where they are nearly so, and a note."""
     time = table["time"].copy()
     largest = 0.0
@@ -266,10 +259,7 @@ def _checked_time(
             largest = max(largest, change)
         elif not (allow_gaps and fault.kind in ("gap", "uneven")):
             row = run.start + fault.sample + 1
-            raise RecordingError(
-                f"{path}: column '{text}', {_place(path, row)}: "
-                f"{fault.text}; {_CURES[fault.kind]}"
-            )
+            raise RecordingError(f"{path}: column '{text}', {_place(path, row)}: {fault.text}; {_CURES[fault.kind]}")
     if largest == 0.0:
         return time, None
     return time, f"times moved onto an even grid, by at most {largest:.2g} s"

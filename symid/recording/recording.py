@@ -72,9 +72,7 @@ class Recording:
         columns = {**self.channels, "segment": self.segment, "split": self.split}
         for name, column in columns.items():
             if column is not None and column.shape != (count,):
-                raise RecordingError(
-                    f"{self.name}: '{name}' has shape {column.shape}, time has ({count},)"
-                )
+                raise RecordingError(f"{self.name}: '{name}' has shape {column.shape}, time has ({count},)")
         for name in self.channels:
             if name not in self.units:
                 raise RecordingError(f"{self.name}: channel '{name}' has no unit")
@@ -179,9 +177,7 @@ class Recording:
         """One recording for each segment, in order; only those with this split label, if given."""
         if split is not None and (self.split is None or split not in self.split):
             labels = [] if self.split is None else sorted(set(self.split.tolist()))
-            raise RecordingError(
-                f"{self.name}: no segment is labelled '{split}'; labels: {labels or 'none'}"
-            )
+            raise RecordingError(f"{self.name}: no segment is labelled '{split}'; labels: {labels or 'none'}")
         chosen = [r for r in self.runs if split is None or self.split[r.start] == split]
         return [self._segment(run) for run in chosen]
 
@@ -277,9 +273,7 @@ class Recording:
     def even_step(self, verb: str) -> float:
         """Sampling interval [s], or a RecordingError that says which verb needs an even one."""
         if self.sampling_interval is None:
-            raise RecordingError(
-                f"{self.name}: {verb} needs evenly spaced samples; use fill_gaps() or resample()"
-            )
+            raise RecordingError(f"{self.name}: {verb} needs evenly spaced samples; use fill_gaps() or resample()")
         return self.sampling_interval
 
     def _unknown(self, name: str) -> str:

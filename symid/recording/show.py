@@ -19,12 +19,9 @@ def as_text(recording: "Recording") -> str:
 def as_html(recording: "Recording") -> str:
     """The same as a table, with the history to unfold."""
     body = "".join(
-        "<tr>" + "".join(_cell("td", text, i) for i, text in enumerate(row)) + "</tr>"
-        for row in _rows(recording)
+        "<tr>" + "".join(_cell("td", text, i) for i, text in enumerate(row)) + "</tr>" for row in _rows(recording)
     )
-    head = "".join(
-        _cell("th", text, i) for i, text in enumerate(("channel", "unit", "lowest", "highest"))
-    )
+    head = "".join(_cell("th", text, i) for i, text in enumerate(("channel", "unit", "lowest", "highest")))
     steps = "".join(f"<li>{html.escape(step)}</li>" for step in recording.history)
     return (
         f"<b>Recording {html.escape(recording.name)}</b>: {html.escape(_extent(recording))}"

@@ -14,9 +14,7 @@ from symid.recording.recording import Recording
 from symid.units import FloatArray
 
 
-def smooth_states(
-    recording: Recording, *channels: str, noise: float | None = None
-) -> Recording:
+def smooth_states(recording: Recording, *channels: str, noise: float | None = None) -> Recording:
     """Each channel smoothed, with its velocity and acceleration added.
 
     A cubic smoothing spline over each segment. How much it smooths follows from the noise: from

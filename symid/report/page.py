@@ -12,8 +12,9 @@ from markupsafe import Markup, escape
 if TYPE_CHECKING:
     from symid.plots import Picture
 
-_TEMPLATES = Environment(loader=PackageLoader("symid.report"), autoescape=True, trim_blocks=True,
-                         keep_trailing_newline=True)
+_TEMPLATES = Environment(
+    loader=PackageLoader("symid.report"), autoescape=True, trim_blocks=True, keep_trailing_newline=True
+)
 _PARTS = _TEMPLATES.get_template("parts.html").module
 NARROW = 4.3
 """Width [inch] at which figures are drawn for a screen of a hand's width: their letters keep their size."""
@@ -44,7 +45,9 @@ def figure(picture: Picture, caption: str) -> Markup:
     return Markup(_PARTS.figure(wide, narrow, caption))
 
 
-def table(head: Iterable[str], rows: Iterable[Iterable], marked: Iterable[bool] | None = None, wide: Sequence[str] = ()) -> Markup:
+def table(
+    head: Iterable[str], rows: Iterable[Iterable], marked: Iterable[bool] | None = None, wide: Sequence[str] = ()
+) -> Markup:
     """Numbers to the right with five digits, text to the left; marked rows are red.
 
     Parameters
@@ -54,8 +57,14 @@ def table(head: Iterable[str], rows: Iterable[Iterable], marked: Iterable[bool] 
     """
     names, rows = list(head), [list(row) for row in rows]
     marked = list(marked) if marked is not None else [False] * len(rows)
-    columns = [{"head": name, "look": " ".join(["n"] * _numeric(rows, i) + ["wide"] * (name in wide))} for i, name in enumerate(names)]
-    lines = [{"marked": mark, "cells": list(zip(columns, map(_cell, row), strict=True))} for row, mark in zip(rows, marked, strict=True)]
+    columns = [
+        {"head": name, "look": " ".join(["n"] * _numeric(rows, i) + ["wide"] * (name in wide))}
+        for i, name in enumerate(names)
+    ]
+    lines = [
+        {"marked": mark, "cells": list(zip(columns, map(_cell, row), strict=True))}
+        for row, mark in zip(rows, marked, strict=True)
+    ]
     return Markup(_PARTS.table(columns, lines))
 
 
@@ -93,5 +102,11 @@ def _numeric(rows: list[list], i: int) -> bool:
 
 def _cell(x) -> dict[str, object]:
     text, below = x if isinstance(x, tuple) else (x, "")
-    return {"text": number(text) if isinstance(text, (bool, int, float)) else text if isinstance(text, Markup) else escape(str(text)),
-            "below": below}
+    return {
+        "text": number(text)
+        if isinstance(text, (bool, int, float))
+        else text
+        if isinstance(text, Markup)
+        else escape(str(text)),
+        "below": below,
+    }

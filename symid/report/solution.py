@@ -21,14 +21,17 @@ SHOWN_EPISODES = 3
 """Episodes that get figures of their own: more of them look alike."""
 TOGETHER = 0.9
 """Correlation from which two estimates are said to move together: the smaller axis of their ellipse is then a quarter of the larger."""
-CITATION = ("H. Wang and A. J. van den Bogert (2020). Identification of the human postural control system through stochastic trajectory "
-            "optimization. Journal of Neuroscience Methods 334, 108580. doi:10.1016/j.jneumeth.2020.108580 (the method)",
-            "A. Wächter and L. T. Biegler (2006). On the implementation of an interior-point filter line-search algorithm for "
-            "large-scale nonlinear programming. Mathematical Programming 106, 25-57. doi:10.1007/s10107-004-0559-y (Ipopt, the solver)")
+CITATION = (
+    "H. Wang and A. J. van den Bogert (2020). Identification of the human postural control system through stochastic trajectory "
+    "optimization. Journal of Neuroscience Methods 334, 108580. doi:10.1016/j.jneumeth.2020.108580 (the method)",
+    "A. Wächter and L. T. Biegler (2006). On the implementation of an interior-point filter line-search algorithm for "
+    "large-scale nonlinear programming. Mathematical Programming 106, 25-57. doi:10.1007/s10107-004-0559-y (Ipopt, the solver)",
+)
 
 
-def write_report(solution: Solution, path: str | Path, held_out: Solution | None = None,
-                 truth: dict[str, float] | None = None) -> Path:
+def write_report(
+    solution: Solution, path: str | Path, held_out: Solution | None = None, truth: dict[str, float] | None = None
+) -> Path:
     """Write a report on a solution as one HTML file with its figures inside, whole or not at all.
 
     Parameters
@@ -43,8 +46,13 @@ def report_html(solution: Solution, held_out: Solution | None = None, truth: dic
     """The same as text."""
     parts = [paragraph(headline(solution), "lead"), paragraph(solution.message, "note" if solution.solved else "bad")]
     parts += [paragraph(warning + ".", "bad") for warning in solution.warnings]
-    parts += [heading("Parameters"), _parameters(solution, truth), _errors_note(solution), *_together(solution),
-              figure(plot_parameters(solution, truth), "Parameters with 95 % intervals, by unit.")]
+    parts += [
+        heading("Parameters"),
+        _parameters(solution, truth),
+        _errors_note(solution),
+        *_together(solution),
+        figure(plot_parameters(solution, truth), "Parameters with 95 % intervals, by unit."),
+    ]
     parts += [heading("Fit"), _fit(solution, held_out), *_fit_figures(solution), *_held_out_figures(held_out)]
     parts += [figure(plot_residual_spectra(solution), "At which frequencies the residual is, beside the recording.")]
     if solution.model.inputs:
@@ -53,9 +61,19 @@ def report_html(solution: Solution, held_out: Solution | None = None, truth: dic
     parts += [heading("Starts"), _starts(solution)]
     if len(solution.starts) > 1:
         parts.append(figure(plot_starts(solution), "Where each start ended."))
-    parts += [heading("Solver"), _solver(solution), heading("Provenance"), _provenance(solution),
-              heading("Please cite"), *map(paragraph, CITATION)]
-    return page(solution.model.name, *parts, footer=f"Written by symid {solution.provenance['symid']} on {solution.created[:10]}.")
+    parts += [
+        heading("Solver"),
+        _solver(solution),
+        heading("Provenance"),
+        _provenance(solution),
+        heading("Please cite"),
+        *map(paragraph, CITATION),
+    ]
+    return page(
+        solution.model.name,
+        *parts,
+        footer=f"Written by symid {solution.provenance['symid']} on {solution.created[:10]}.",
+    )
 
 
 def _fit_figures(solution: Solution) -> list[str]:
@@ -63,10 +81,14 @@ def _fit_figures(solution: Solution) -> list[str]:
     found = []
     for episode in range(min(len(solution.trajectories), SHOWN_EPISODES)):
         name = solution.trajectories[episode].attrs["recording"]
-        found.append(figure(plot_fit(solution, episode), f"{name}, episode {episode + 1}: recorded, model and residual."))
+        found.append(
+            figure(plot_fit(solution, episode), f"{name}, episode {episode + 1}: recorded, model and residual.")
+        )
     stretch = typical_stretch(solution)
     if stretch is not None:
-        found.append(figure(plot_fit(solution, 0, stretch), "A stretch of it whose error is as large as that of the whole."))
+        found.append(
+            figure(plot_fit(solution, 0, stretch), "A stretch of it whose error is as large as that of the whole.")
+        )
     return found
 
 
@@ -84,17 +106,35 @@ def _together(solution: Solution) -> list[str]:
     names, error = list(solution.values), np.sqrt(np.diag(covariance))
     with np.errstate(invalid="ignore", divide="ignore"):
         correlation = covariance / np.outer(error, error)
-    pairs = [(abs(correlation[i, j]), i, j) for i, j in combinations(range(len(names)), 2) if abs(correlation[i, j]) > TOGETHER]
+    pairs = [
+        (abs(correlation[i, j]), i, j)
+        for i, j in combinations(range(len(names)), 2)
+        if abs(correlation[i, j]) > TOGETHER
+    ]
     told = [f"{names[i]} and {names[j]} ({correlation[i, j]:+.2f})" for _, i, j in sorted(pairs, reverse=True)]
-    return [paragraph(f"Estimates that move together (correlation beyond {TOGETHER:g}): {', '.join(told)}. The data determine a "
-                      "combination of them better than each.", "note")] if told else []
+    return (
+        [
+            paragraph(
+                f"Estimates that move together (correlation beyond {TOGETHER:g}): {', '.join(told)}. The data determine a "
+                "combination of them better than each.",
+                "note",
+            )
+        ]
+        if told
+        else []
+    )
 
 
 def _parameters(solution: Solution, truth: dict[str, float] | None) -> str:
     rows = []
     for name, p in solution.parameters.iterrows():
         bounds = f"{number(float(p.lower))} to {number(float(p.upper))}" + (", at its bound" if p.at_bound else "")
-        row = [(name, p.meaning), with_error(p.value, p.std_error, digits=5).replace("-", "−"), unit_symbol(p.unit), bounds]
+        row = [
+            (name, p.meaning),
+            with_error(p.value, p.std_error, digits=5).replace("-", "−"),
+            unit_symbol(p.unit),
+            bounds,
+        ]
         rows.append(row[:2] + [number(float(truth[name]))] + row[2:] if truth else row)
     head = ["parameter", "value ± standard error", *(["true value"] if truth else []), "unit", "bounds"]
     return table(head, rows, solution.parameters["at_bound"], wide=["bounds"])
@@ -102,9 +142,13 @@ def _parameters(solution: Solution, truth: dict[str, float] | None) -> str:
 
 def _errors_note(solution: Solution) -> str:
     if not solution.solved:
-        return paragraph("Not solved, so there are no standard errors, and the values are where the solver stopped.", "bad")
-    return paragraph(" ".join(f"{note}." for note in (*error_notes(solution), "A parameter at a bound has no standard error")),
-                     "note")
+        return paragraph(
+            "Not solved, so there are no standard errors, and the values are where the solver stopped.", "bad"
+        )
+    return paragraph(
+        " ".join(f"{note}." for note in (*error_notes(solution), "A parameter at a bound has no standard error")),
+        "note",
+    )
 
 
 def _fit(solution: Solution, held_out: Solution | None) -> str:
@@ -125,10 +169,24 @@ def _fit(solution: Solution, held_out: Solution | None) -> str:
 
 def _starts(solution: Solution) -> str:
     unit = common_unit(y.unit for y in solution.model.outputs.values())
-    rows = [[r.number + 1, r.kind, _in_words(r.status, r.solved), rms_text(r.rms, unit), r.iterations, round(r.seconds, 2),
-             "best" if i == solution.best else ""] for i, r in enumerate(solution.starts)]
-    return table(["start", "kind", "status", "RMS error", "iterations", "seconds", ""], rows,
-                 [not r.solved for r in solution.starts], wide=["kind", "seconds"])
+    rows = [
+        [
+            r.number + 1,
+            r.kind,
+            _in_words(r.status, r.solved),
+            rms_text(r.rms, unit),
+            r.iterations,
+            round(r.seconds, 2),
+            "best" if i == solution.best else "",
+        ]
+        for i, r in enumerate(solution.starts)
+    ]
+    return table(
+        ["start", "kind", "status", "RMS error", "iterations", "seconds", ""],
+        rows,
+        [not r.solved for r in solution.starts],
+        wide=["kind", "seconds"],
+    )
 
 
 def _in_words(status: str, solved: bool) -> str:
@@ -138,13 +196,21 @@ def _in_words(status: str, solved: bool) -> str:
 
 def _solver(solution: Solution) -> str:
     linear = solution.result.linear_solver
-    details = {"factorisations": linear.factorisations, "numbers in the largest factor": linear.fill,
-               "delayed pivots": linear.delayed}
-    return facts({"status": _in_words(solution.result.status_name, solution.solved),
-                  "iterations": solution.result.iterations,
-                  "interface to Ipopt": solution.result.interface, "linear solver": f"{linear.name}: {linear.reason}",
-                  **{k: v for k, v in details.items() if v is not None},
-                  **{f"{k.replace('_', ' ')} [s]": round(v, 3) for k, v in solution.seconds.items()}})
+    details = {
+        "factorisations": linear.factorisations,
+        "numbers in the largest factor": linear.fill,
+        "delayed pivots": linear.delayed,
+    }
+    return facts(
+        {
+            "status": _in_words(solution.result.status_name, solution.solved),
+            "iterations": solution.result.iterations,
+            "interface to Ipopt": solution.result.interface,
+            "linear solver": f"{linear.name}: {linear.reason}",
+            **{k: v for k, v in details.items() if v is not None},
+            **{f"{k.replace('_', ' ')} [s]": round(v, 3) for k, v in solution.seconds.items()},
+        }
+    )
 
 
 def _provenance(solution: Solution) -> str:
@@ -153,12 +219,17 @@ def _provenance(solution: Solution) -> str:
     constants = p.pop("constants")
     plain = {k.replace("_", " "): " ".join(map(str, v)) if isinstance(v, list) else v for k, v in p.items()}
     plain["episodes"] = problem_facts(solution.problem)["episodes"]
-    plain["weights"] = ", ".join(f"{k} {v:g}" for k, v in (p["weights"] or {}).items()) or "by the noise, or 1 for every output"
-    plain["noise"] = "; ".join(", ".join(f"{k} {v:.3g}" for k, v in table.items()) for table in p["noise"] or []) or "not estimated"
+    plain["weights"] = (
+        ", ".join(f"{k} {v:g}" for k, v in (p["weights"] or {}).items()) or "by the noise, or 1 for every output"
+    )
+    plain["noise"] = (
+        "; ".join(", ".join(f"{k} {v:.3g}" for k, v in table.items()) for table in p["noise"] or []) or "not estimated"
+    )
     plain["terms"] = plain["terms"] or "none added"
     for r in recordings:
-        plain[f"recording {r['name']}"] = (f"{r['window_s'][0]:g} to {r['window_s'][1]:g} s, {r['nodes']} nodes; "
-                                           + "; ".join(r["history"]))
+        plain[f"recording {r['name']}"] = (
+            f"{r['window_s'][0]:g} to {r['window_s'][1]:g} s, {r['nodes']} nodes; " + "; ".join(r["history"])
+        )
     units = {k: unit_symbol(c.unit) for k, c in solution.model.constants.items()}
     plain["constants"] = ", ".join(f"{k} = {v:g} {units[k]}".strip() for k, v in constants.items())
     return facts(plain)

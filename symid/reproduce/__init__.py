@@ -5,5 +5,14 @@ from symid.reproduce.beyond import late_feedback, late_feedback_text
 from symid.reproduce.run import Reproduction, reproduce
 from symid.reproduce.tables import comparison, notes, text
 
-__all__ = ["CASES", "Case", "Reproduction", "comparison", "late_feedback", "late_feedback_text", "notes",
-           "reproduce", "text"]
+__all__ = [
+    "CASES",
+    "Case",
+    "Reproduction",
+    "comparison",
+    "late_feedback",
+    "late_feedback_text",
+    "notes",
+    "reproduce",
+    "text",
+]

@@ -44,9 +44,17 @@ class Case:
 @lru_cache
 def _cases() -> tuple[Case, ...]:
     facts = json.loads(Path(__file__).with_name("article.json").read_text())
-    return tuple(Case(r["controller"], r["episodes"], tuple(r["rms_deg"]), r["eigenvalue_stable_percent"],
-                      r["forward_stable_percent"], {k: tuple(v) for k, v in r.get("gains", {}).items()})
-                 for r in facts["results"])
+    return tuple(
+        Case(
+            r["controller"],
+            r["episodes"],
+            tuple(r["rms_deg"]),
+            r["eigenvalue_stable_percent"],
+            r["forward_stable_percent"],
+            {k: tuple(v) for k, v in r.get("gains", {}).items()},
+        )
+        for r in facts["results"]
+    )
 
 
 CASES = {case.name: case for case in _cases()}

@@ -23,8 +23,16 @@ def late_feedback(body: DoubleLinkPendulum, recording: Recording) -> pd.DataFram
     for name, law in (("FPD", FullStatePD()), ("FPD with delay", FullStatePD(delay=(0.0, LONGEST)))):
         solution = Identification(body.with_feedback(law), recording, WINDOW["FPD"]).solve()
         delay = 1e3 * solution.parameters[["value", "std_error"]].reindex(["feedback_delay"]).iloc[0]
-        rows.append((name, solution.solved, delay["value"], delay["std_error"], solution.fit["rms_deg"]["all"],
-                     solution.fit_on(HELD_OUT)["rms_deg"]["all"]))
+        rows.append(
+            (
+                name,
+                solution.solved,
+                delay["value"],
+                delay["std_error"],
+                solution.fit["rms_deg"]["all"],
+                solution.fit_on(HELD_OUT)["rms_deg"]["all"],
+            )
+        )
     columns = ["law", "solved", "delay_ms", "std_error_ms", "rms_deg", "held_out_rms_deg"]
     return pd.DataFrame(rows, columns=columns)
 

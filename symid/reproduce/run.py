@@ -25,8 +25,9 @@ NETWORK_RIDGE = 4e-4
 """Weight of the network's squared weights: w/20 have a standard deviation of a few tenths, and Ipopt a Hessian."""
 START_RIDGE = 0.1
 """Weight of their squared distance from the start where there is process noise: keeps them near a loop that survives."""
-SOLVER = {kind: {"max_iterations": 200, "dual_limit": 1e6, "time_limit_s": 3600.0} for kind in ("search", "relaxed", "stable")} | {
-    "random": {"max_iterations": 500}}
+SOLVER = {
+    kind: {"max_iterations": 200, "dual_limit": 1e6, "time_limit_s": 3600.0} for kind in ("search", "relaxed", "stable")
+} | {"random": {"max_iterations": 500}}
 DRAWS = 1000
 """Draws of process noise that belong to one seed: start k has number seed * DRAWS + k."""
 
@@ -51,8 +52,9 @@ class Reproduction:
     distribution: str
 
 
-def problem(case: Case, body: mechanics.DoubleLinkPendulum, recording: Recording, draw: int = 0,
-            distribution: str = "multisine") -> Identification:
+def problem(
+    case: Case, body: mechanics.DoubleLinkPendulum, recording: Recording, draw: int = 0, distribution: str = "multisine"
+) -> Identification:
     """The identification of one case, with process noise number `draw` of a distribution of `Episodes`."""
     model: Model = body.with_feedback(LAWS[case.controller]())
     episodes = Episodes(case.episodes, torque=TORQUE_NOISE, seed=draw, distribution=distribution)
@@ -62,9 +64,19 @@ def problem(case: Case, body: mechanics.DoubleLinkPendulum, recording: Recording
     return Identification(model, recording, WINDOW[case.controller], episodes=episodes, **ridge)
 
 
-def reproduce(cases: Sequence[Case], body: mechanics.DoubleLinkPendulum, recording: Recording, *, starts: int = 10,
-              seeds: Sequence[int] = (0,), distribution: str = "multisine", executor: Executor | None = None, jobs: int = 1,
-              store: str | Path | None = None, on_finished: Callable[[Finished], None] | None = None) -> Reproduction:
+def reproduce(
+    cases: Sequence[Case],
+    body: mechanics.DoubleLinkPendulum,
+    recording: Recording,
+    *,
+    starts: int = 10,
+    seeds: Sequence[int] = (0,),
+    distribution: str = "multisine",
+    executor: Executor | None = None,
+    jobs: int = 1,
+    store: str | Path | None = None,
+    on_finished: Callable[[Finished], None] | None = None,
+) -> Reproduction:
     """Identify every case from several starts, and test the best solution of each for stability.
 
     PD and full-state PD without noise begin with random gains, as in the article; all others with

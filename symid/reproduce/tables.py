@@ -9,7 +9,7 @@ from symid.reproduce.run import NETWORK_RIDGE, START_RIDGE, Finding, Reproductio
 
 NOISE = {
     "multisine": "orthogonal random-phase multisines of the power of the latter, around whose means their gains scatter "
-                 "far less from draw to draw (`transcription.episodes`)",
+    "far less from draw to draw (`transcription.episodes`)",
     "uniform": "uniform",
     "gaussian": "Gaussian with a standard deviation of 0.25 N m",
 }
@@ -17,13 +17,29 @@ NOTES = (
     ("activation of the network", "slope 1.7 below zero as printed, 0.3 in the result files", "that of the files"),
     ("initial state", "free for each episode in the text, shared by all in the result files", "free, shared"),
     ("pi", "3.1416 in the authors' files", "as exact as the computer has it"),
-    ("draws of noise", "not said; tables 1 and 2 spread as uniform draws do, not as starts of one draw", "one for each start"),
-    ("starts of noisy episodes", "random within the bounds", "random, then searched until simulations follow; "
-     "with two episodes after an identification with estimated process noise, so that unstable loops are met"),
-    ("weights of the network", "within 5 of fitted ones", f"within 20, ridge {NETWORK_RIDGE:g} on (w/20)^2 without "
-     f"noise; with noise ridge {START_RIDGE:g} on their distance from the start"),
-    ("best start of the network", "least RMS", "with noise least RMS among those whose loop, simulated with the input of "
-     "the fitted window, as it is and made larger, from states around its own, does not fall (`identification.starts.stable`)"),
+    (
+        "draws of noise",
+        "not said; tables 1 and 2 spread as uniform draws do, not as starts of one draw",
+        "one for each start",
+    ),
+    (
+        "starts of noisy episodes",
+        "random within the bounds",
+        "random, then searched until simulations follow; "
+        "with two episodes after an identification with estimated process noise, so that unstable loops are met",
+    ),
+    (
+        "weights of the network",
+        "within 5 of fitted ones",
+        f"within 20, ridge {NETWORK_RIDGE:g} on (w/20)^2 without "
+        f"noise; with noise ridge {START_RIDGE:g} on their distance from the start",
+    ),
+    (
+        "best start of the network",
+        "least RMS",
+        "with noise least RMS among those whose loop, simulated with the input of "
+        "the fitted window, as it is and made larger, from states around its own, does not fall (`identification.starts.stable`)",
+    ),
 )
 
 GOOD = 1.01
@@ -37,7 +53,19 @@ def comparison(reproduction: Reproduction) -> pd.DataFrame:
     deviation over its good starts, `sd` that of those here, and `best` the gain of the best start.
     """
     rows = [row for finding in reproduction.findings for row in _rows(finding)]
-    columns = ["where", "case", "noise_seed", "quantity", "unit", "article", "here", "deviation", "spread", "sd", "best"]
+    columns = [
+        "where",
+        "case",
+        "noise_seed",
+        "quantity",
+        "unit",
+        "article",
+        "here",
+        "deviation",
+        "spread",
+        "sd",
+        "best",
+    ]
     return pd.DataFrame(rows, columns=columns)
 
 
@@ -51,15 +79,35 @@ def _rows(f: Finding) -> list[tuple]:
     def row(where, quantity, unit, article, here, spread=np.nan, sd=np.nan, best=np.nan):
         return where, case.name, f.seed, quantity, unit, article, here, here - article, spread, sd, best
 
-    rows = [row(gains_in, "rms of the best start", "deg", case.rms_deg[0], f.best.fit["rms_deg"]["all"]),
-            row(gains_in, "median rms of the solved starts", "deg", float(np.median(case.rms_deg)),
-                float(solved["rms_deg"].median())),
-            row("text", "solved starts", "%", np.nan, 100 * float(f.starts["solved"].mean()))]
+    rows = [
+        row(gains_in, "rms of the best start", "deg", case.rms_deg[0], f.best.fit["rms_deg"]["all"]),
+        row(
+            gains_in,
+            "median rms of the solved starts",
+            "deg",
+            float(np.median(case.rms_deg)),
+            float(solved["rms_deg"].median()),
+        ),
+        row("text", "solved starts", "%", np.nan, 100 * float(f.starts["solved"].mean())),
+    ]
     units = f.best.model.parameters
-    rows += [row(gains_in, name, units[name].unit, mean, good[name].mean(), spread, good[name].std(ddof=0), f.best.values[name])
-             for name, (mean, spread) in case.gains.items()]
-    rows += [row(stable_in, "stable by eigenvalues", "%", case.eigenvalue_percent, f.stability.eigenvalue_percent),
-             row(stable_in, "stable by simulation", "%", case.forward_percent, f.stability.forward_percent)]
+    rows += [
+        row(
+            gains_in,
+            name,
+            units[name].unit,
+            mean,
+            good[name].mean(),
+            spread,
+            good[name].std(ddof=0),
+            f.best.values[name],
+        )
+        for name, (mean, spread) in case.gains.items()
+    ]
+    rows += [
+        row(stable_in, "stable by eigenvalues", "%", case.eigenvalue_percent, f.stability.eigenvalue_percent),
+        row(stable_in, "stable by simulation", "%", case.forward_percent, f.stability.forward_percent),
+    ]
     return rows
 
 

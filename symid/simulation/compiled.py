@@ -20,8 +20,12 @@ _RESULTS = ("X", "Y", "SX", "SY")
 class _Run(ct.Structure):
     """The struct Run of loop.c."""
 
-    _fields_ = [*((n, ct.c_long) for n in _SIZES), *((n, ct.c_void_p) for n in _ARRAYS), ("limit", ct.c_double),
-                *((n, ct.c_void_p) for n in _RESULTS)]
+    _fields_ = [
+        *((n, ct.c_long) for n in _SIZES),
+        *((n, ct.c_void_p) for n in _ARRAYS),
+        ("limit", ct.c_double),
+        *((n, ct.c_void_p) for n in _RESULTS),
+    ]
 
 
 @lru_cache
@@ -46,8 +50,12 @@ class CompiledLoop:
         """Fill the results of `run`; the number of samples reached, or -1 where memory is short."""
         sizes = {n: getattr(run, n) for n in _SIZES}
         arrays = {n: getattr(run, n) for n in (*_ARRAYS, *_RESULTS)}
-        return self._loop.simulate(self._ode, ct.byref(_Run(
-            **sizes, limit=run.limit, **{n: None if a is None else a.ctypes.data for n, a in arrays.items()})))
+        return self._loop.simulate(
+            self._ode,
+            ct.byref(
+                _Run(**sizes, limit=run.limit, **{n: None if a is None else a.ctypes.data for n, a in arrays.items()})
+            ),
+        )
 
     def linearise(self, arguments: tuple[np.ndarray, ...], out: list[np.ndarray]) -> None:
         """Write mass matrix, slopes of the residual by x, late and w, of the outputs by x and late, and lags to `out`."""

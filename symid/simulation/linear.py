@@ -30,7 +30,9 @@ class Linearised:
     def from_residual(cls, mass, rx, rl, rw, hx, hl, lag, states, late_of) -> Linearised:
         """From the derivatives of the implicit residual: x' = -M^-1 (rx x + rl late + rw w)."""
         index = np.array([states.index(o) if o in states else -1 for o in late_of], dtype=int)
-        return cls(-np.linalg.solve(mass, rx), -np.linalg.solve(mass, rw), hx, -np.linalg.solve(mass, rl), hl, lag, index)
+        return cls(
+            -np.linalg.solve(mass, rx), -np.linalg.solve(mass, rw), hx, -np.linalg.solve(mass, rl), hl, lag, index
+        )
 
     def without_delay(self, order: int = 2) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(A, G, C) with each delayed state replaced by its Pade approximant of this order.
@@ -62,6 +64,7 @@ class Linearised:
 def _pade(lag: float, order: int):
     """State space (a, b, c, d) of the Pade approximant of a delay."""
     from scipy.signal import tf2ss
+
     p = [1.0]
     for k in range(1, order + 1):
         p.append(p[-1] * (order - k + 1) / (k * (2 * order - k + 1)))

@@ -21,7 +21,13 @@ class PythonLoop:
     def __init__(self, source: OdeSource):
         self.source, self.functions = source, source.in_python()
         s = source
-        self.sizes = {"x": len(s.states), "l": len(s.late), "p": len(s.parameters), "w": len(s.noises), "xd": len(s.states)}
+        self.sizes = {
+            "x": len(s.states),
+            "l": len(s.late),
+            "p": len(s.parameters),
+            "w": len(s.noises),
+            "xd": len(s.states),
+        }
 
     def simulate(self, run: Run) -> int:
         """Fill the results of `run`; the number of samples reached."""
@@ -34,15 +40,25 @@ class PythonLoop:
         with np.errstate(all="ignore"):
             slopes, observed = self.slopes("slopes", call), self.slopes("observe_slopes", call)
             n = len(self.source.states)
-            values = (self.functions["mass"](*call)[0].reshape(n, n), slopes["x"], slopes["l"], slopes["w"],
-                      observed["x"], observed["l"], self.functions["lags"](*call)[0])
+            values = (
+                self.functions["mass"](*call)[0].reshape(n, n),
+                slopes["x"],
+                slopes["l"],
+                slopes["w"],
+                observed["x"],
+                observed["l"],
+                self.functions["lags"](*call)[0],
+            )
             for place, value in zip(out, values, strict=True):
                 place[...] = value
 
     def slopes(self, name: str, call: tuple) -> dict[str, np.ndarray]:
         """Dense derivatives of a group of rows by group of symbols."""
-        rows = {"slopes": len(self.source.states), "observe_slopes": len(self.source.outputs),
-                "lag_slopes": len(self.source.late)}[name]
+        rows = {
+            "slopes": len(self.source.states),
+            "observe_slopes": len(self.source.outputs),
+            "lag_slopes": len(self.source.late),
+        }[name]
         dense = {}
         for array, values in zip(self.source.functions[name], self.functions[name](*call), strict=True):
             group = array[1:]
@@ -64,7 +80,7 @@ class _Simulation:
         late = len(source.late)
         lag, dlag = self.functions["lags"](*call)[0], np.zeros((late, run.nq))
         if late:
-            dlag[:, :run.nqp] = loop.slopes("lag_slopes", call)["p"][:, run.qp]
+            dlag[:, : run.nqp] = loop.slopes("lag_slopes", call)["p"][:, run.qp]
         self.past = Past(run, source, lag, dlag)
 
     def samples(self) -> int:
@@ -103,7 +119,7 @@ class _Simulation:
         if run.nq:
             d = self.loop.slopes("observe_slopes", call)
             Sy = d["x"] @ self.S + d["l"] @ lS + d["xd"] @ Sd
-            Sy[:, :run.nqp] += d["p"][:, run.qp]
+            Sy[:, : run.nqp] += d["p"][:, run.qp]
         for place, value in ((run.X, self.x), (run.Y, y), (run.SX, self.S), (run.SY, Sy)):
             if place is not None:
                 place[k] = value
@@ -123,7 +139,7 @@ class _Simulation:
                 return xd, S
             d = self.loop.slopes("slopes", (xd, x, *given))
             right = -(d["x"] @ S + d["l"] @ lS)
-            right[:, :run.nqp] -= d["p"][:, run.qp]
+            right[:, : run.nqp] -= d["p"][:, run.qp]
             return xd, np.linalg.solve(M, right)
         except np.linalg.LinAlgError:
             return None

@@ -39,7 +39,7 @@ class Past:
     def __init__(self, run: Run, source: OdeSource, lag: np.ndarray, dlag: np.ndarray):
         self.run, self.source, self.lag, self.dlag = run, source, lag, dlag
         self.held = np.zeros(run.u.shape[1], dtype=bool)
-        self.held[:len(source.input_held)] = source.input_held
+        self.held[: len(source.input_held)] = source.input_held
         self.steps: list[Step] = []
         self.begins: list[float] = []
         n, zero = len(run.x0), np.zeros((len(run.x0), run.nq))
@@ -104,8 +104,11 @@ class Past:
         present = time >= self.start if self.known else time >= first if not self.steps else time > self.start
         if present:
             d = time - self.start
-            return (self.x[i] + d * self.rate[i] + 0.5 * d * d * self.curve[i], self.rate[i] + d * self.curve[i],
-                    self.S[i] + d * self.S_rate[i] + 0.5 * d * d * self.S_curve[i])
+            return (
+                self.x[i] + d * self.rate[i] + 0.5 * d * d * self.curve[i],
+                self.rate[i] + d * self.curve[i],
+                self.S[i] + d * self.S_rate[i] + 0.5 * d * d * self.S_curve[i],
+            )
         if time <= first or not self.steps:
             return self._before(time, i)
         return self.steps[max(bisect_right(self.begins, time) - 1, 0)].value(time, i)
@@ -115,7 +118,7 @@ class Past:
         ht, hx = self.run.ht, self.run.hx
         if ht is None:
             row = np.zeros(self.run.nq)
-            row[self.run.nqp:][self.run.qx == i] = 1
+            row[self.run.nqp :][self.run.qx == i] = 1
             return self.run.x0[i], 0.0, row
         if len(ht) < 2:
             return hx[0, i], 0.0, 0.0

@@ -37,6 +37,7 @@ class PlatformProtocol:
     def motion(self, time: np.ndarray, seed: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Position [m], velocity [m/s] and acceleration [m/s^2] at evenly spaced `time` [s]."""
         from scipy.signal import cont2discrete, lfilter  # here: takes half the time that a worker needs to start
+
         step = float(time[1] - time[0])
         fine = max(1, int(np.ceil(step / 0.001)))
         h, n = step / fine, (len(time) - 1) * fine + 1
@@ -59,11 +60,21 @@ class PlatformProtocol:
         return np.concatenate(pulses)[:n]
 
 
-def synthetic_recording(model: Model, parameters: Mapping[str, float], *, duration: float, rate: float, seed: int,
-                        process_noise: Mapping[str, float] | None = None, sensor_noise: Mapping[str, float] | None = None,
-                        resolution: float = 0.0, initial_state: Mapping[str, float] | None = None,
-                        warm_up: float = WARM_UP, hold: float = 0.01,
-                        protocol: PlatformProtocol | None = None) -> Recording:
+def synthetic_recording(
+    model: Model,
+    parameters: Mapping[str, float],
+    *,
+    duration: float,
+    rate: float,
+    seed: int,
+    process_noise: Mapping[str, float] | None = None,
+    sensor_noise: Mapping[str, float] | None = None,
+    resolution: float = 0.0,
+    initial_state: Mapping[str, float] | None = None,
+    warm_up: float = WARM_UP,
+    hold: float = 0.01,
+    protocol: PlatformProtocol | None = None,
+) -> Recording:
     """Simulate `model` and record its outputs and inputs with noise.
 
     Parameters
@@ -89,10 +100,14 @@ def synthetic_recording(model: Model, parameters: Mapping[str, float], *, durati
     channels = [y.channel for y in model.outputs.values()]
     _known("sensor", sensor_noise or {}, channels, model)
     start = dict.fromkeys(model.states, 0.0) | dict(initial_state or {})
-    run = simulator(model).simulate(parameters, start, time, inputs, noise=noise, substeps=max(1, int(np.ceil(step / 0.0051))))
+    run = simulator(model).simulate(
+        parameters, start, time, inputs, noise=noise, substeps=max(1, int(np.ceil(step / 0.0051)))
+    )
     if run.diverged:
-        raise SymidError(f"model '{model.name}' with these parameters diverges {time[run.reached]:+.2f} s after the start of "
-                         "the recording; choose a stable loop")
+        raise SymidError(
+            f"model '{model.name}' with these parameters diverges {time[run.reached]:+.2f} s after the start of "
+            "the recording; choose a stable loop"
+        )
     rows = slice(round(warm_up * rate) * fine, None, fine)
     table, units = {}, {}
     for y, values in zip(model.outputs.values(), run.y.T, strict=True):
@@ -102,8 +117,14 @@ def synthetic_recording(model: Model, parameters: Mapping[str, float], *, durati
     for name, values in inputs.items():
         table[model.inputs[name].channel] = values[rows]
         units[model.inputs[name].channel] = known_unit(model.inputs[name].unit).si
-    return Recording(f"synthetic {model.name}", time[rows], table, units, noise=dict(sensor_noise or {}),
-                     history=(f"simulated with seed {seed}",))
+    return Recording(
+        f"synthetic {model.name}",
+        time[rows],
+        table,
+        units,
+        noise=dict(sensor_noise or {}),
+        history=(f"simulated with seed {seed}",),
+    )
 
 
 def _held(rng: np.random.Generator, n: int, hold: int, size: float) -> np.ndarray:

@@ -58,7 +58,10 @@ class Trajectory:
 
     def every(self, n: int) -> Trajectory:
         """The same run at every n-th sample."""
-        kept = {k: None if a is None else a[::n] for k, a in (("x", self.x), ("y", self.y), ("dx", self.dx), ("dy", self.dy))}
+        kept = {
+            k: None if a is None else a[::n]
+            for k, a in (("x", self.x), ("y", self.y), ("dx", self.dx), ("dy", self.dy))
+        }
         return replace(self, time=self.time[::n], reached=-(-self.reached // n), **kept)
 
     def sensitivity(self, output: str, unknown: str) -> np.ndarray:
@@ -88,12 +91,24 @@ class Simulator:
         self.constants = np.array([c.value for c in model.constants.values()], dtype=float)
 
     # ---- running ---------------------------------------------------------------------
-    def simulate(self, parameters: Mapping[str, float] | np.ndarray, initial_state: Mapping[str, float] | np.ndarray,
-                 time: np.ndarray, inputs: Mapping[str, np.ndarray] | None = None, *,
-                 noise: Mapping[str, np.ndarray] | None = None, sensitivity: Sequence[str] = (),
-                 initial_sensitivity: Sequence[str] = (), substeps: int = 1, method: str = "rk4",
-                 history: tuple[np.ndarray, np.ndarray] | None = None, gain: np.ndarray | None = None,
-                 recorded: np.ndarray | None = None, limit: float = 1e4, keep: str = "all") -> Trajectory:
+    def simulate(
+        self,
+        parameters: Mapping[str, float] | np.ndarray,
+        initial_state: Mapping[str, float] | np.ndarray,
+        time: np.ndarray,
+        inputs: Mapping[str, np.ndarray] | None = None,
+        *,
+        noise: Mapping[str, np.ndarray] | None = None,
+        sensitivity: Sequence[str] = (),
+        initial_sensitivity: Sequence[str] = (),
+        substeps: int = 1,
+        method: str = "rk4",
+        history: tuple[np.ndarray, np.ndarray] | None = None,
+        gain: np.ndarray | None = None,
+        recorded: np.ndarray | None = None,
+        limit: float = 1e4,
+        keep: str = "all",
+    ) -> Trajectory:
         """Integrate over `time` and report states and outputs at its samples.
 
         Parameters
@@ -119,19 +134,31 @@ class Simulator:
         time = _array(time)
         n, q = len(time), len(sensitivity) + len(initial_sensitivity)
         if n < 2 or not np.all(np.diff(time) > 0):
-            raise SymidError(f"simulation of '{self.model.name}': time needs at least two increasing samples, found {n}")
+            raise SymidError(
+                f"simulation of '{self.model.name}': time needs at least two increasing samples, found {n}"
+            )
         corrected = gain is not None
         run = Run(
-            substeps, METHODS[method], limit, time, self._columns("input", self.source.inputs, inputs, n),
+            substeps,
+            METHODS[method],
+            limit,
+            time,
+            self._columns("input", self.source.inputs, inputs, n),
             self._columns("noise", self.source.noises, noise, n, missing=0.0),
-            self._vector("parameter", self.parameters, parameters), self.constants,
+            self._vector("parameter", self.parameters, parameters),
+            self.constants,
             self._vector("initial state", self.states, initial_state),
-            self._indices("parameter", self.parameters, sensitivity), self._indices("state", self.states, initial_sensitivity),
-            gain=_array(gain) if corrected else None, recorded=_array(recorded) if corrected else None,
-            ht=None if history is None else _array(history[0]), hx=None if history is None else _array(history[1]),
-            X=np.full((n, len(self.states)), np.nan) if keep != "outputs" else None, Y=np.full((n, len(self.outputs)), np.nan),
+            self._indices("parameter", self.parameters, sensitivity),
+            self._indices("state", self.states, initial_sensitivity),
+            gain=_array(gain) if corrected else None,
+            recorded=_array(recorded) if corrected else None,
+            ht=None if history is None else _array(history[0]),
+            hx=None if history is None else _array(history[1]),
+            X=np.full((n, len(self.states)), np.nan) if keep != "outputs" else None,
+            Y=np.full((n, len(self.outputs)), np.nan),
             SX=np.full((n, len(self.states), q), np.nan) if q and keep == "all" else None,
-            SY=np.full((n, len(self.outputs), q), np.nan) if q else None)
+            SY=np.full((n, len(self.outputs), q), np.nan) if q else None,
+        )
         reached = self._loop.simulate(run)
         if reached < 0:
             raise MemoryError(f"simulation of '{self.model.name}' over {n} samples with {q} sensitivities")
@@ -164,8 +191,10 @@ class Simulator:
                 total += part / len(points)
         mass = mean[0]
         if not all(np.isfinite(k).all() for k in mean) or not np.linalg.cond(mass) < 1e14:
-            raise SymidError(f"simulation of '{self.model.name}': the rates cannot be solved for at the state {x}; the mass "
-                             "matrix is singular or not finite there")
+            raise SymidError(
+                f"simulation of '{self.model.name}': the rates cannot be solved for at the state {x}; the mass "
+                "matrix is singular or not finite there"
+            )
         return Linearised.from_residual(*mean, s.states, late_of)
 
     # ---- checking --------------------------------------------------------------------
@@ -173,13 +202,17 @@ class Simulator:
         if isinstance(values, Mapping):
             missing = [k for k in names if k not in values]
             if missing:
-                raise SymidError(f"simulation of '{self.model.name}' needs a value of the {kind} {missing[0]!r}; "
-                                 f"{nearest(missing[0], values)}")
+                raise SymidError(
+                    f"simulation of '{self.model.name}' needs a value of the {kind} {missing[0]!r}; "
+                    f"{nearest(missing[0], values)}"
+                )
             values = [values[k] for k in names]
         out = _array(values)
         if out.shape != (len(names),) or not np.all(np.isfinite(out)):
-            raise SymidError(f"simulation of '{self.model.name}': {kind} must be {len(names)} finite numbers in the order "
-                             f"{names}, found {out}")
+            raise SymidError(
+                f"simulation of '{self.model.name}': {kind} must be {len(names)} finite numbers in the order "
+                f"{names}, found {out}"
+            )
         return out
 
     def _columns(self, kind: str, names, signals, n: int, missing: float | None = None) -> np.ndarray:
@@ -191,8 +224,10 @@ class Simulator:
                 continue
             column = _array(signals[name])
             if column.shape != (n,) or not np.all(np.isfinite(column)):
-                raise SymidError(f"simulation of '{self.model.name}': {kind} {name!r} must be {n} finite numbers, "
-                                 f"found shape {column.shape} with {np.sum(~np.isfinite(column))} not finite")
+                raise SymidError(
+                    f"simulation of '{self.model.name}': {kind} {name!r} must be {n} finite numbers, "
+                    f"found shape {column.shape} with {np.sum(~np.isfinite(column))} not finite"
+                )
             table[:, i] = column
         return table
 

@@ -84,7 +84,7 @@ class Measured:
         """(intervals * refine,) times [s] of a point of each collocation interval."""
         fractions = (np.arange(refine) + abscissa) / refine
         steps = self.step if self.even else self.steps[:, None]
-        return (self.time[self.first:self.last, None] + steps * fractions).ravel()
+        return (self.time[self.first : self.last, None] + steps * fractions).ravel()
 
     def mesh(self, refine: int) -> np.ndarray:
         """(intervals * refine + 1,) times [s] of the mesh's nodes; every `refine`-th is a sample."""
@@ -96,7 +96,7 @@ class Measured:
         hold : "zero", "linear" or "cubic" (spline) between samples.
         """
         u, fractions = self.inputs[name], (np.arange(refine) + abscissa) / refine
-        now, after = u[self.first:self.last, None], u[self.first + 1:self.last + 1, None]
+        now, after = u[self.first : self.last, None], u[self.first + 1 : self.last + 1, None]
         if hold == "zero":
             return np.repeat(now, refine)
         if hold == "linear" or (refine == 1 and abscissa in (0.0, 1.0)):
@@ -111,36 +111,59 @@ class Measured:
 def spline(time: np.ndarray, values: np.ndarray):
     """The cubic spline through samples, a function of time."""
     from scipy.interpolate import CubicSpline  # here: half of the schemes need no spline, and it is slow to import
+
     return CubicSpline(time, values)
 
 
 def measure(model: Model, recording: Recording, window: tuple[float, float] | None) -> Measured:
     """Take from `recording` what `model` needs, over `window` (t0, t1) [s] or over all of it."""
-    missing = [(c.name, c.channel) for c in (*model.inputs.values(), *model.outputs.values())
-               if c.channel not in recording.channels]
+    missing = [
+        (c.name, c.channel)
+        for c in (*model.inputs.values(), *model.outputs.values())
+        if c.channel not in recording.channels
+    ]
     if missing:
-        raise TranscriptionError("; ".join(
-            f"'{name}' of model '{model.name}' needs the channel '{channel}', which {recording.name} does not have: "
-            + nearest(channel, recording.channels) for name, channel in missing))
+        raise TranscriptionError(
+            "; ".join(
+                f"'{name}' of model '{model.name}' needs the channel '{channel}', which {recording.name} does not have: "
+                + nearest(channel, recording.channels)
+                for name, channel in missing
+            )
+        )
     _refuse_other_units(model, recording)
     if len(recording.runs) > 1:
-        raise TranscriptionError(f"{recording.name} has several segments, between which nothing is known: give "
-                                 "recording.segments() as a list of recordings")
+        raise TranscriptionError(
+            f"{recording.name} has several segments, between which nothing is known: give "
+            "recording.segments() as a list of recordings"
+        )
     first, last = _window_samples(recording, window)
     for u in model.inputs.values():
         gaps = np.flatnonzero(~np.isfinite(recording.channels[u.channel]))
         if len(gaps):
-            raise TranscriptionError(f"the input '{u.name}' is missing in {len(gaps)} samples of {recording.name}, first at "
-                                     f"{recording.time[gaps[0]]:g} s: an input must be known throughout; use "
-                                     "symid.recording.fill_gaps, or declare it as a Control that is estimated")
-    channels = {name: filled(recording.time, recording.channels[name], name, recording.name)
-                for name in needed_channels(model, recording)}
+            raise TranscriptionError(
+                f"the input '{u.name}' is missing in {len(gaps)} samples of {recording.name}, first at "
+                f"{recording.time[gaps[0]]:g} s: an input must be known throughout; use "
+                "symid.recording.fill_gaps, or declare it as a Control that is estimated"
+            )
+    channels = {
+        name: filled(recording.time, recording.channels[name], name, recording.name)
+        for name in needed_channels(model, recording)
+    }
     outputs = [y.channel for y in model.outputs.values()]
     targets = np.column_stack([channels[c] for c in outputs]) if outputs else np.zeros((len(recording.time), 0))
-    present = np.column_stack([np.isfinite(recording.channels[c]) for c in outputs]) if outputs else np.ones((0, 0), bool)
-    return Measured(recording.name, recording.time, {u.name: recording.channels[u.channel] for u in model.inputs.values()},
-                    targets, first_states(model, recording.time, channels), first, last,
-                    present=None if present.all() else present)
+    present = (
+        np.column_stack([np.isfinite(recording.channels[c]) for c in outputs]) if outputs else np.ones((0, 0), bool)
+    )
+    return Measured(
+        recording.name,
+        recording.time,
+        {u.name: recording.channels[u.channel] for u in model.inputs.values()},
+        targets,
+        first_states(model, recording.time, channels),
+        first,
+        last,
+        present=None if present.all() else present,
+    )
 
 
 def needed_channels(model: Model, recording: Recording) -> list[str]:
@@ -161,8 +184,10 @@ def _refuse_other_units(model: Model, recording: Recording) -> None:
     for c in (*model.inputs.values(), *model.outputs.values()):
         unit = recording.units[c.channel]
         if not same_dimension(unit, c.unit or "1"):
-            raise TranscriptionError(f"'{c.name}' of model '{model.name}' is in {c.unit or '1'}, but the channel "
-                                     f"'{c.channel}' of {recording.name} is in {unit}: they cannot be compared")
+            raise TranscriptionError(
+                f"'{c.name}' of model '{model.name}' is in {c.unit or '1'}, but the channel "
+                f"'{c.channel}' of {recording.name} is in {unit}: they cannot be compared"
+            )
 
 
 def _window_samples(recording: Recording, window: tuple[float, float] | None) -> tuple[int, int]:
@@ -173,8 +198,9 @@ def _window_samples(recording: Recording, window: tuple[float, float] | None) ->
     t0, t1 = map(float, window)
     slack = 0.5 * (time[1] - time[0])
     if not (time[0] - slack <= t0 < t1 <= time[-1] + slack):
-        raise TranscriptionError(f"window {t0:g} to {t1:g} s does not lie in {recording.name}, which has "
-                                 f"{time[0]:g} to {time[-1]:g} s")
+        raise TranscriptionError(
+            f"window {t0:g} to {t1:g} s does not lie in {recording.name}, which has {time[0]:g} to {time[-1]:g} s"
+        )
     first, last = np.searchsorted(time, [t0 - slack, t1 - slack])
     if last - first < 2:
         raise TranscriptionError(f"window {t0:g} to {t1:g} s holds only {last - first + 1} samples of {recording.name}")

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SUPPORT = 3.0     # steps
+SUPPORT = 3.0  # steps
 
 
 def _bspline(s: np.ndarray, derivative: int) -> np.ndarray:
@@ -70,10 +70,14 @@ class LateSignal:
         first = int(np.ceil(self.abscissa - hi / self.step - SUPPORT))
         last = int(np.floor(self.abscissa - lo / self.step + SUPPORT))
         offsets = np.arange(first, last + 1)
-        nodes = np.arange(len(self.row))[:, None] + offsets          # (K, window)
+        nodes = np.arange(len(self.row))[:, None] + offsets  # (K, window)
         free = (nodes >= 0) & (nodes <= len(self.row)) if self.node_columns is not None else np.zeros(nodes.shape, bool)
-        for name, value in (("offsets", offsets), ("nodes", nodes), ("free", free),
-                            ("sample_index", np.clip(nodes + self.before, 0, len(self.samples) - 1))):
+        for name, value in (
+            ("offsets", offsets),
+            ("nodes", nodes),
+            ("free", free),
+            ("sample_index", np.clip(nodes + self.before, 0, len(self.samples) - 1)),
+        ):
             object.__setattr__(self, name, value)
 
     # offsets (window,), nodes (K, window), free (K, window) bool, sample_index (K, window)

@@ -8,8 +8,20 @@ import numpy as np
 
 from symid.codegen import Kernel, Program, compile_program
 from symid.codegen.conditions import (
-    end_penalties, end_rows, ends_program, has_running, is_bound, node_program, parameter_penalties, parameter_program,
-    parameter_rows, path_data, path_rows, running_data, running_program, terminal_objective,
+    end_penalties,
+    end_rows,
+    ends_program,
+    has_running,
+    is_bound,
+    node_program,
+    parameter_penalties,
+    parameter_program,
+    parameter_rows,
+    path_data,
+    path_rows,
+    running_data,
+    running_program,
+    terminal_objective,
 )
 from symid.codegen.symbols import node_symbols
 from symid.errors import TranscriptionError
@@ -32,8 +44,19 @@ class Demands:
     seconds : what compiling took is added to it.
     """
 
-    def __init__(self, model: Model, scheme: Scheme, layout: Layout, measured: tuple[Measured, ...], recording_of: tuple[int, ...],
-                 duration: str | None, graded: bool, information: float, backend: str, seconds: dict[str, float]):
+    def __init__(
+        self,
+        model: Model,
+        scheme: Scheme,
+        layout: Layout,
+        measured: tuple[Measured, ...],
+        recording_of: tuple[int, ...],
+        duration: str | None,
+        graded: bool,
+        information: float,
+        backend: str,
+        seconds: dict[str, float],
+    ):
         self.model, self.scheme, self.layout, self.duration, self.graded = model, scheme, layout, duration, graded
         self.measured, self.recording_of, self.backend, self.seconds = measured, recording_of, backend, seconds
         self.information = information
@@ -44,8 +67,12 @@ class Demands:
 
     def wanted(self) -> tuple[Block, ...]:
         """Running and terminal objectives, then priors; these and the likelihood of process noise times `information`."""
-        return (*self._running(), *self._terminal(terminal_objective(self.model), "terminal", 1.0),
-                *self._terminal(end_penalties(self.model), "prior of ends", self.information, likelihood=True), *self._priors())
+        return (
+            *self._running(),
+            *self._terminal(terminal_objective(self.model), "terminal", 1.0),
+            *self._terminal(end_penalties(self.model), "prior of ends", self.information, likelihood=True),
+            *self._priors(),
+        )
 
     def _compiled(self, program: Program, backend: str | None = None) -> Kernel:
         kernel = compile_program(program, backend=backend or self.backend)
@@ -64,18 +91,40 @@ class Demands:
         kernel, layout = self._compiled(node_program(self.model, self.duration)), self.layout
         for e, r in enumerate(self.recording_of):
             m = self.measured[r]
-            data = [np.append(input_at(self.model, self.scheme, m, str(u), 0.0, layout.refine),
-                              input_at(self.model, self.scheme, m, str(u), 1.0, layout.refine)[-1]) for u in path_data(self.model)]
+            data = [
+                np.append(
+                    input_at(self.model, self.scheme, m, str(u), 0.0, layout.refine),
+                    input_at(self.model, self.scheme, m, str(u), 1.0, layout.refine)[-1],
+                )
+                for u in path_data(self.model)
+            ]
             times = m.mesh(layout.refine)
-            yield Block(kernel, lambda z, e=e: layout.node_view(z, e), layout.parameter_columns(e), _columns(data, len(times)),
-                        self._constants(e), layout.size, **_bounds_and_names(rows), times=times, where=f" of episode {e + 1}")
+            yield Block(
+                kernel,
+                lambda z, e=e: layout.node_view(z, e),
+                layout.parameter_columns(e),
+                _columns(data, len(times)),
+                self._constants(e),
+                layout.size,
+                **_bounds_and_names(rows),
+                times=times,
+                where=f" of episode {e + 1}",
+            )
 
     def _ends(self, rows: list[tuple[str, Row]], name: str) -> Iterator[Block]:
         if rows:
             kernel = self._compiled(ends_program(self.model, [r.expr for _, r in rows], name, self.duration), "numpy")
             for e in range(len(self.recording_of)):
-                yield Block(kernel, self._both_ends(e), self.layout.parameter_columns(e), self._end_data(e), self._constants(e),
-                            self.layout.size, **_bounds_and_names(rows), where=f" of episode {e + 1}")
+                yield Block(
+                    kernel,
+                    self._both_ends(e),
+                    self.layout.parameter_columns(e),
+                    self._end_data(e),
+                    self._constants(e),
+                    self.layout.size,
+                    **_bounds_and_names(rows),
+                    where=f" of episode {e + 1}",
+                )
 
     def _parameters(self) -> Iterator[Block]:
         rows = parameter_rows(self.model)
@@ -84,8 +133,15 @@ class Demands:
             used = np.unique(kernel.jacobian_cols)
             seen = {tuple(self.layout.parameter_columns(e)[used]): e for e in reversed(range(len(self.recording_of)))}
             for e in sorted(seen.values()):
-                yield Block(kernel, _nothing, self.layout.parameter_columns(e), np.zeros((1, 0)), self._constants(e),
-                            self.layout.size, **_bounds_and_names(rows))
+                yield Block(
+                    kernel,
+                    _nothing,
+                    self.layout.parameter_columns(e),
+                    np.zeros((1, 0)),
+                    self._constants(e),
+                    self.layout.size,
+                    **_bounds_and_names(rows),
+                )
 
     def _priors(self) -> Iterator[Block]:
         """Each free parameter once, however many episodes share it."""
@@ -98,28 +154,57 @@ class Demands:
                 weights = self.information * np.array([[float(c not in seen) for c in columns]])
                 seen |= set(columns)
                 if weights.any():
-                    yield Block(kernel, _nothing, self.layout.parameter_columns(e), np.zeros((1, 0)), self._constants(e),
-                                self.layout.size, weights=weights, likelihood=np.ones(len(place), bool))
+                    yield Block(
+                        kernel,
+                        _nothing,
+                        self.layout.parameter_columns(e),
+                        np.zeros((1, 0)),
+                        self._constants(e),
+                        self.layout.size,
+                        weights=weights,
+                        likelihood=np.ones(len(place), bool),
+                    )
 
     def _running(self) -> Iterator[Block]:
         if not has_running(self.model):
             return
-        kernel, layout = self._compiled(running_program(self.model, self.scheme.stencil, self.duration, self.graded)), self.layout
+        kernel, layout = (
+            self._compiled(running_program(self.model, self.scheme.stencil, self.duration, self.graded)),
+            self.layout,
+        )
         for e, r in enumerate(self.recording_of):
             stations = (0.0, *self.scheme.stencil.abscissae, 1.0)
-            data = [input_at(self.model, self.scheme, self.measured[r], str(u), float(c), layout.refine)
-                    for c in stations for u in running_data(self.model)]
+            data = [
+                input_at(self.model, self.scheme, self.measured[r], str(u), float(c), layout.refine)
+                for c in stations
+                for u in running_data(self.model)
+            ]
             data += interval_steps(self.measured[r], layout.refine, self.graded)
-            yield Block(kernel, lambda z, e=e: layout.local_view(z, e), layout.parameter_columns(e),
-                        _columns(data, layout.intervals[e]), self._constants(e, self.graded), layout.size,
-                        weights=np.tile([1.0, self.information], (layout.intervals[e], 1)), likelihood=np.array([False, True]))
+            yield Block(
+                kernel,
+                lambda z, e=e: layout.local_view(z, e),
+                layout.parameter_columns(e),
+                _columns(data, layout.intervals[e]),
+                self._constants(e, self.graded),
+                layout.size,
+                weights=np.tile([1.0, self.information], (layout.intervals[e], 1)),
+                likelihood=np.array([False, True]),
+            )
 
     def _terminal(self, total, name: str, weight: float, likelihood: bool = False) -> Iterator[Block]:
         if total != 0:
             kernel = self._compiled(ends_program(self.model, [total], name, self.duration), "numpy")
             for e in range(len(self.recording_of)):
-                yield Block(kernel, self._both_ends(e), self.layout.parameter_columns(e), self._end_data(e), self._constants(e),
-                            self.layout.size, weights=np.full((1, 1), weight), likelihood=np.array([likelihood]))
+                yield Block(
+                    kernel,
+                    self._both_ends(e),
+                    self.layout.parameter_columns(e),
+                    self._end_data(e),
+                    self._constants(e),
+                    self.layout.size,
+                    weights=np.full((1, 1), weight),
+                    likelihood=np.array([likelihood]),
+                )
 
     def _both_ends(self, e: int):
         columns = self.layout.node_view(np.arange(self.layout.size), e)[[0, -1]].reshape(1, -1)
@@ -127,7 +212,10 @@ class Demands:
 
     def _end_data(self, e: int) -> np.ndarray:
         m = self.measured[self.recording_of[e]]
-        return np.array([[m.time[m.last], *(m.inputs[u][node] for node in (m.first, m.last) for u in self.model.inputs)]], dtype=float)
+        return np.array(
+            [[m.time[m.last], *(m.inputs[u][node] for node in (m.first, m.last) for u in self.model.inputs)]],
+            dtype=float,
+        )
 
 
 def _nothing(z: np.ndarray) -> np.ndarray:
@@ -140,8 +228,11 @@ def _columns(data: list[np.ndarray], points: int) -> np.ndarray:
 
 
 def _bounds_and_names(rows: list[tuple[str, Row]]) -> dict:
-    return {"lower": np.array([r.lower for _, r in rows]), "upper": np.array([r.upper for _, r in rows]),
-            "names": tuple(name for name, _ in rows)}
+    return {
+        "lower": np.array([r.lower for _, r in rows]),
+        "upper": np.array([r.upper for _, r in rows]),
+        "names": tuple(name for name, _ in rows),
+    }
 
 
 def ties(model: Model, layout: Layout, linked: list[tuple[int, int]]) -> tuple[np.ndarray, tuple[str, ...]]:
@@ -179,17 +270,23 @@ def bounds(model: Model, layout: Layout) -> tuple[np.ndarray, np.ndarray]:
     parameters = np.zeros((len(layout.parameter_names), 2))
     for p, columns in zip(model.parameters.values(), layout.parameter_index.T, strict=True):
         parameters[columns] = p.bounds
-    lower, upper = (layout.spread(nodes[:, i], own[:, i], parameters[:, i], free) for i, free in ((0, -np.inf), (1, np.inf)))
+    lower, upper = (
+        layout.spread(nodes[:, i], own[:, i], parameters[:, i], free) for i, free in ((0, -np.inf), (1, np.inf))
+    )
     for e in range(len(layout.intervals)):
         low, high = layout.node_view(lower, e), layout.node_view(upper, e)
         for node, column, row in end_bounds(model, layout):
             scale = layout.node_scale[column]
-            low[node, column], high[node, column] = (max(low[node, column], row.lower / scale),
-                                                     min(high[node, column], row.upper / scale))
+            low[node, column], high[node, column] = (
+                max(low[node, column], row.lower / scale),
+                min(high[node, column], row.upper / scale),
+            )
             if low[node, column] > high[node, column]:
-                raise TranscriptionError(f"the boundary condition {row.lower:g} to {row.upper:g} of "
-                                         f"'{layout.node_names[column]}' of model '{model.name}' lies outside its bounds "
-                                         f"{model[layout.node_names[column]].bounds}; widen one of them")
+                raise TranscriptionError(
+                    f"the boundary condition {row.lower:g} to {row.upper:g} of "
+                    f"'{layout.node_names[column]}' of model '{model.name}' lies outside its bounds "
+                    f"{model[layout.node_names[column]].bounds}; widen one of them"
+                )
     return lower, upper
 
 

@@ -48,8 +48,16 @@ class Episodes:
     shared_initial_state: bool = True
     by_word: dict[str, float] = field(default_factory=dict)
 
-    def __init__(self, count: int = 1, *, amplitude: float = 0.0, seed: int = 0, distribution: str = "multisine",
-                 shared_initial_state: bool = True, **by_word: float):
+    def __init__(
+        self,
+        count: int = 1,
+        *,
+        amplitude: float = 0.0,
+        seed: int = 0,
+        distribution: str = "multisine",
+        shared_initial_state: bool = True,
+        **by_word: float,
+    ):
         if int(count) != count or count < 1:
             raise TranscriptionError(f"episodes: the count must be a whole number of at least 1, not {count}")
         if distribution not in DISTRIBUTIONS:
@@ -57,9 +65,14 @@ class Episodes:
         for word, value in {"amplitude": amplitude, **by_word}.items():
             if not (np.isfinite(value) and value >= 0):
                 raise TranscriptionError(f"episodes: {word}={value} must be a finite amplitude of at least 0")
-        for name, value in (("count", int(count)), ("amplitude", float(amplitude)), ("seed", int(seed)),
-                            ("distribution", distribution), ("shared_initial_state", shared_initial_state),
-                            ("by_word", dict(by_word))):
+        for name, value in (
+            ("count", int(count)),
+            ("amplitude", float(amplitude)),
+            ("seed", int(seed)),
+            ("distribution", distribution),
+            ("shared_initial_state", shared_initial_state),
+            ("by_word", dict(by_word)),
+        ):
             object.__setattr__(self, name, value)
 
     def amplitudes(self, model: Model) -> np.ndarray:
@@ -68,13 +81,16 @@ class Episodes:
         for word, value in self.by_word.items():
             hits = [i for i, name in enumerate(model.noises) if word in name]
             if not hits:
-                raise TranscriptionError(f"episodes: no noise of model '{model.name}' has '{word}' in its name; "
-                                         + nearest(word, model.noises))
+                raise TranscriptionError(
+                    f"episodes: no noise of model '{model.name}' has '{word}' in its name; "
+                    + nearest(word, model.noises)
+                )
             values[hits] = value
         if self.count > 1 and not values.any():
             raise TranscriptionError(
                 f"episodes: {self.count} episodes without any noise would be {self.count} times the same; give an "
-                f"amplitude, for instance Episodes({self.count}, torque=0.25) (noises: {', '.join(model.noises) or 'none'})")
+                f"amplitude, for instance Episodes({self.count}, torque=0.25) (noises: {', '.join(model.noises) or 'none'})"
+            )
         return values
 
     def draw(self, model: Model, intervals: int) -> list[np.ndarray]:

@@ -115,7 +115,7 @@ class Layout:
 
     def sample_view(self, z: np.ndarray, episode: int) -> np.ndarray:
         """(samples, width) view into `z`: what stands at the nodes that are samples, scaled."""
-        return self.node_view(z, episode)[::self.refine]
+        return self.node_view(z, episode)[:: self.refine]
 
     def late_view(self, z: np.ndarray, episode: int) -> np.ndarray:
         """(intervals, points, late signals) view into `z`."""
@@ -129,7 +129,7 @@ class Layout:
 
     def states(self, z: np.ndarray, episode: int) -> np.ndarray:
         """(intervals + 1, n) states at the nodes, in SI units, a copy."""
-        return self.node_view(z, episode)[:, :self.n] * self.state_scale
+        return self.node_view(z, episode)[:, : self.n] * self.state_scale
 
     def nodes(self, z: np.ndarray, episode: int) -> np.ndarray:
         """(intervals + 1, width) states, controls and algebraics at the nodes, in SI units, a copy."""
@@ -137,7 +137,7 @@ class Layout:
 
     def parameters(self, z: np.ndarray) -> np.ndarray:
         """(free parameters,) in SI units, a copy."""
-        return z[self.offsets[-1]:] * self.parameter_scale
+        return z[self.offsets[-1] :] * self.parameter_scale
 
     def fill(self, nodes: list[np.ndarray], parameters: np.ndarray) -> np.ndarray:
         """A free vector with these values (nodes x n or width, SI) for each episode and these parameters (SI).
@@ -147,14 +147,14 @@ class Layout:
         """
         z = np.zeros(self.size)
         for e, x in enumerate(nodes):
-            self.node_view(z, e)[:, :x.shape[1]] = x / self.node_scale[:x.shape[1]]
+            self.node_view(z, e)[:, : x.shape[1]] = x / self.node_scale[: x.shape[1]]
             at_nodes, local = self.node_view(z, e), self.local_view(z, e)
             first, end = self.width, self.width + self.n * self.interior
-            local[:, first:end] = np.tile(np.diff(at_nodes[:, :self.n], axis=0), self.interior)
+            local[:, first:end] = np.tile(np.diff(at_nodes[:, : self.n], axis=0), self.interior)
             if self.own and set(self.own_names) <= set(self.beside_names):
-                own = at_nodes[:, self.width - len(self.own_names):]
-                local[:, end:end + self.own] = np.tile(0.5 * (own[:-1] + own[1:]), self.own_points)
-        z[self.offsets[-1]:] = parameters / self.parameter_scale
+                own = at_nodes[:, self.width - len(self.own_names) :]
+                local[:, end : end + self.own] = np.tile(0.5 * (own[:-1] + own[1:]), self.own_points)
+        z[self.offsets[-1] :] = parameters / self.parameter_scale
         return z
 
     def spread(self, nodes: np.ndarray, own: np.ndarray, parameters: np.ndarray, other: float) -> np.ndarray:
@@ -162,9 +162,9 @@ class Layout:
         z = np.full(self.size, other)
         for e in range(len(self.intervals)):
             end = self.block - self.late
-            self.local_view(z, e)[:, end - self.own:end] = np.tile(own / self.own_scale, self.own_points)
+            self.local_view(z, e)[:, end - self.own : end] = np.tile(own / self.own_scale, self.own_points)
             self.node_view(z, e)[:] = nodes / self.node_scale
-        z[self.offsets[-1]:] = parameters / self.parameter_scale
+        z[self.offsets[-1] :] = parameters / self.parameter_scale
         return z
 
     def kind(self, name: str) -> str:

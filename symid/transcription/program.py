@@ -42,11 +42,26 @@ class CollocationProgram:
     error, with `weights` (episodes, m), summed over episodes, where there are recorded outputs, and the `wanted` blocks.
     """
 
-    def __init__(self, *, layout: Layout, interval: Kernel, error: Kernel | None, data: tuple[EpisodeData, ...],
-                 constants: tuple[np.ndarray, ...], error_constants: np.ndarray, weights: np.ndarray, objective_scale: float,
-                 late: tuple[LateSignal, ...], ties: np.ndarray, tie_names: tuple[str, ...], bounds: tuple[np.ndarray, np.ndarray],
-                 row_names: tuple[str, ...], times: tuple[np.ndarray, ...], demanded: tuple[Block, ...] = (),
-                 wanted: tuple[Block, ...] = ()):
+    def __init__(
+        self,
+        *,
+        layout: Layout,
+        interval: Kernel,
+        error: Kernel | None,
+        data: tuple[EpisodeData, ...],
+        constants: tuple[np.ndarray, ...],
+        error_constants: np.ndarray,
+        weights: np.ndarray,
+        objective_scale: float,
+        late: tuple[LateSignal, ...],
+        ties: np.ndarray,
+        tie_names: tuple[str, ...],
+        bounds: tuple[np.ndarray, np.ndarray],
+        row_names: tuple[str, ...],
+        times: tuple[np.ndarray, ...],
+        demanded: tuple[Block, ...] = (),
+        wanted: tuple[Block, ...] = (),
+    ):
         self.layout, self.interval, self.error, self.data = layout, interval, error, data
         self.constants, self.error_constants, self.late, self.times = constants, error_constants, late, times
         self.weights = weights
@@ -68,20 +83,36 @@ class CollocationProgram:
 
     # ---- structure -------------------------------------------------------------------
     def _interval_block(self, e: int) -> Block:
-        return Block(self.interval, lambda z: self.layout.local_view(z, e), self.layout.parameter_columns(e),
-                     self.data[e].interval, self.constants[e], self.layout.size, names=self.row_names,
-                     times=self.times[e], where=f" of episode {e + 1}")
+        return Block(
+            self.interval,
+            lambda z: self.layout.local_view(z, e),
+            self.layout.parameter_columns(e),
+            self.data[e].interval,
+            self.constants[e],
+            self.layout.size,
+            names=self.row_names,
+            times=self.times[e],
+            where=f" of episode {e + 1}",
+        )
 
     def _error_block(self, e: int) -> Block:
         node = self.data[e].node
         data = np.ascontiguousarray(np.hstack([node, self.data[e].loss]))
-        return Block(self.error, lambda z: self.layout.sample_view(z, e), self.layout.parameter_columns(e), data,
-                     np.concatenate([self.error_constants, self.weights[e]]), self.layout.size,
-                     weights=np.full((len(node), 1), self.data[e].step))
+        return Block(
+            self.error,
+            lambda z: self.layout.sample_view(z, e),
+            self.layout.parameter_columns(e),
+            data,
+            np.concatenate([self.error_constants, self.weights[e]]),
+            self.layout.size,
+            weights=np.full((len(node), 1), self.data[e].step),
+        )
 
     def _constraint_bounds(self) -> tuple[np.ndarray, np.ndarray]:
         pairs = [b.bounds() for b in self.demanded]
-        return tuple(np.concatenate([np.zeros(int(self.demand_starts[0])), *(p[side] for p in pairs)]) for side in (0, 1))
+        return tuple(
+            np.concatenate([np.zeros(int(self.demand_starts[0])), *(p[side] for p in pairs)]) for side in (0, 1)
+        )
 
     def _jacobian_structure(self) -> tuple[np.ndarray, np.ndarray]:
         places = [b.jacobian_places(first) for b, first in zip(self.intervals, self.row_starts[:-1], strict=True)]
@@ -96,8 +127,10 @@ class CollocationProgram:
         keys += [_keys(*signal.hessian_structure(), self.layout.size) for signal in self.late]
         merged, index = np.unique(np.concatenate([k.ravel() for k in keys]), return_inverse=True)
         ends = np.cumsum([k.size for k in keys])
-        self._scatter = [np.ascontiguousarray(i.reshape(k.shape), dtype=np.int32)
-                         for i, k in zip(np.split(index, ends[:-1]), keys, strict=True)]
+        self._scatter = [
+            np.ascontiguousarray(i.reshape(k.shape), dtype=np.int32)
+            for i, k in zip(np.split(index, ends[:-1]), keys, strict=True)
+        ]
         return (merged // self.layout.size).astype(np.int32), (merged % self.layout.size).astype(np.int32)
 
     # ---- values ----------------------------------------------------------------------
@@ -114,15 +147,17 @@ class CollocationProgram:
     def constraints(self, z: np.ndarray) -> np.ndarray:
         out = np.empty(self.rows)
         for b, first in self._constraint_blocks():
-            b.kernel.residual(*b.arguments(z), out=out[first:first + b.rows].reshape(b.points, b.kernel.m))
+            b.kernel.residual(*b.arguments(z), out=out[first : first + b.rows].reshape(b.points, b.kernel.m))
         for signal in self.late:
             out[signal.row] = signal.residual(z)
-        out[self.tie_start:self.demand_starts[0]] = z[self.ties[:, 0]] - z[self.ties[:, 1]]
+        out[self.tie_start : self.demand_starts[0]] = z[self.ties[:, 0]] - z[self.ties[:, 1]]
         return out
 
     def _constraint_blocks(self) -> list[tuple[Block, int]]:
-        return [*zip(self.intervals, self.row_starts, strict=False),
-                *zip(self.demanded, self.demand_starts, strict=False)]
+        return [
+            *zip(self.intervals, self.row_starts, strict=False),
+            *zip(self.demanded, self.demand_starts, strict=False),
+        ]
 
     def jacobian(self, z: np.ndarray) -> np.ndarray:
         """(nnz,) values in the order of `jacobian_rows` and `jacobian_cols`."""
@@ -134,10 +169,11 @@ class CollocationProgram:
             end = start + block.points * nnz
             block.kernel.jacobian(*block.arguments(z), out=out[start:end].reshape(block.points, nnz))
             start = end
+
         for block in self.intervals:
             fill(block)
         for values in (*(signal.jacobian(z) for signal in self.late), np.tile([1.0, -1.0], len(self.ties))):
-            out[start:start + len(values)] = values
+            out[start : start + len(values)] = values
             start += len(values)
         for block in self.demanded:
             fill(block)
@@ -148,8 +184,9 @@ class CollocationProgram:
         out, scatter = np.zeros(len(self.hessian_rows)), iter(self._scatter)
 
         def add(block: Block, first: int) -> None:
-            lam = multipliers[first:first + block.rows].reshape(block.points, block.kernel.m)
+            lam = multipliers[first : first + block.rows].reshape(block.points, block.kernel.m)
             block.add_hessian(out, next(scatter), z, lam)
+
         for block, first in zip(self.intervals, self.row_starts, strict=False):
             add(block, int(first))
         for block in self.wanted:
@@ -167,7 +204,7 @@ class CollocationProgram:
         """
         out = np.zeros(len(self.hessian_rows))
         first = len(self.intervals) + len(self.errors)
-        for block, index in zip(self.wanted[len(self.errors):], self._scatter[first:], strict=False):
+        for block, index in zip(self.wanted[len(self.errors) :], self._scatter[first:], strict=False):
             if not likelihood_only or block.likelihood.any():
                 block.add_hessian(out, index, z, block.weights * (block.likelihood if likelihood_only else 1.0))
         return out
@@ -190,12 +227,24 @@ class CollocationProgram:
 
     def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
         return NonlinearProgram(
-            lower=self.lower, upper=self.upper, constraint_lower=self.constraint_lower,
-            constraint_upper=self.constraint_upper, start=start, objective=self.objective, gradient=self.gradient,
-            constraints=self.constraints, jacobian=self.jacobian, jacobian_rows=self.jacobian_rows,
-            jacobian_cols=self.jacobian_cols, hessian=self.hessian, hessian_rows=self.hessian_rows,
-            hessian_cols=self.hessian_cols, objective_scale=self.objective_scale, describe_variable=self.layout.describe,
-            describe_constraint=self.describe_constraint)
+            lower=self.lower,
+            upper=self.upper,
+            constraint_lower=self.constraint_lower,
+            constraint_upper=self.constraint_upper,
+            start=start,
+            objective=self.objective,
+            gradient=self.gradient,
+            constraints=self.constraints,
+            jacobian=self.jacobian,
+            jacobian_rows=self.jacobian_rows,
+            jacobian_cols=self.jacobian_cols,
+            hessian=self.hessian,
+            hessian_rows=self.hessian_rows,
+            hessian_cols=self.hessian_cols,
+            objective_scale=self.objective_scale,
+            describe_variable=self.layout.describe,
+            describe_constraint=self.describe_constraint,
+        )
 
 
 def _keys(a: np.ndarray, b: np.ndarray, size: int) -> np.ndarray:

@@ -67,7 +67,7 @@ def hidden_scale(slopes: np.ndarray, scale: np.ndarray) -> np.ndarray:
     table[np.flatnonzero(~known), len(slopes) + columns[~known]] = 1
     size = -np.log(slopes[rows, columns])
     size[known] -= np.log(scale[columns[known]])
-    out[hidden] = np.exp(np.linalg.lstsq(table, size, rcond=None)[0][len(slopes):][hidden])
+    out[hidden] = np.exp(np.linalg.lstsq(table, size, rcond=None)[0][len(slopes) :][hidden])
     return out
 
 
@@ -121,7 +121,9 @@ def objective_scale(measured: Sequence[Measured], recording_of: Sequence[int], w
         return 1.0
     for r, m in enumerate(measured):
         y = m.targets[m.nodes]
-        varied = np.where(np.std(y, axis=0) > ROUNDING * np.abs(y).max(axis=0), np.var(y, axis=0), np.mean(y**2, axis=0))
+        varied = np.where(
+            np.std(y, axis=0) > ROUNDING * np.abs(y).max(axis=0), np.var(y, axis=0), np.mean(y**2, axis=0)
+        )
         of.append(m.intervals * m.step * float(varied @ weights[r]))
     total = OBJECTIVE * sum(of[r] for r in recording_of)
     return total if total > 0 else 1.0

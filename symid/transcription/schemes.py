@@ -52,8 +52,11 @@ def HermiteSimpson() -> Scheme:
     """
     state = [[1, 0, 0, 0, 0], [1, 5 / 24, 1 / 3, -1 / 24, 0], [0, 0, 0, 0, 1]]
     rate = [[0, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0]]
-    return Scheme("hermite_simpson", 4,
-                  Stencil([0, 0.5, 1], state, rate, np.eye(3), [[-1, -1 / 6, -2 / 3, -1 / 6, 1]], [0, 2 / 3, 0]))
+    return Scheme(
+        "hermite_simpson",
+        4,
+        Stencil([0, 0.5, 1], state, rate, np.eye(3), [[-1, -1 / 6, -2 / 3, -1 / 6, 1]], [0, 2 / 3, 0]),
+    )
 
 
 SCHEMES = {s().name: s for s in (Midpoint, BackwardEuler, Trapezoid, HermiteSimpson)}

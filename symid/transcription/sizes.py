@@ -16,19 +16,34 @@ from symid.transcription.known import equation_of_rows, interval_constants_of
 from symid.transcription.layout import Layout
 from symid.transcription.program import EpisodeData
 from symid.transcription.scales import (
-    RANGE, Sizes, hidden_scale, natural_size, parameter_scale, rate_scale, state_scale,
+    RANGE,
+    Sizes,
+    hidden_scale,
+    natural_size,
+    parameter_scale,
+    rate_scale,
+    state_scale,
 )
 from symid.transcription.schemes import Scheme
 
 
-def scaled_by_data(model: Model, scheme: Scheme, interval: Kernel, layout: Layout, measured: Sequence[Measured],
-                   data: Sequence[EpisodeData], recording_of: Sequence[int], graded: bool) -> Layout:
+def scaled_by_data(
+    model: Model,
+    scheme: Scheme,
+    interval: Kernel,
+    layout: Layout,
+    measured: Sequence[Measured],
+    data: Sequence[EpisodeData],
+    recording_of: Sequence[int],
+    graded: bool,
+) -> Layout:
     """`layout`, whose states have no scale yet, with the scales of states and parameters that the recordings suggest."""
     layout = replace(layout, parameter_scale=np.ones(len(layout.parameter_names)))
     bounds = np.array([s.bounds for s in model.states.values()], dtype=float).reshape(-1, 2)
 
     def sizes(hidden, parameters):
         return _sizes(model, scheme, interval, layout, measured, data, recording_of, graded, hidden, parameters)
+
     hidden, states = first_guess(bounds), state_scale(measured)
     if np.isnan(states).any():
         hidden = states = hidden_scale(sizes(hidden, parameter_guesses(model)).states, states)
@@ -36,12 +51,15 @@ def scaled_by_data(model: Model, scheme: Scheme, interval: Kernel, layout: Layou
     parameters = np.ones(len(layout.parameter_names))
     parameters[layout.parameter_index] = parameter_scale(model.parameters.values(), natural)
     by_name = dict(zip(model.states, RANGE * states, strict=True))
-    late = [by_name.get(str(model.delays[y].of), s) for y, s in zip(late_signals(model), layout.late_scale, strict=True)]
+    late = [
+        by_name.get(str(model.delays[y].of), s) for y, s in zip(late_signals(model), layout.late_scale, strict=True)
+    ]
     return replace(layout, state_scale=RANGE * states, parameter_scale=parameters, late_scale=np.array(late))
 
 
-def _sizes(model, scheme, interval: Kernel, layout: Layout, measured, data, recording_of, graded, hidden,
-           parameters) -> Sizes:
+def _sizes(
+    model, scheme, interval: Kernel, layout: Layout, measured, data, recording_of, graded, hidden, parameters
+) -> Sizes:
     """Sizes at the recorded motion and these parameters (q,), in the first episode.
 
     hidden : (n,) values of the states that nothing recorded shows.
@@ -51,19 +69,36 @@ def _sizes(model, scheme, interval: Kernel, layout: Layout, measured, data, reco
     nodes = m.on_mesh(np.where(np.any(states != 0, axis=0), states, hidden), layout.refine)
     z = layout.fill([nodes], np.zeros(len(layout.parameter_names)))
     z[layout.parameter_columns(0)] = parameters
-    arguments = (layout.local_view(z, 0), z[layout.parameter_columns(0)], data[0].interval,
-                 interval_constants_of(model, layout, data[0], np.ones(equations), graded))
+    arguments = (
+        layout.local_view(z, 0),
+        z[layout.parameter_columns(0)],
+        data[0].interval,
+        interval_constants_of(model, layout, data[0], np.ones(equations), graded),
+    )
     # An expression may have no value at the recorded motion: the solver says so, in words.
-    residual, slopes = (np.nan_to_num(np.abs(f(*arguments)), nan=0.0, posinf=0.0) for f in (interval.residual, interval.jacobian))
+    residual, slopes = (
+        np.nan_to_num(np.abs(f(*arguments)), nan=0.0, posinf=0.0) for f in (interval.residual, interval.jacobian)
+    )
     rows, columns = equation_of_rows(model, scheme)[interval.jacobian_rows], interval.jacobian_cols
     state_of = np.full(layout.local + interval.n_shared, -1)
-    state_of[:n] = state_of[layout.block:layout.block + n] = np.arange(n)
-    state_of[layout.width:layout.width + n * layout.interior] = np.tile(np.arange(n), layout.interior)
+    state_of[:n] = state_of[layout.block : layout.block + n] = np.arange(n)
+    state_of[layout.width : layout.width + n * layout.interior] = np.tile(np.arange(n), layout.interior)
     of_state, of_parameter = (rows >= 0) & (state_of[columns] >= 0), (rows >= 0) & (columns >= layout.local)
-    to_states, to_parameters, content = np.zeros((equations, n)), np.zeros((equations, interval.n_shared)), np.zeros(equations)
-    np.maximum.at(to_states, (rows[of_state], state_of[columns[of_state]]), slopes[:, of_state].max(axis=0) * m.step / layout.refine)
-    np.maximum.at(to_parameters, (rows[of_parameter], columns[of_parameter] - layout.local),
-                  np.sqrt(np.mean(slopes[:, of_parameter] ** 2, axis=0)))
+    to_states, to_parameters, content = (
+        np.zeros((equations, n)),
+        np.zeros((equations, interval.n_shared)),
+        np.zeros(equations),
+    )
+    np.maximum.at(
+        to_states,
+        (rows[of_state], state_of[columns[of_state]]),
+        slopes[:, of_state].max(axis=0) * m.step / layout.refine,
+    )
+    np.maximum.at(
+        to_parameters,
+        (rows[of_parameter], columns[of_parameter] - layout.local),
+        np.sqrt(np.mean(slopes[:, of_parameter] ** 2, axis=0)),
+    )
     own = equation_of_rows(model, scheme)
     np.maximum.at(content, own[own >= 0], np.sqrt(np.mean(residual[:, own >= 0] ** 2, axis=0)))
     return Sizes(to_states, to_parameters, content)

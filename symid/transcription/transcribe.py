@@ -67,16 +67,27 @@ class Transcription:
         """
         if states is None:
             states = [self.measured[r].states[self.measured[r].nodes] for r in self.recording_of]
-        states = [self.measured[r].on_mesh(x, self.layout.refine) for r, x in zip(self.recording_of, states, strict=True)]
+        states = [
+            self.measured[r].on_mesh(x, self.layout.refine) for r, x in zip(self.recording_of, states, strict=True)
+        ]
         z = self.layout.fill(states, parameters)
         self.program.settle_late(z)
         return np.clip(z, self.program.lower, self.program.upper)
 
 
-def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episodes: Episodes,
-               weights: np.ndarray, per_recording: Sequence[str], backend: str, refine: int = 1,
-               duration: str | None = None, loss: dict[str, float] | None = None,
-               information: float = 1.0) -> Transcription:
+def transcribe(
+    model: Model,
+    measured: Sequence[Measured],
+    scheme: Scheme,
+    episodes: Episodes,
+    weights: np.ndarray,
+    per_recording: Sequence[str],
+    backend: str,
+    refine: int = 1,
+    duration: str | None = None,
+    loss: dict[str, float] | None = None,
+    information: float = 1.0,
+) -> Transcription:
     """Compile the kernels, lay out the free vector, and gather the data of every episode.
 
     weights : (recordings, m) of the time integrals of the squared output errors.
@@ -94,41 +105,64 @@ def transcribe(model: Model, measured: Sequence[Measured], scheme: Scheme, episo
     recorded = all(m.targets is not None for m in measured)
     error = compile_program(objective_program(model, gaps, loss), backend=backend) if recorded else None
     layout, recording_of = _lay_out(model, measured, scheme, episodes, per_recording, refine)
-    data = [episode_data(model, scheme, measured[r], noise, refine, graded, gaps, loss)
-            for r in range(len(measured)) for noise in episodes.draw(model, measured[r].intervals)]
+    data = [
+        episode_data(model, scheme, measured[r], noise, refine, graded, gaps, loss)
+        for r in range(len(measured))
+        for noise in episodes.draw(model, measured[r].intervals)
+    ]
     if measured[0].targets is not None:
         layout = scaled_by_data(model, scheme, interval, layout, measured, data, recording_of, graded)
     weights = np.asarray(weights)
     seconds = {k: sum(kernel.seconds.get(k, 0.0) for kernel in (interval, error) if kernel) for k in interval.seconds}
-    demands = Demands(model, scheme, layout, tuple(measured), recording_of, duration, graded, information, backend, seconds)
+    demands = Demands(
+        model, scheme, layout, tuple(measured), recording_of, duration, graded, information, backend, seconds
+    )
     tied, tie_names = ties(model, layout, _linked_episodes(episodes, recording_of))
     program = CollocationProgram(
-        layout=layout, interval=interval, error=error, data=tuple(data),
-        constants=interval_constants(model, scheme, interval, layout, measured, data, recording_of, _for_scales(model, layout, duration),
-                                     graded),
-        error_constants=error_constants(model, layout), weights=weights[list(recording_of)],
+        layout=layout,
+        interval=interval,
+        error=error,
+        data=tuple(data),
+        constants=interval_constants(
+            model, scheme, interval, layout, measured, data, recording_of, _for_scales(model, layout, duration), graded
+        ),
+        error_constants=error_constants(model, layout),
+        weights=weights[list(recording_of)],
         objective_scale=objective_scale(measured, recording_of, weights),
         late=tuple(gather_late(model, scheme, layout, measured, recording_of, interval.m * sum(layout.intervals))),
-        ties=tied, tie_names=tie_names, bounds=bounds(model, layout), row_names=row_names(model, scheme),
-        times=tuple(measured[r].mesh(refine) for r in recording_of), demanded=demands.demanded(), wanted=demands.wanted())
-    return Transcription(model, scheme, episodes, tuple(measured), recording_of, layout, program, model.fingerprint, seconds,
-                         information)
+        ties=tied,
+        tie_names=tie_names,
+        bounds=bounds(model, layout),
+        row_names=row_names(model, scheme),
+        times=tuple(measured[r].mesh(refine) for r in recording_of),
+        demanded=demands.demanded(),
+        wanted=demands.wanted(),
+    )
+    return Transcription(
+        model, scheme, episodes, tuple(measured), recording_of, layout, program, model.fingerprint, seconds, information
+    )
 
 
 def _checked_loss(model: Model, loss: dict[str, float]) -> dict[str, float]:
     for name, width in loss.items():
         if name not in model.outputs:
-            raise TranscriptionError(f"loss: model '{model.name}' has no output '{name}'; {nearest(name, model.outputs)}")
+            raise TranscriptionError(
+                f"loss: model '{model.name}' has no output '{name}'; {nearest(name, model.outputs)}"
+            )
         if not (np.isfinite(width) and width > 0):
-            raise TranscriptionError(f"loss: the width {width:g} of '{name}' must be a positive number, in the output's unit")
+            raise TranscriptionError(
+                f"loss: the width {width:g} of '{name}' must be a positive number, in the output's unit"
+            )
     return loss
 
 
 def _refuse_averaged(model: Model, scheme: Scheme) -> None:
     """Where a scheme averages residuals of several points, algebraic unknowns at the points are not determined."""
     if model.algebraics and not algebraics_at_nodes(model) and len(scheme.stencil.weights) < scheme.stencil.points:
-        raise TranscriptionError(f"model '{model.name}' has algebraic variables that only equations with rates determine, and "
-                                 f"the scheme '{scheme.name}' averages equations over an interval: use Midpoint or HermiteSimpson")
+        raise TranscriptionError(
+            f"model '{model.name}' has algebraic variables that only equations with rates determine, and "
+            f"the scheme '{scheme.name}' averages equations over an interval: use Midpoint or HermiteSimpson"
+        )
 
 
 def _lay_out(model, measured, scheme, episodes, per_recording, refine) -> tuple[Layout, tuple[int, ...]]:
@@ -146,16 +180,30 @@ def _lay_out(model, measured, scheme, episodes, per_recording, refine) -> tuple[
     scales[index] = bounded_scale(model.parameters.values())
     beside = [*model.controls, *(model.algebraics if algebraics_at_nodes(model) else ())]
     own = own_points(model, scheme.stencil)
-    late, of_states, of_beside = late_signals(model), np.ones(len(model.states)), bounded_scale(model[b] for b in beside)
+    late, of_states, of_beside = (
+        late_signals(model),
+        np.ones(len(model.states)),
+        bounded_scale(model[b] for b in beside),
+    )
     by_name = dict(zip((*model.states, *beside), (*of_states, *of_beside), strict=True))
     layout = Layout(
-        state_names=tuple(model.states), parameter_names=tuple(free), late_names=tuple(map(str, late)),
-        interior=scheme.stencil.interior, points=scheme.stencil.points,
-        intervals=tuple(measured[r].intervals * refine for r in recording_of), parameter_index=index[list(recording_of)],
-        state_scale=of_states, parameter_scale=scales,
-        late_scale=np.array([by_name.get(str(model.delays[y].of), 1.0) for y in late]), refine=refine,
-        beside_names=tuple(beside), beside_scale=of_beside, own_names=tuple(model.algebraics) if own else (),
-        own_scale=bounded_scale(model.algebraics.values()) if own else np.zeros(0), own_points=len(own))
+        state_names=tuple(model.states),
+        parameter_names=tuple(free),
+        late_names=tuple(map(str, late)),
+        interior=scheme.stencil.interior,
+        points=scheme.stencil.points,
+        intervals=tuple(measured[r].intervals * refine for r in recording_of),
+        parameter_index=index[list(recording_of)],
+        state_scale=of_states,
+        parameter_scale=scales,
+        late_scale=np.array([by_name.get(str(model.delays[y].of), 1.0) for y in late]),
+        refine=refine,
+        beside_names=tuple(beside),
+        beside_scale=of_beside,
+        own_names=tuple(model.algebraics) if own else (),
+        own_scale=bounded_scale(model.algebraics.values()) if own else np.zeros(0),
+        own_points=len(own),
+    )
     return layout, recording_of
 
 

@@ -52,18 +52,24 @@ class Audit:
         return bool(np.isfinite(self.cutoff).any())
 
 
-def audit(model: Model, recording: Recording, segments: tuple[Segment, ...], given: float | Mapping[str, float] | None) -> Audit:
+def audit(
+    model: Model, recording: Recording, segments: tuple[Segment, ...], given: float | Mapping[str, float] | None
+) -> Audit:
     """Sensor noise as stated, or else from the recording; and where its spectrum is empty."""
     table = given if isinstance(given, Mapping) else recording.noise if given is None else {}
     names = [y.channel for y in model.outputs.values()]
     cutoff = np.array([_cutoff([e.recorded[:, i] for e in segments], segments[0].step) for i in range(len(names))])
     rounding = np.array([_step(np.concatenate([e.recorded[:, i] for e in segments])) for i in range(len(names))])
     filter = _filter(model, segments) if np.isfinite(cutoff).any() else None
-    inputs = filter is not None and any(np.isfinite(_cutoff([e.inputs[u] for e in segments], segments[0].step)) for u in model.inputs)
+    inputs = filter is not None and any(
+        np.isfinite(_cutoff([e.inputs[u] for e in segments], segments[0].step)) for u in model.inputs
+    )
     if isinstance(given, (int, float)):
         return Audit(np.full(len(names), float(given)), True, cutoff, rounding, filter, inputs)
-    noise = [float(table[c]) if c in table else _noise([e.recorded[:, i] for e in segments], segments[0].step, filter)
-             for i, c in enumerate(names)]
+    noise = [
+        float(table[c]) if c in table else _noise([e.recorded[:, i] for e in segments], segments[0].step, filter)
+        for i, c in enumerate(names)
+    ]
     return Audit(np.array(noise), all(c in table for c in names), cutoff, rounding, filter, inputs)
 
 
@@ -107,9 +113,13 @@ def _cutoff(pieces: list[np.ndarray], step: float) -> float:
     if len(x) < 128:
         return np.nan
     # A window whose side lobes lie below the rounding of most files: what is seen is no leakage.
-    f, power = welch(x, 1 / step, window="blackmanharris", nperseg=min(len(x), max(128, int(5 / step))), detrend="linear")
+    f, power = welch(
+        x, 1 / step, window="blackmanharris", nperseg=min(len(x), max(128, int(5 / step))), detrend="linear"
+    )
     total = np.cumsum(power[::-1])[::-1]
-    middle, top = (float(np.sqrt(np.median(power[(f > a * f[-1]) & (f <= b * f[-1])]))) for a, b in ((0.5, 0.65), (0.85, 0.99)))
+    middle, top = (
+        float(np.sqrt(np.median(power[(f > a * f[-1]) & (f <= b * f[-1])]))) for a, b in ((0.5, 0.65), (0.85, 0.99))
+    )
     floor = np.sqrt(top**2 * f[-1] / (total[1] * f[1] + 1e-300))
     if middle < FALLING * top and floor > ROUNDING:
         return np.nan

@@ -30,8 +30,11 @@ def flexible_terms(fit: Fit, data: Data) -> list[Term]:
     scale = {y.at: _size(recorded[:, i]) for i, y in enumerate(model.outputs.values())}
     law = unknown_sensor(scale, data.span)
     terms += [law.at(y.at) for y in model.outputs.values() if y.role == "sensor"]
-    scale = {u.at: _size(np.concatenate([e.inputs[k] for e in data.segments])) for k, u in model.inputs.items()
-             if u.role == "excitation"}
+    scale = {
+        u.at: _size(np.concatenate([e.inputs[k] for e in data.segments]))
+        for k, u in model.inputs.items()
+        if u.role == "excitation"
+    }
     law = unknown_input(scale, data.span)
     return terms + [law.at(place) for place in scale]
 
@@ -49,8 +52,9 @@ def _size(x: np.ndarray) -> float:
 def fitted_path(fit: Fit, data: Data) -> np.ndarray:
     """(N, n) states of the fit, all segments one below the other."""
     sim = simulator(fit.model)
-    return np.vstack([e.simulate(sim, fit.values, x0, fit.kalman_gain).x
-                      for e, x0 in zip(data.segments, fit.initial, strict=True)])
+    return np.vstack(
+        [e.simulate(sim, fit.values, x0, fit.kalman_gain).x for e, x0 in zip(data.segments, fit.initial, strict=True)]
+    )
 
 
 def along(path: np.ndarray, expr, model: Model) -> np.ndarray:
@@ -66,7 +70,9 @@ def flexible_fits(base: Fit, data: Data, terms: Sequence[Term]) -> list[Hypothes
         try:
             fitter = Fitter(base.model.with_term(term), data)
             off = suspect.named({q.key: 0.0 for q in term.law.parameters})
-            fit = fitter.fit(base.values | off, extended(base.initial, fitter.sim), base.process, MOST_ITERATIONS, errors=False)
+            fit = fitter.fit(
+                base.values | off, extended(base.initial, fitter.sim), base.process, MOST_ITERATIONS, errors=False
+            )
         except SymidError:
             continue
         found.append(Hypothesis((suspect,), fit, base, data))

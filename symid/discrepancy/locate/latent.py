@@ -48,7 +48,9 @@ def latent_torques(fit: Fit, run: FreeRun) -> tuple[Latent, ...]:
         return ()
     sim = fit.simulator
     step = float(np.median(np.diff(run.time)))
-    linear = linearised_along(sim, np.array([fit.values[k] for k in sim.parameters]), _states(model, run, step), TURNING)
+    linear = linearised_along(
+        sim, np.array([fit.values[k] for k in sim.parameters]), _states(model, run, step), TURNING
+    )
     A, G, C = linear.without_delay()
     residual = run.recorded - run.simulated
     size = _moving(A, G, C, residual)
@@ -57,8 +59,10 @@ def latent_torques(fit: Fit, run: FreeRun) -> tuple[Latent, ...]:
     torque, variance = _most_likely(A, G * size, C, residual, step, _sensor_noise(run.recorded), pieces)
     error = np.sqrt(variance)
     size = size * [_sign(model, w) for w in model.noises.values()]
-    return tuple(Latent(w.at or name, w.unit, run.time, torque[:, i] * size[i], error[:, i] * abs(size[i]))
-                 for i, (name, w) in enumerate(model.noises.items()))
+    return tuple(
+        Latent(w.at or name, w.unit, run.time, torque[:, i] * size[i], error[:, i] * abs(size[i]))
+        for i, (name, w) in enumerate(model.noises.items())
+    )
 
 
 def _most_likely(A, G, C, residual, step, noise, pieces):
@@ -101,8 +105,16 @@ def _states(model: Model, run: FreeRun, step: float) -> np.ndarray:
     """States along the run: what outputs show, and their slopes for rates; zero for others."""
     shown = {str(y.expr): run.simulated[:, i] for i, y in enumerate(model.outputs.values())}
     rates = model.rates()
-    return np.column_stack([shown[s] if s in shown else np.gradient(shown[rates[s]], step) if rates.get(s) in shown
-                            else np.zeros(len(run.time)) for s in model.states])
+    return np.column_stack(
+        [
+            shown[s]
+            if s in shown
+            else np.gradient(shown[rates[s]], step)
+            if rates.get(s) in shown
+            else np.zeros(len(run.time))
+            for s in model.states
+        ]
+    )
 
 
 def _moving(A, G, C, residual) -> np.ndarray:
@@ -131,7 +143,7 @@ def _covariances(F, Q, H, R, P, longest: int):
         P = F @ P @ F.T + Q if k else P
         S = H @ P @ H.T + R
         K = np.linalg.solve(S, H @ P).T
-        after = (eye - K @ H) @ P @ (eye - K @ H).T + K @ R @ K.T   # Joseph's form stays positive
+        after = (eye - K @ H) @ P @ (eye - K @ H).T + K @ R @ K.T  # Joseph's form stays positive
         found.append((P, after, K, S))
         if k and np.allclose(P, found[-2][0], rtol=1e-7, atol=0):
             break

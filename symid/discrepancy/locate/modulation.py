@@ -43,8 +43,14 @@ def modulated(projection: Projection) -> list[tuple[str, float, int]]:
             continue
         motion = [along(path, expr, model) for expr in (port.position, port.rate)]
         motion = [(x - x.mean()) / (x.std() or 1.0) for x in motion]
-        gains = [projection.score(np.column_stack([_to_force(answer, x * wave(2 * np.pi * f * time))
-                                               for x in motion for wave in (np.sin, np.cos)]))[0] for f in frequencies]
+        gains = [
+            projection.score(
+                np.column_stack(
+                    [_to_force(answer, x * wave(2 * np.pi * f * time)) for x in motion for wave in (np.sin, np.cos)]
+                )
+            )[0]
+            for f in frequencies
+        ]
         found.append((port.at, max(gains), len(frequencies)))
     return found
 
@@ -53,11 +59,14 @@ def _answer(projection: Projection, port: Port) -> np.ndarray | None:
     """(K, m) whitened change of the predictions after a push at a joint, sample by sample."""
     suspect, segment = Suspect(SHORT_PUSH.at(port.at), established=False), projection.data.segments[0]
     start = len(segment.time) // 2
-    column = projection.response(suspect, simulator(projection.fit.model.with_term(suspect.term)),
-                             {"impulse_Nms": 0.0, "time_s": float(segment.time[start])})
-    return None if column is None else column.reshape(-1, projection.outputs)[start:start + int(LASTS / segment.step)]
+    column = projection.response(
+        suspect,
+        simulator(projection.fit.model.with_term(suspect.term)),
+        {"impulse_Nms": 0.0, "time_s": float(segment.time[start])},
+    )
+    return None if column is None else column.reshape(-1, projection.outputs)[start : start + int(LASTS / segment.step)]
 
 
 def _to_force(answer: np.ndarray, force: np.ndarray) -> np.ndarray:
     """(N m,) answer to a force (N,), up to a factor."""
-    return fftconvolve(force[:, None], answer, axes=0)[:len(force)].reshape(-1)
+    return fftconvolve(force[:, None], answer, axes=0)[: len(force)].reshape(-1)

@@ -27,7 +27,7 @@ class Projection:
         for i, t in enumerate(runs):
             J = self.whiten(t.dy)
             wide = np.zeros((len(J), q + n * len(runs)))
-            wide[:, :q], wide[:, q + i * n:q + (i + 1) * n] = J[:, :q], J[:, q:]
+            wide[:, :q], wide[:, q + i * n : q + (i + 1) * n] = J[:, :q], J[:, q:]
             columns.append(wide)
         J = np.vstack(columns)
         J /= np.maximum(np.sqrt((J**2).sum(0)), 1e-300)
@@ -61,17 +61,22 @@ class Projection:
             self.bases.append(np.linalg.qr((a / scale)[:, kept])[0].astype(np.float32))
         return self.score(columns)
 
-    def response(self, suspect: Suspect, sim: Simulator, values: dict[str, float],
-                 each: Sequence[dict[str, float]] | None = None) -> np.ndarray | None:
+    def response(
+        self, suspect: Suspect, sim: Simulator, values: dict[str, float], each: Sequence[dict[str, float]] | None = None
+    ) -> np.ndarray | None:
         """(N m, q) change of the predictions per unit of what can be switched off, at `values`, `each` of one segment."""
         names = [suspect.term.parameter_name(q.key) for q in suspect.law.parameters if q.null is not None]
         out = []
-        for e, x0, own in zip(self.data.segments, extended(self.fit.initial, sim), each or [{}] * len(self.data.segments), strict=True):
+        for e, x0, own in zip(
+            self.data.segments, extended(self.fit.initial, sim), each or [{}] * len(self.data.segments), strict=True
+        ):
             if not suspect.touches(values, e):
                 out.append(np.zeros((e.recorded.size, len(names))))
                 continue
             p = self.fit.values | suspect.named(values | own)
-            t = e.simulate(sim, p, x0, padded(self.fit.kalman_gain, sim), substeps=self.substeps, sensitivity=names, keep="outputs")
+            t = e.simulate(
+                sim, p, x0, padded(self.fit.kalman_gain, sim), substeps=self.substeps, sensitivity=names, keep="outputs"
+            )
             if t.diverged:
                 return None
             out.append(self.whiten(t.dy))

@@ -25,9 +25,11 @@ WHITENING = 0.6
 WHITENESS_LAGS = 25
 """So many lags of the innovations' correlation enter the test of whiteness."""
 
-_WHAT = {"unknown_force": "a force that depends on position, speed, the past or time",
-         "unknown_sensor_error": "a distortion of what the sensor shows",
-         "unknown_input_error": "an excitation other than the recorded one"}
+_WHAT = {
+    "unknown_force": "a force that depends on position, speed, the past or time",
+    "unknown_sensor_error": "a distortion of what the sensor shows",
+    "unknown_input_error": "an excitation other than the recorded one",
+}
 
 
 @dataclass(frozen=True)
@@ -59,7 +61,9 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
     """All tests, the least probable first."""
     projection, found = Projection(fit, data), []
     rounded = _rounded(fit, data)
-    nulls = [projection.project(np.concatenate([projection.whiten(s[:, :, None])[:, 0] for s in null])) for null in rounded]
+    nulls = [
+        projection.project(np.concatenate([projection.whiten(s[:, :, None])[:, 0] for s in null])) for null in rounded
+    ]
     for term in flexible_terms(fit, data):
         try:
             sim = simulator(fit.model.with_term(term))
@@ -69,11 +73,22 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
         if columns is not None:
             gain, coefficients = projection.score(columns)
             size = int(np.count_nonzero(coefficients))
-            found.append(Test(term.location, _WHAT[term.name], gain / _excess([projection.score(columns, r)[0] for r in nulls], size), size))
-    found += [Test(place, "a stiffness or damping that comes and goes", gain, PARTS, tried=tried)
-              for place, gain, tried in modulated(projection)]
+            found.append(
+                Test(
+                    term.location,
+                    _WHAT[term.name],
+                    gain / _excess([projection.score(columns, r)[0] for r in nulls], size),
+                    size,
+                )
+            )
+    found += [
+        Test(place, "a stiffness or damping that comes and goes", gain, PARTS, tried=tried)
+        for place, gain, tried in modulated(projection)
+    ]
     for o, y in enumerate(fit.model.outputs.values()):
-        statistic = _ljung_box(projection, fit.innovations, o) / _excess([_ljung_box(projection, r, o) for r in rounded], WHITENESS_LAGS)
+        statistic = _ljung_box(projection, fit.innovations, o) / _excess(
+            [_ljung_box(projection, r, o) for r in rounded], WHITENESS_LAGS
+        )
         found.append(Test(y.at, "innovations that follow from earlier ones", statistic, WHITENESS_LAGS, locates=False))
     return sorted(found, key=lambda t: -round(t.minus_log10_p, 1))
 
@@ -82,8 +97,15 @@ def _columns(projection: Projection, sim: Simulator, term: Term) -> np.ndarray |
     names = [term.parameter_name(q.key) for q in term.law.parameters]
     values, out = projection.fit.values | dict.fromkeys(names, 0.0), []
     for e, x0 in zip(projection.data.segments, extended(projection.fit.initial, sim), strict=True):
-        t = e.simulate(sim, values, x0, padded(projection.fit.kalman_gain, sim), substeps=projection.substeps,
-                       sensitivity=names, keep="outputs")
+        t = e.simulate(
+            sim,
+            values,
+            x0,
+            padded(projection.fit.kalman_gain, sim),
+            substeps=projection.substeps,
+            sensitivity=names,
+            keep="outputs",
+        )
         if t.diverged:
             return None
         out.append(projection.whiten(t.dy))

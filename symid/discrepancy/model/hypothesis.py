@@ -74,7 +74,11 @@ class Hypothesis:
     def _is_harmonic(self, suspect: Suspect) -> bool:
         """Whether a clock strikes where a motion that nothing drives has its own harmonics."""
         key = suspect.clock("frequency")
-        if key is None or self.fit.kalman_gain is not None or any(np.ptp(u) > 0 for s in self.data.segments for u in s.inputs.values()):
+        if (
+            key is None
+            or self.fit.kalman_gain is not None
+            or any(np.ptp(u) > 0 for s in self.data.segments for u in s.inputs.values())
+        ):
             return False
         t0, t1 = self.data.span
         ratio = self.fit.values[suspect.term.parameter_name(key)] * np.median([swing(s) for s in self.data.segments])
@@ -95,14 +99,23 @@ def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, sh
 
 def _surprise(suspect: Suspect, fit: Fit) -> float:
     """Minus twice the logarithm of the Cauchy priors of its sizes, relative to none."""
-    sizes = [(fit.values[suspect.term.parameter_name(q.key)] - q.null) / q.plausible
-             for q in suspect.law.parameters if q.plausible and q.null is not None]
+    sizes = [
+        (fit.values[suspect.term.parameter_name(q.key)] - q.null) / q.plausible
+        for q in suspect.law.parameters
+        if q.plausible and q.null is not None
+    ]
     return sum(2 * log(1 + z**2) for z in sizes)
 
 
 # ---- fits ------------------------------------------------------------------------------------
-def refit(suspects: Sequence[Suspect], near: Fit, base: Fit, data: Data, more: dict[str, float] | None = None,
-          iterations: int = 40) -> Fit | None:
+def refit(
+    suspects: Sequence[Suspect],
+    near: Fit,
+    base: Fit,
+    data: Data,
+    more: dict[str, float] | None = None,
+    iterations: int = 40,
+) -> Fit | None:
     """The model of `base` with exactly these suspects, from the values and states of a fit nearby (else of `more`).
 
     None where it cannot be fitted.
@@ -112,16 +125,18 @@ def refit(suspects: Sequence[Suspect], near: Fit, base: Fit, data: Data, more: d
         model = model.with_term(s.term)
     fitter, values = Fitter(model, data), (more or {}) | near.values
     columns = {k: i for i, k in enumerate(near.simulator.states)}
-    start = np.column_stack([near.initial[:, columns[k]] if k in columns else np.zeros(len(near.initial))
-                             for k in fitter.sim.states])
+    start = np.column_stack(
+        [near.initial[:, columns[k]] if k in columns else np.zeros(len(near.initial)) for k in fitter.sim.states]
+    )
     try:
         return fitter.fit({k: values[k] for k in fitter.sim.parameters}, start, near.process, iterations)
     except SymidError:
         return None
 
 
-def hypothesis(suspects: Sequence[Suspect], near: Fit, base: Fit, data: Data, more: dict[str, float] | None = None
-               ) -> Hypothesis | None:
+def hypothesis(
+    suspects: Sequence[Suspect], near: Fit, base: Fit, data: Data, more: dict[str, float] | None = None
+) -> Hypothesis | None:
     """These suspects refitted together; None where they cannot be."""
     fit = refit(suspects, near, base, data, more)
     return None if fit is None else Hypothesis(tuple(suspects), fit, base, data)

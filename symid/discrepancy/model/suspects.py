@@ -17,7 +17,13 @@ from symid.model import Law, LawParameter, Model, Term
 
 SCANNED = ("frequency", "start", "moment")
 """What of a clock is looked for on a grid over the recording."""
-KINDS = {"sensor": "sensor", "gravity": "geometry", "center_of_mass": "geometry", "inertia": "geometry", "length": "geometry"}
+KINDS = {
+    "sensor": "sensor",
+    "gravity": "geometry",
+    "center_of_mass": "geometry",
+    "inertia": "geometry",
+    "length": "geometry",
+}
 """Role of the parts that a law changes -> what kind of suspect it is; "state" where it is none of these, nor follows a clock."""
 HIGHEST_FREQUENCY = 5.0
 """Up to here a periodic suspect is looked for [Hz]."""
@@ -148,4 +154,9 @@ def _equations(model: Model, term: Term) -> tuple | None:
     own = [more[term.parameter_name(q.key)].symbol for q in term.law.parameters]
     plain = {s: s.func(f"unknown{i}") for i, s in enumerate(own)}
     shown = (y.expr.xreplace(plain) for y in more.outputs.values())
-    return (*(e.xreplace(plain) for e in more.residual()), *shown, *(d.of for d in more.delays.values()), *(d.lag.xreplace(plain) for d in more.delays.values()))
+    return (
+        *(e.xreplace(plain) for e in more.residual()),
+        *shown,
+        *(d.of for d in more.delays.values()),
+        *(d.lag.xreplace(plain) for d in more.delays.values()),
+    )

@@ -19,7 +19,9 @@ FINE = 0.4
 CHUNK = 64
 
 
-def comb(projection: Projection, suspect: Suspect, sim: Simulator, highest: float, keep: int = 6) -> list[dict[str, float]]:
+def comb(
+    projection: Projection, suspect: Suspect, sim: Simulator, highest: float, keep: int = 6
+) -> list[dict[str, float]]:
     """The best frequencies up to `highest` [Hz], with the other values of `suspect`, strength off.
 
     Segments far apart in time ask for a fine grid of frequencies, each alone for a coarse one.
@@ -33,8 +35,12 @@ def comb(projection: Projection, suspect: Suspect, sim: Simulator, highest: floa
     answers = []
     for f in known:
         turned = 2 * np.pi * f * np.array(middles)
-        cos, sin = (projection.response(suspect, sim, suspect.starts()[0] | {q.key: float(f)},
-                                    [{suspect.phase: turn - a} for a in turned]) for turn in (np.pi / 2, 0.0))
+        cos, sin = (
+            projection.response(
+                suspect, sim, suspect.starts()[0] | {q.key: float(f)}, [{suspect.phase: turn - a} for a in turned]
+            )
+            for turn in (np.pi / 2, 0.0)
+        )
         if cos is None or sin is None:
             return []
         answers.append((cos + 1j * sin)[:, 0].reshape(-1, projection.outputs)[rows].reshape(-1))
@@ -43,8 +49,12 @@ def comb(projection: Projection, suspect: Suspect, sim: Simulator, highest: floa
     take = (rows[:, None] * outputs + np.arange(outputs)).reshape(-1)
     own, _ = np.linalg.qr(projection.own[take])
     rest = projection.rest[take] - own @ (own.T @ projection.rest[take])
-    gain = np.concatenate([_gains(_between(known, np.array(answers), f) * np.exp(2j * np.pi * np.outer(f, middle)), own, rest)
-                           for f in np.array_split(fine, len(fine) // CHUNK + 1)])
+    gain = np.concatenate(
+        [
+            _gains(_between(known, np.array(answers), f) * np.exp(2j * np.pi * np.outer(f, middle)), own, rest)
+            for f in np.array_split(fine, len(fine) // CHUNK + 1)
+        ]
+    )
     peaks, _ = find_peaks(np.pad(gain, 1), distance=3)
     best = sorted(peaks - 1, key=lambda k: -gain[k])[:keep]
     return [suspect.starts()[0] | {q.key: float(fine[k])} for k in best]

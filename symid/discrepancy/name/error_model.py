@@ -19,8 +19,9 @@ from symid.estimation.fit import Fit, Fitter
 from symid.estimation.measurement import with_memory
 
 
-def with_error_model(possible: list[tuple[Data, Fit]], searched: Callable[[Fit, Data], Search],
-                     progress: Callable[[str], None]) -> tuple[Search, Hypothesis, list[Hypothesis]]:
+def with_error_model(
+    possible: list[tuple[Data, Fit]], searched: Callable[[Fit, Data], Search], progress: Callable[[str], None]
+) -> tuple[Search, Hypothesis, list[Hypothesis]]:
     """The search under the error model that belongs to the recording, what it found, and each suspect alone.
 
     Parameters
@@ -55,11 +56,16 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
     """The model as given under another error model, from its own values or from those that go with what was found."""
     fitter = Fitter(base.model, data)
     kept = [explained.simulator.states.index(s) for s in fitter.sim.states]
-    near = replace(base, values={k: explained.values[k] for k in base.values}, initial=explained.initial[:, kept],
-                   process=explained.process, kalman_gain=None)
+    near = replace(
+        base,
+        values={k: explained.values[k] for k in base.values},
+        initial=explained.initial[:, kept],
+        process=explained.process,
+        kalman_gain=None,
+    )
     fits = [fitter.again(base)]
     try:
         fits.append(fitter.again(near))
     except SymidError:
-        pass    # without what was found these values need not hold the model together
+        pass  # without what was found these values need not hold the model together
     return max(fits, key=lambda fit: fit.loglik2)

@@ -29,27 +29,43 @@ class Start:
     values: dict[str, float]
 
 
-def explore(fit: Fit, data: Data, suspects: Sequence[Suspect], *, later: bool = False,
-            projection: Projection | None = None, threads: int = 2, progress: Callable[[str], None] = lambda text: None) -> list[Hypothesis]:
+def explore(
+    fit: Fit,
+    data: Data,
+    suspects: Sequence[Suspect],
+    *,
+    later: bool = False,
+    projection: Projection | None = None,
+    threads: int = 2,
+    progress: Callable[[str], None] = lambda text: None,
+) -> list[Hypothesis]:
     """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found."""
     projection = projection or Projection(fit, data)
-    refitted, converged = ((POLICY.refitted_later, POLICY.converged_later) if later else (POLICY.refitted, POLICY.converged))
+    refitted, converged = (
+        (POLICY.refitted_later, POLICY.converged_later) if later else (POLICY.refitted, POLICY.converged)
+    )
     with ThreadPoolExecutor(threads) as pool:
         starts = [s for s in pool.map(lambda s: _starts(fit, data, projection, s), suspects) if s]
         starts.sort(key=lambda s: -s[0].forecast)
-        chosen = [s for i, s in enumerate(starts) if s[0].forecast > POLICY.worth_refitting or i < POLICY.always_refitted]
+        chosen = [
+            s for i, s in enumerate(starts) if s[0].forecast > POLICY.worth_refitting or i < POLICY.always_refitted
+        ]
         chosen = chosen[:refitted]
         chosen += [s for s in starts if s not in chosen and s[0].suspect.bypasses]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
-        first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen[:POLICY.always_refitted]) if c is not None]
+        first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen[: POLICY.always_refitted]) if c is not None]
         best = max((c.log_ratio for c in first), default=0.0)
-        worth = [s for s in chosen[POLICY.always_refitted:] if s[0].forecast > POLICY.beam_share * best or s[0].suspect.bypasses]
+        worth = [
+            s
+            for s in chosen[POLICY.always_refitted :]
+            if s[0].forecast > POLICY.beam_share * best or s[0].suspect.bypasses
+        ]
         first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
         first.sort(key=lambda c: -c.log_ratio)
         others = {s[0].suspect: s[1:3] for s in chosen}
         good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
         found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), good))
-        rest = first[len(good):]
+        rest = first[len(good) :]
         near = max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near
         close = [c for c in rest if c.log_ratio > max(near, 0.0) and not c.fit.converged]
         found += list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), close))
@@ -100,8 +116,13 @@ def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothes
     suspect = start.suspect
     fitter = Fitter(fit.model.with_term(suspect.term), data)
     try:
-        new = fitter.fit(fit.values | suspect.named(start.values), extended(fit.initial, fitter.sim), fit.process, iterations,
-                         errors=iterations >= 40)
+        new = fitter.fit(
+            fit.values | suspect.named(start.values),
+            extended(fit.initial, fitter.sim),
+            fit.process,
+            iterations,
+            errors=iterations >= 40,
+        )
     except SymidError:
         return None
     return Hypothesis((suspect,), new, fit, data, start.forecast)

@@ -55,12 +55,12 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
         if column is None:
             continue
         first = int((middle - t0) / step) - 1
-        kernel = column.reshape(rest.shape)[first:first + int(10 / step)]
-        score = sum(fftconvolve(rest[:, o], kernel[::-1, o])[len(kernel) - 1:] for o in range(rest.shape[1]))
+        kernel = column.reshape(rest.shape)[first : first + int(10 / step)]
+        score = sum(fftconvolve(rest[:, o], kernel[::-1, o])[len(kernel) - 1 :] for o in range(rest.shape[1]))
         gain = score**2 / (kernel**2).sum()
         for k in _peaks(gain, int(0.5 / step), keep):
             found.append((gain[k], values | {suspect.scanned.key: float(t0 + (k + 1) * step)}))
-    return [v for _, v in sorted(found, key=lambda f: -f[0])[:2 * keep]]
+    return [v for _, v in sorted(found, key=lambda f: -f[0])[: 2 * keep]]
 
 
 def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 6) -> list[dict[str, float]]:
@@ -71,7 +71,9 @@ def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
     known = np.geomspace(0.05, HIGHEST_FREQUENCY, 24)
     answers = []
     for f in known:
-        column = projection.response(suspect, sim, suspect.starts()[0] | {suspect.scanned.key: float(f), suspect.phase: 0.0})
+        column = projection.response(
+            suspect, sim, suspect.starts()[0] | {suspect.scanned.key: float(f), suspect.phase: 0.0}
+        )
         if column is None:
             return []
         late = slice(n // 5, None)
@@ -82,8 +84,13 @@ def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
     f = np.fft.rfftfreq(size, step)
     use = (f > 1.0 / time[-1]) & (f < HIGHEST_FREQUENCY)
     spectrum = np.fft.rfft(rest, size, axis=0)[use]
-    G = np.column_stack([np.interp(f[use], known, [a[o].real for a in answers])
-                         + 1j * np.interp(f[use], known, [a[o].imag for a in answers]) for o in range(rest.shape[1])])
+    G = np.column_stack(
+        [
+            np.interp(f[use], known, [a[o].real for a in answers])
+            + 1j * np.interp(f[use], known, [a[o].imag for a in answers])
+            for o in range(rest.shape[1])
+        ]
+    )
     gain = 2 * np.abs((G.conj() * spectrum).sum(1)) ** 2 / (n * (np.abs(G) ** 2).sum(1) + 1e-300)
     return [suspect.starts()[0] | {suspect.scanned.key: float(f[use][k])} for k in _peaks(gain, 6, keep)]
 
@@ -96,5 +103,5 @@ def _peaks(values: np.ndarray, apart: int, keep: int) -> list[int]:
         if not values[k] > 0:
             break
         found.append(k)
-        values[max(0, k - apart):k + apart + 1] = 0
+        values[max(0, k - apart) : k + apart + 1] = 0
     return found

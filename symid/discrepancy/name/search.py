@@ -136,16 +136,29 @@ class Search:
         return by_score(found)
 
     def _explored(self, best: Hypothesis, pool: Sequence[Suspect]) -> list[Hypothesis]:
-        found = explore(best.fit, self.data, pool, later=bool(best.suspects), threads=self.threads, progress=self.progress,
-                        projection=None if best.suspects else self.projection)
+        found = explore(
+            best.fit,
+            self.data,
+            pool,
+            later=bool(best.suspects),
+            threads=self.threads,
+            progress=self.progress,
+            projection=None if best.suspects else self.projection,
+        )
         return [Hypothesis((*best.suspects, h.suspect), h.fit, self.base, self.data, h.forecast) for h in found]
 
     def _other_pairs(self, best: Hypothesis, single: list[Hypothesis]) -> list[Hypothesis]:
         """Pairs that begin with any of the other good suspects: the best single one may belong to none."""
-        rivals = [h for h in single if h.established and h.suspect != best.suspect
-                  and h.score > POLICY.beam_share * best.score and self._worth(h, Hypothesis((), self.base, self.base, self.data))]
+        rivals = [
+            h
+            for h in single
+            if h.established
+            and h.suspect != best.suspect
+            and h.score > POLICY.beam_share * best.score
+            and self._worth(h, Hypothesis((), self.base, self.base, self.data))
+        ]
         pairs = []
-        for h in rivals[:POLICY.beam]:
+        for h in rivals[: POLICY.beam]:
             self.progress(f"looking for what would complete {h.suspect.term}")
             pairs.append(self._preferred(h, self._added(h)))
         return [p for p in pairs if p is not None]
@@ -155,7 +168,7 @@ class Search:
         kept, taken = list(found.suspects[1:]), {s.term for s in found.suspects}
         sets = [([s for s in found.suspects if s is not earlier], None) for earlier in found.suspects[:-1]]
         rivals = [h for h in single if h.suspect.term not in taken and h.established == found.suspects[0].established]
-        sets += [([h.suspect, *kept], h.fit.values) for h in rivals[:POLICY.rivals]]
+        sets += [([h.suspect, *kept], h.fit.values) for h in rivals[: POLICY.rivals]]
         tried = [hypothesis(chosen, found.fit, self.base, self.data, more) for chosen, more in sets]
         tried = [found, *(h for h in tried if h is not None)]
         self.tried += tried

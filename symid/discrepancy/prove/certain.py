@@ -18,7 +18,11 @@ from symid.estimation.robust_errors import with_robust_errors
 def honest(found: Hypothesis, white: bool, threads: int) -> Hypothesis:
     """The hypothesis with errors that do not believe in white innovations where they are not, without what these take back."""
     if white:
-        names = [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters] if found.established else []
+        names = (
+            [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters]
+            if found.established
+            else []
+        )
         return replace(found, fit=unbiased(found.fit, found.data, names, threads))
     kept = steady(found) or found
     return sure(replace(kept, fit=with_robust_errors(kept.fit, kept.data)))
@@ -58,4 +62,6 @@ def weakest(found: Hypothesis) -> float:
 def _certainty(suspect: Suspect, fit: Fit) -> float:
     """Standard errors between the suspect and nothing; infinite where no value of it means nothing."""
     nulls = {suspect.term.parameter_name(q.key): q.null for q in suspect.law.parameters if q.null is not None}
-    return max((abs(fit.values[k] - null) / fit.errors[k] for k, null in nulls.items() if fit.errors.get(k)), default=np.inf)
+    return max(
+        (abs(fit.values[k] - null) / fit.errors[k] for k, null in nulls.items() if fit.errors.get(k)), default=np.inf
+    )

@@ -55,7 +55,9 @@ class HalfVerdict:
     rival: Suspect | None = None
 
 
-def verdicts(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, rivals: Sequence[Suspect]) -> tuple[HalfVerdict, ...]:
+def verdicts(
+    suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, rivals: Sequence[Suspect]
+) -> tuple[HalfVerdict, ...]:
     """The verdict on each of two disjoint halves, with what was found and each of `rivals` in its place.
 
     Empty where a half cannot be fitted.
@@ -63,13 +65,24 @@ def verdicts(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, rival
     found = []
     for half, initial in zip(data.halves(), _states(fit, data), strict=True):
         near = replace(fit, initial=initial)
-        given, whole = refit([], near, base, half, iterations=ITERATIONS), refit(suspects, near, base, half, iterations=ITERATIONS)
+        given, whole = (
+            refit([], near, base, half, iterations=ITERATIONS),
+            refit(suspects, near, base, half, iterations=ITERATIONS),
+        )
         if given is None or whole is None:
             return ()
         score = whole.loglik2 - given.loglik2 - penalty(suspects, half, given, whole)
         explained = score > 0 and bool(suspects)
-        verdict = "unexplained" if remainder(whole, half)[0].minus_log10_p > POLICY.remainder else "missing_physics" if explained else "adequate"
-        found.append(HalfVerdict(half.span, verdict, _better(rivals, score, given, half) if len(suspects) == 1 else None))
+        verdict = (
+            "unexplained"
+            if remainder(whole, half)[0].minus_log10_p > POLICY.remainder
+            else "missing_physics"
+            if explained
+            else "adequate"
+        )
+        found.append(
+            HalfVerdict(half.span, verdict, _better(rivals, score, given, half) if len(suspects) == 1 else None)
+        )
     return tuple(found)
 
 
@@ -79,8 +92,9 @@ def _better(rivals: Sequence[Suspect], score: float, given: Fit, half: Data) -> 
     return found[0].suspect if found else None
 
 
-def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool,
-              others: Sequence[Suspect] = ()) -> tuple[Survival, ...]:
+def survivals(
+    suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool, others: Sequence[Suspect] = ()
+) -> tuple[Survival, ...]:
     """Every lasting effect of `suspects` refitted on two disjoint halves, each compared with the model that lacks only it.
 
     Effects that last for a time only, or begin at one, are left out: a half need not contain them.
@@ -99,7 +113,9 @@ def survivals(suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, whit
         if found[-1] is None:
             return ()
     pairs = zip(*found, strict=True)
-    return tuple(Survival(s.term.name, s.term.location, pair, _reason(pair)) for s, pair in zip(lasting, pairs, strict=True))
+    return tuple(
+        Survival(s.term.name, s.term.location, pair, _reason(pair)) for s, pair in zip(lasting, pairs, strict=True)
+    )
 
 
 def _states(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
@@ -109,11 +125,13 @@ def _states(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
         return fit.initial[:n], fit.initial[n:]
     fitter = Fitter(fit.model, data)
     p = np.array([fit.values[k] for k in fitter.sim.parameters])
-    run, = fitter.run(p, fit.initial, fit.kalman_gain, sensitivities=False, keep="states")
+    (run,) = fitter.run(p, fit.initial, fit.kalman_gain, sensitivities=False, keep="states")
     return fit.initial, run.x[[len(run.x) // 2]]
 
 
-def _on_half(lasting: list[Suspect], suspects: list[Suspect], near: Fit, base: Fit, data: Data, white: bool) -> list[Half] | None:
+def _on_half(
+    lasting: list[Suspect], suspects: list[Suspect], near: Fit, base: Fit, data: Data, white: bool
+) -> list[Half] | None:
     """The lasting effects on one half, or None where the found model cannot be fitted to it."""
     whole = refit(suspects, near, base, data, iterations=ITERATIONS)
     if whole is None:
@@ -123,7 +141,9 @@ def _on_half(lasting: list[Suspect], suspects: list[Suspect], near: Fit, base: F
         less = refit([t for t in suspects if t is not s], near, base, data, iterations=ITERATIONS)
         score = np.inf if less is None else whole.loglik2 - less.loglik2 - penalty([s], data, less, whole)
         names = {q.key: s.term.parameter_name(q.key) for q in s.law.parameters}
-        halves.append(Half(data.span, float(score), {key: (trusted.values[k], trusted.errors[k]) for key, k in names.items()}))
+        halves.append(
+            Half(data.span, float(score), {key: (trusted.values[k], trusted.errors[k]) for key, k in names.items()})
+        )
     return halves
 
 

@@ -53,7 +53,9 @@ def compare(before: FreeRun, after: FreeRun) -> Proof:
     if spread < 1e-12:
         return Proof(margin, 0.5 if mean == 0 else float(mean > 0), n, seconds, None)
     probability = float(stdtr(effective - 1, mean / spread * np.sqrt(effective)))
-    return Proof(margin, probability, n, seconds, _needed(mean / spread, seconds / effective) if mean > 0 < margin else None)
+    return Proof(
+        margin, probability, n, seconds, _needed(mean / spread, seconds / effective) if mean > 0 < margin else None
+    )
 
 
 def _needed(size: float, each: float) -> float:

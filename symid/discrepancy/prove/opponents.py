@@ -30,21 +30,29 @@ def collocated(fit: Fit, recording: Recording, window: tuple[float, float] | str
     if fit.kalman_gain is None or isinstance(window, str) or len(recording.runs) > 1:
         return []
     try:
-        solution = Identification(fit.model, recording, window).solve(start=dict(fit.values), max_iterations=MOST_ITERATIONS)
+        solution = Identification(fit.model, recording, window).solve(
+            start=dict(fit.values), max_iterations=MOST_ITERATIONS
+        )
     except SymidError:
         return []
     return [with_values(fit, solution.values)] if solution.solved else []
 
 
-def free_runs(given: Sequence[Fit], better: Sequence[Fit], windows: dict[str, Data], settling: float) -> dict[str, FreeRun]:
+def free_runs(
+    given: Sequence[Fit], better: Sequence[Fit], windows: dict[str, Data], settling: float
+) -> dict[str, FreeRun]:
     """Free runs before and after of each window: ``baseline_train``, ``augmented_heldout`` and so on.
 
     Before is whatever of `given` is best on that very window; after is what is best on the fitted one.
     """
-    before = {key: [free_run(f, data, settling if key == "train" else 0.0) for f in given] for key, data in windows.items()}
+    before = {
+        key: [free_run(f, data, settling if key == "train" else 0.0) for f in given] for key, data in windows.items()
+    }
     after = [free_run(f, windows["train"], settling) for f in better]
     best = min(range(len(after)), key=lambda i: _error(after[i]))
-    runs = {f"baseline_{key}": min(found, key=_error) for key, found in before.items()} | {"augmented_train": after[best]}
+    runs = {f"baseline_{key}": min(found, key=_error) for key, found in before.items()} | {
+        "augmented_train": after[best]
+    }
     if "heldout" in windows:
         runs["augmented_heldout"] = free_run(better[best], windows["heldout"])
     return runs

@@ -95,23 +95,50 @@ class Diagnosis:
         return {
             "format": FORMAT,
             "verdict": self.verdict,
-            "effects": [{"name": e.name, "location": e.location,
-                         "time_window_s": None if e.window is None else list(e.window),
-                         "parameters": {k: _value(*v) for k, v in e.parameters.items()}}
-                        for e in self.effects],
+            "effects": [
+                {
+                    "name": e.name,
+                    "location": e.location,
+                    "time_window_s": None if e.window is None else list(e.window),
+                    "parameters": {k: _value(*v) for k, v in e.parameters.items()},
+                }
+                for e in self.effects
+            ],
             "ranking": self._ranking(),
-            "equivalent": [{"name": c.suspect.term.name, "location": c.suspect.term.location,
-                            "why": f"explains the recording almost as well (score {c.score:.1f})"} for c in self.equivalent],
+            "equivalent": [
+                {
+                    "name": c.suspect.term.name,
+                    "location": c.suspect.term.location,
+                    "why": f"explains the recording almost as well (score {c.score:.1f})",
+                }
+                for c in self.equivalent
+            ],
             "confirmed": self.confirmed,
             "false_alarm_probability": self.false_alarm_probability,
             "proof": None if self.proof is None else vars(self.proof),
             "fit": {"baseline": self._errors("baseline"), "augmented": self._errors("augmented")},
             "halves": [self._half(s) for s in self.halves],
-            "verdicts_of_halves": [{"span_s": list(v.span), "verdict": v.verdict, "better_explained_by": None if v.rival is None else
-                                    {"name": v.rival.term.name, "location": v.rival.term.location}} for v in self.verdicts_of_halves],
+            "verdicts_of_halves": [
+                {
+                    "span_s": list(v.span),
+                    "verdict": v.verdict,
+                    "better_explained_by": None
+                    if v.rival is None
+                    else {"name": v.rival.term.name, "location": v.rival.term.location},
+                }
+                for v in self.verdicts_of_halves
+            ],
             "recording": self._recording(),
-            "remainder": [{"location": t.place, "what": t.what, "gain": t.log_ratio, "degrees_of_freedom": t.size,
-                           "minus_log10_probability": min(t.minus_log10_p, 300.0)} for t in self.remainder[:3]],
+            "remainder": [
+                {
+                    "location": t.place,
+                    "what": t.what,
+                    "gain": t.log_ratio,
+                    "degrees_of_freedom": t.size,
+                    "minus_log10_probability": min(t.minus_log10_p, 300.0),
+                }
+                for t in self.remainder[:3]
+            ],
             "words": self.words,
         }
 
@@ -134,34 +161,60 @@ class Diagnosis:
                 continue
             pieces = [r for _, r in run.of_segments()]
             errors = np.sqrt(np.mean((run.simulated - run.recorded) ** 2, axis=0))
-            found |= {f"{part}_rms": run.rms, f"{part}_rms_by_channel": dict(zip(channels, map(float, errors), strict=True))}
+            found |= {
+                f"{part}_rms": run.rms,
+                f"{part}_rms_by_channel": dict(zip(channels, map(float, errors), strict=True)),
+            }
             found |= {f"{part}_rms_of_segments": pieces} if len(pieces) > 1 else {}
             if self.unit == "rad":
-                found |= {f"{part}_rms_rad": run.rms} | ({f"{part}_rms_rad_of_segments": pieces} if len(pieces) > 1 else {})
+                found |= {f"{part}_rms_rad": run.rms} | (
+                    {f"{part}_rms_rad_of_segments": pieces} if len(pieces) > 1 else {}
+                )
         return found
 
     @staticmethod
     def _half(s: Survival) -> dict:
-        return {"name": s.name, "location": s.location, "survives": not s.reason, "reason": s.reason or None,
-                "halves": [{"span_s": list(h.span), "score": h.score if isfinite(h.score) else None,
-                            "parameters": {k: _value(*v) for k, v in h.parameters.items()}} for h in s.halves]}
+        return {
+            "name": s.name,
+            "location": s.location,
+            "survives": not s.reason,
+            "reason": s.reason or None,
+            "halves": [
+                {
+                    "span_s": list(h.span),
+                    "score": h.score if isfinite(h.score) else None,
+                    "parameters": {k: _value(*v) for k, v in h.parameters.items()},
+                }
+                for h in s.halves
+            ],
+        }
 
     def _recording(self) -> dict:
         names = [y.channel for y in self.improved.outputs.values()]
-        return {"sensor_noise": dict(zip(names, map(float, self.audit.noise), strict=True)), "sensor_noise_stated": self.audit.stated,
-                "filtered_above_Hz": {k: f for k, f in zip(names, map(float, self.audit.cutoff), strict=True) if isfinite(f)}}
+        return {
+            "sensor_noise": dict(zip(names, map(float, self.audit.noise), strict=True)),
+            "sensor_noise_stated": self.audit.stated,
+            "filtered_above_Hz": {
+                k: f for k, f in zip(names, map(float, self.audit.cutoff), strict=True) if isfinite(f)
+            },
+        }
 
     def _ranking(self) -> list[dict]:
         """The effects that were found, then the other suspects by score."""
         found = [{"name": e.name, "location": e.location, "score": e.log_ratio} for e in self.effects]
         taken = {(e["name"], e["location"]) for e in found}
-        return found + [{"name": t.name, "location": t.location, "score": c.score} for c in self.ranking
-                        if ((t := c.suspect.term).name, t.location) not in taken]
+        return found + [
+            {"name": t.name, "location": t.location, "score": c.score}
+            for c in self.ranking
+            if ((t := c.suspect.term).name, t.location) not in taken
+        ]
 
     def report(self, path: str | Path) -> Path:
         """Write a self-contained HTML report with figures."""
         # Reports stand on the roof, and a diagnosis must not need them: fetched by name when asked for.
-        return import_module("symid.report").write_diagnosis_report(self, path, f"Diagnosis of {self.baseline.model.name}")
+        return import_module("symid.report").write_diagnosis_report(
+            self, path, f"Diagnosis of {self.baseline.model.name}"
+        )
 
     def to_json(self, path: str | Path) -> Path:
         """Write the answer; the file appears when it is whole."""
@@ -171,7 +224,10 @@ class Diagnosis:
         """Write the improved model's prediction of the held-out window, columns as in the recording."""
         run = self.runs["augmented_heldout"]
         names = [column_name(y.channel, y.unit) for y in self.improved.outputs.values()]
-        rows = [["time_s", *names], *([f"{t:.6f}", *(f"{v:.9g}" for v in y)] for t, y in zip(run.time, run.simulated, strict=True))]
+        rows = [
+            ["time_s", *names],
+            *([f"{t:.6f}", *(f"{v:.9g}" for v in y)] for t, y in zip(run.time, run.simulated, strict=True)),
+        ]
         text = "".join(",".join(r) + "\n" for r in rows)
         return write_atomically(path, text)
 
@@ -185,15 +241,27 @@ class Diagnosis:
     def _repr_html_(self) -> str:
         cell = "style='text-align:left;padding:2px 14px 2px 0'"
         rows = [["effect", "place", "value, SI (± standard error)"]] if self.effects else []
-        rows += [[e.name.replace("_", " "), e.location,
-                  ", ".join(f"{k} = {v:.4g} ± {s:.2g}" for k, (v, s) in e.parameters.items()) or e.sentence]
-                 for e in self.effects]
-        table = "".join("<tr>" + "".join(f"<{kind} {cell}>{escape(x)}</{kind}>" for x in row) + "</tr>"
-                        for row, kind in zip(rows, ["th"] + ["td"] * len(rows), strict=False))
-        verdict = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}[self.verdict]
+        rows += [
+            [
+                e.name.replace("_", " "),
+                e.location,
+                ", ".join(f"{k} = {v:.4g} ± {s:.2g}" for k, (v, s) in e.parameters.items()) or e.sentence,
+            ]
+            for e in self.effects
+        ]
+        table = "".join(
+            "<tr>" + "".join(f"<{kind} {cell}>{escape(x)}</{kind}>" for x in row) + "</tr>"
+            for row, kind in zip(rows, ["th"] + ["td"] * len(rows), strict=False)
+        )
+        verdict = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}[
+            self.verdict
+        ]
         said = "".join(f"<p>{escape(line)}</p>" for line in self.words.split("\n"))
-        return (f"<div style='max-width:46em'><p><b>{verdict}</b> &middot; {escape(self.baseline.model.name)}</p>{said}"
-                + (f"<table>{table}</table>" if rows else "") + "</div>")
+        return (
+            f"<div style='max-width:46em'><p><b>{verdict}</b> &middot; {escape(self.baseline.model.name)}</p>{said}"
+            + (f"<table>{table}</table>" if rows else "")
+            + "</div>"
+        )
 
 
 def _value(value: float, error: float) -> dict[str, float | None]:

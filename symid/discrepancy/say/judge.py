@@ -28,10 +28,18 @@ def judge(found: Hypothesis, likes: list[Hypothesis], left: list[Test], flexible
     if not found.suspects and rest is None:
         return "adequate", (), ()
     if rest is not None and not found.suspects:
-        return "unexplained", (Effect("unknown", rest.place, {}, None, rest.log_ratio, rest.what, established=False),), ()
+        return (
+            "unexplained",
+            (Effect("unknown", rest.place, {}, None, rest.log_ratio, rest.what, established=False),),
+            (),
+        )
     if not found.established:
         unestablished = next(s for s in found.suspects if not s.established)
-        effects = tuple(sorted(effects, key=lambda e: (e.name, e.location) != (unestablished.term.name, unestablished.term.location)))
+        effects = tuple(
+            sorted(
+                effects, key=lambda e: (e.name, e.location) != (unestablished.term.name, unestablished.term.location)
+            )
+        )
         place = unestablished.term.location if rest is None else _voted(flexible(), effects[0], rest)
         unknown = () if place == unestablished.term.location else (_unknown(place, left, rest, found),)
         return "unexplained", (*unknown, *effects), equivalent
@@ -54,7 +62,9 @@ def _unknown(place: str, left: list[Test], rest: Test | None, found: Hypothesis)
 
 def rivals(found: Hypothesis, ranking: list[Hypothesis]) -> list[Suspect]:
     """The best named suspects that were not chosen."""
-    return [c.suspect for c in ranking if c.suspect.established and c.suspect.term not in {s.term for s in found.suspects}][:RIVALS]
+    return [
+        c.suspect for c in ranking if c.suspect.established and c.suspect.term not in {s.term for s in found.suspects}
+    ][:RIVALS]
 
 
 def _located(left: list[Test]) -> Test:
@@ -74,8 +84,11 @@ def _moment(fit: Fit, data: Data, name: str, error: float) -> tuple[float, float
 
 def _effect(suspect: Suspect, found: Hypothesis) -> Effect:
     fit, term = found.fit, suspect.term
-    parameters = {q.key: (fit.values[term.parameter_name(q.key)], fit.errors[term.parameter_name(q.key)])
-                  for q in suspect.law.parameters if term.parameter_name(q.key) in fit.errors}
+    parameters = {
+        q.key: (fit.values[term.parameter_name(q.key)], fit.errors[term.parameter_name(q.key)])
+        for q in suspect.law.parameters
+        if term.parameter_name(q.key) in fit.errors
+    }
     window, start, moment = None, suspect.clock("start"), suspect.clock("moment")
     if start in parameters:
         begin = parameters[start][0]
@@ -84,4 +97,12 @@ def _effect(suspect: Suspect, found: Hypothesis) -> Effect:
         at, error = _moment(fit, found.data, term.parameter_name(moment), parameters[moment][1])
         parameters[moment] = (at, error)
         window = (at - min(2 * error, 3.0), at + min(2 * error, 3.0))
-    return Effect(term.name, term.location, parameters, window, found.log_ratio, sentence(suspect, parameters, fit.model), suspect.established)
+    return Effect(
+        term.name,
+        term.location,
+        parameters,
+        window,
+        found.log_ratio,
+        sentence(suspect, parameters, fit.model),
+        suspect.established,
+    )

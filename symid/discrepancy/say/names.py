@@ -15,7 +15,11 @@ def place_name(location: str) -> str:
     kind, _, rest = location.rpartition(":")
     noun = re.sub(r"([a-z])(\d+)$", r"\1 \2", rest).replace("_", " ")
     noun = noun if noun[-1:].isdigit() else f"the {noun}"
-    return f"the {kind} of {noun}" if kind else {"the global": "the whole system", "the input": "the input"}.get(noun, noun)
+    return (
+        f"the {kind} of {noun}"
+        if kind
+        else {"the global": "the whole system", "the input": "the input"}.get(noun, noun)
+    )
 
 
 def law_name(name: str, location: str = "") -> str:
@@ -26,9 +30,15 @@ def law_name(name: str, location: str = "") -> str:
 
 def sentence(suspect: Suspect, parameters: Mapping[str, tuple[float, float]], model: Model | None = None) -> str:
     """The law's own sentence with place, values and standard errors put in, in the units that it has in `model`."""
-    units = {q.key: q.unit if model is None else model.parameters[suspect.term.parameter_name(q.key)].unit for q in suspect.law.parameters}
+    units = {
+        q.key: q.unit if model is None else model.parameters[suspect.term.parameter_name(q.key)].unit
+        for q in suspect.law.parameters
+    }
     filled = {k: quantity(v, s, units[k]) for k, (v, s) in parameters.items()}
     place = place_name(suspect.term.location)
-    template = re.sub(r"\b([Tt])he (?:sensor )?\{place\}", lambda the: place if the[1] == "t" else place[:1].upper() + place[1:],
-                      suspect.law.sentence)
+    template = re.sub(
+        r"\b([Tt])he (?:sensor )?\{place\}",
+        lambda the: place if the[1] == "t" else place[:1].upper() + place[1:],
+        suspect.law.sentence,
+    )
     return template.format(place=place.removeprefix("the "), **filled)

@@ -20,8 +20,15 @@ from symid.identification.fit import common_unit, rms_text
 from symid.model import Model
 from symid.units import quantity
 
-LOSSES = ("viscous_friction", "coulomb_friction", "quadratic_drag", "stribeck_friction", "joint_drag",
-          "load_dependent_friction", "bouc_wen_hysteresis")
+LOSSES = (
+    "viscous_friction",
+    "coulomb_friction",
+    "quadratic_drag",
+    "stribeck_friction",
+    "joint_drag",
+    "load_dependent_friction",
+    "bouc_wen_hysteresis",
+)
 """Laws by which a mechanism loses energy."""
 STILL = 3.0
 """What varies by less than so many times the sensors' noise does not move."""
@@ -31,8 +38,6 @@ ABOVE = 2.0
 
 def _listed(items: Sequence[str], last: str = "and") -> str:
     return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} {last} {items[-1]}"
-
-
 
 
 # ---- the text --------------------------------------------------------------------------------
@@ -62,20 +67,30 @@ class Story:
 
     def channels(self, values: np.ndarray) -> str:
         """One number for each output, with its unit."""
-        return _listed([quantity(float(v), unit=y.unit) for v, y in zip(values, self.model.outputs.values(), strict=True)])
+        return _listed(
+            [quantity(float(v), unit=y.unit) for v, y in zip(values, self.model.outputs.values(), strict=True)]
+        )
 
 
 def words(story: Story) -> str:
     """Everything that a reader should know, most important first, one line a paragraph."""
     losses = _losses(story)
     first = (losses, _finding(story)) if len(losses) and " not enough" in losses[0] else (_finding(story) + losses,)
-    parts = (*first, _alike(story), _proof(story) + _rest(story), _halves(story) + _verdicts_of_halves(story), _caveats(story))
+    parts = (
+        *first,
+        _alike(story),
+        _proof(story) + _rest(story),
+        _halves(story) + _verdicts_of_halves(story),
+        _caveats(story),
+    )
     return "\n".join(" ".join(part) for part in parts if part)
 
 
 def _finding(s: Story) -> list[str]:
     if s.verdict == "adequate":
-        return ["The model explains the recording: no suspect improves it beyond chance and nothing systematic is left."]
+        return [
+            "The model explains the recording: no suspect improves it beyond chance and nothing systematic is left."
+        ]
     known = [e for e in s.effects if e.name != "unknown"]
     if s.verdict == "missing_physics":
         return [f"{e.sentence}." for e in known] + _unproved(s)
@@ -83,17 +98,26 @@ def _finding(s: Story) -> list[str]:
     said = [f"{e.sentence}." for e in others if e.established]
     part = [f"In part it looks like this: {_lowered(e.sentence)}." for e in others if not e.established]
     if said and first.name == "unknown":
-        return [*said, f"That is not all: something systematic is left at {place_name(first.location)}, {first.sentence}, "
-                       "which no established effect explains.", *part]
-    out = [f"Something systematic acts at {place_name(first.location)} that no established effect explains. It looks like this: "
-           f"{_lowered(first.sentence)}.", *part]
+        return [
+            *said,
+            f"That is not all: something systematic is left at {place_name(first.location)}, {first.sentence}, "
+            "which no established effect explains.",
+            *part,
+        ]
+    out = [
+        f"Something systematic acts at {place_name(first.location)} that no established effect explains. It looks like this: "
+        f"{_lowered(first.sentence)}.",
+        *part,
+    ]
     return out + (["Besides:", *said] if said else [])
 
 
 def _unproved(s: Story) -> list[str]:
     if s.proof is None or s.proof.confirmed:
         return []
-    return ["The held-out data do not confirm this yet." if s.proof.margin > 0 else "The held-out data speak against this."]
+    return [
+        "The held-out data do not confirm this yet." if s.proof.margin > 0 else "The held-out data speak against this."
+    ]
 
 
 def _lowered(sentence: str) -> str:
@@ -113,16 +137,20 @@ def _losses(s: Story) -> list[str]:
         return [f"{text}."]
     left = float(np.sqrt(np.mean(np.vstack(alone.fit.innovations) ** 2)))
     name = law_name(alone.suspect.term.name, alone.suspect.term.location)
-    return [f"{text}, and one law is not enough: the best alone, {name}, leaves an error of {s.error(left)} in the fit window, "
-            f"all that was found together {s.error(s.runs['augmented_train'].rms)}."]
+    return [
+        f"{text}, and one law is not enough: the best alone, {name}, leaves an error of {s.error(left)} in the fit window, "
+        f"all that was found together {s.error(s.runs['augmented_train'].rms)}."
+    ]
 
 
 def _alike(s: Story) -> list[str]:
     if not s.equivalent:
         return []
     names = _listed([law_name(c.suspect.term.name, c.suspect.term.location) for c in s.equivalent[:3]], "or")
-    return [f"{names[:1].upper()}{names[1:]} would explain the recording almost as well; motion that is faster, larger or longer "
-            "would tell them apart."]
+    return [
+        f"{names[:1].upper()}{names[1:]} would explain the recording almost as well; motion that is faster, larger or longer "
+        "would tell them apart."
+    ]
 
 
 def _proof(s: Story) -> list[str]:
@@ -153,8 +181,11 @@ def _chance(s: Story) -> list[str]:
         return []
     size = f"{s.chance:.2g}" if s.chance >= 1e-6 else "below one in a million"
     what = "the least certain effect" if s.effects else "the best suspect"
-    return [f"With nothing missing, chance alone would make a suspect look as good as {what} here with a probability of {size}."
-            if s.chance >= 1e-6 else f"With nothing missing, chance alone would make a suspect look like this with a probability {size}."]
+    return [
+        f"With nothing missing, chance alone would make a suspect look as good as {what} here with a probability of {size}."
+        if s.chance >= 1e-6
+        else f"With nothing missing, chance alone would make a suspect look like this with a probability {size}."
+    ]
 
 
 def _halves(s: Story) -> list[str]:
@@ -164,10 +195,15 @@ def _halves(s: Story) -> list[str]:
     kept = [law_name(v.name, v.location) for v in s.survived if not v.reason]
     out = []
     if kept:
-        out.append(f"{'It' if one else _capital(_listed(kept))} {'survives' if one or len(kept) == 1 else 'survive'} on both halves "
-                   "of the fit window, taken alone.")
-    out += [f"{'It' if one else _capital(law_name(v.name, v.location))} does not survive on two halves of the fit window: {v.reason}."
-            for v in s.survived if v.reason]
+        out.append(
+            f"{'It' if one else _capital(_listed(kept))} {'survives' if one or len(kept) == 1 else 'survive'} on both halves "
+            "of the fit window, taken alone."
+        )
+    out += [
+        f"{'It' if one else _capital(law_name(v.name, v.location))} does not survive on two halves of the fit window: {v.reason}."
+        for v in s.survived
+        if v.reason
+    ]
     return out
 
 
@@ -175,12 +211,21 @@ def _verdicts_of_halves(s: Story) -> list[str]:
     """Whether either half alone leads to the same verdict and to the same suspect."""
     if not s.halves:
         return []
-    other = [f"the {which} half leads to '{v.verdict.replace('_', ' ')}'" for v, which in zip(s.halves, ("first", "second"), strict=True)
-             if v.verdict != s.verdict]
-    out = [f"Taken alone, {_listed(other)}: another verdict than on the whole." if other else
-           "Either half alone leads to the same verdict."]
-    return out + [f"On the {which} half alone {law_name(v.rival.term.name, v.rival.term.location)} explains more than what was found."
-                  for v, which in zip(s.halves, ("first", "second"), strict=True) if v.rival is not None]
+    other = [
+        f"the {which} half leads to '{v.verdict.replace('_', ' ')}'"
+        for v, which in zip(s.halves, ("first", "second"), strict=True)
+        if v.verdict != s.verdict
+    ]
+    out = [
+        f"Taken alone, {_listed(other)}: another verdict than on the whole."
+        if other
+        else "Either half alone leads to the same verdict."
+    ]
+    return out + [
+        f"On the {which} half alone {law_name(v.rival.term.name, v.rival.term.location)} explains more than what was found."
+        for v, which in zip(s.halves, ("first", "second"), strict=True)
+        if v.rival is not None
+    ]
 
 
 def _capital(text: str) -> str:
@@ -191,22 +236,34 @@ def _rest(s: Story) -> list[str]:
     """How far the improved model's free runs are from the noise of the sensors, where nothing random drives."""
     if s.verdict == "adequate":
         worst = s.left[0] if s.left else None
-        return [] if worst is None else [f"The most suspicious of {len(s.left)} tests for a remainder has odds of 1 in "
-                                         f"{10 ** min(worst.minus_log10_p, 15):,.0f} by chance."]
+        return (
+            []
+            if worst is None
+            else [
+                f"The most suspicious of {len(s.left)} tests for a remainder has odds of 1 in "
+                f"{10 ** min(worst.minus_log10_p, 15):,.0f} by chance."
+            ]
+        )
     floor_, rms = float(np.sqrt(np.mean(s.audit.noise**2))), s.runs["augmented_train"].rms
     if s.driven or s.verdict != "unexplained" or not rms > ABOVE * floor_:
         return []
-    return [f"In the fit window an error of {s.error(rms)} remains, {rms / floor_:.0f} times the noise of the sensors "
-            f"({s.error(floor_)}): unexplained."]
+    return [
+        f"In the fit window an error of {s.error(rms)} remains, {rms / floor_:.0f} times the noise of the sensors "
+        f"({s.error(floor_)}): unexplained."
+    ]
 
 
 def _caveats(s: Story) -> list[str]:
     out = []
     if s.filter is not None:
-        out.append(f"The recording was low-pass filtered: about as a Butterworth filter of order {s.filter.order}, forwards and "
-                   f"backwards, does at {s.filter.cutoff:.2g} Hz. That was undone before anything was compared.")
+        out.append(
+            f"The recording was low-pass filtered: about as a Butterworth filter of order {s.filter.order}, forwards and "
+            f"backwards, does at {s.filter.cutoff:.2g} Hz. That was undone before anything was compared."
+        )
     elif not s.audit.stated:
-        out.append(f"The sensors' noise was not stated; the highest frequencies of the recording show {s.channels(s.audit.noise)}.")
+        out.append(
+            f"The sensors' noise was not stated; the highest frequencies of the recording show {s.channels(s.audit.noise)}."
+        )
     if not s.white and any(e.parameters for e in s.effects):
         out.append("What is left is not random, so the standard errors are taken from blocks of the recording.")
     return out

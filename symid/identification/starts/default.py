@@ -32,7 +32,7 @@ def random_start(t: Transcription, seed: int, number: int) -> np.ndarray:
     return t.start(draw.uniform(lower, upper))
 
 
-REGRESSION_INTERVALS = 1000     # enough for a start; more only cost time
+REGRESSION_INTERVALS = 1000  # enough for a start; more only cost time
 LAGS = np.arange(0.02, 0.5, 0.04)
 """Values [s] among which the regression looks for unknown lags."""
 
@@ -92,11 +92,15 @@ def _equation_error_of_lags(t: Transcription) -> list[np.ndarray]:
     grid = np.array([lo, *LAGS[(LAGS > lo) & (LAGS < hi)], hi])
     best = int(np.argmin([regress(lag)[1] for lag in grid]))
     near = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
-    found = minimize_scalar(lambda lag: regress(lag)[1], bounds=near, method="bounded", options={"xatol": 0.002, "maxiter": 12})
+    found = minimize_scalar(
+        lambda lag: regress(lag)[1], bounds=near, method="bounded", options={"xatol": 0.002, "maxiter": 12}
+    )
     return [regress(lag)[0] for lag in (found.x, lo)]
 
 
-def equation_error(t: Transcription, first: np.ndarray, states: list[np.ndarray] | None = None) -> tuple[np.ndarray, float]:
+def equation_error(
+    t: Transcription, first: np.ndarray, states: list[np.ndarray] | None = None
+) -> tuple[np.ndarray, float]:
     """Parameters (free parameters,) SI with which the recorded motion satisfies the equations best.
 
     With states and their differences taken from the recording, the residuals of the intervals
@@ -171,7 +175,9 @@ def given_start(t: Transcription, given: dict[str, float] | Solution) -> np.ndar
     fewer episodes or of a shorter window: what it lacks is taken from the recording.
     """
     if isinstance(given, str):
-        raise SolveError(f"start: '{given}' is not known; give 'default', 'random', parameter values by name, or a Solution")
+        raise SolveError(
+            f"start: '{given}' is not known; give 'default', 'random', parameter values by name, or a Solution"
+        )
     values = given if isinstance(given, dict) else given.values
     parameters, lower, upper = guesses(t), *parameter_bounds(t)
     base = {name: columns for name, columns in zip(t.model.parameters, t.layout.parameter_index.T, strict=True)}
@@ -183,9 +189,11 @@ def given_start(t: Transcription, given: dict[str, float] | Solution) -> np.ndar
         elif isinstance(given, dict):
             raise SolveError(f"start: model '{t.model.name}' has no parameter '{name}'; {nearest(name, base)}")
     if isinstance(given, dict):
-        for i in np.flatnonzero(~((parameters >= lower) & (parameters <= upper))):    # NaN is not inside
-            raise SolveError(f"start: {t.layout.parameter_names[i]}={parameters[i]:g} is outside its bounds "
-                             f"{lower[i]:g} to {upper[i]:g}; change the value or the bounds")
+        for i in np.flatnonzero(~((parameters >= lower) & (parameters <= upper))):  # NaN is not inside
+            raise SolveError(
+                f"start: {t.layout.parameter_names[i]}={parameters[i]:g} is outside its bounds "
+                f"{lower[i]:g} to {upper[i]:g}; change the value or the bounds"
+            )
         return t.start(parameters)
     return t.start(np.clip(parameters, lower, upper), [_trajectory(t, given, e) for e in range(len(t.recording_of))])
 

@@ -39,13 +39,13 @@ if TYPE_CHECKING:
 
 PRICES = (1e-4, 1e-3, 1e-2)
 """Prices of estimated process noise, one solve after the other, relative to the scaled equations."""
-HIGHER_PRICES = (1e-1, 1.0, 10.0)    # further prices where all episodes are solved so
+HIGHER_PRICES = (1e-1, 1.0, 10.0)  # further prices where all episodes are solved so
 SPREADS = (0.3, 0.3, 0.2, 0.2, 0.1, 0.1, 0.05, 0.05)
 """Relative mutation in each generation."""
 CHILDREN, PARENTS, SHOTS = 150, 10, 3
-ENOUGH = 0.7        # of the recorded variance: as many loops as are shot err by less, and the search ends
-FLOOR = 0.005       # least mutation, relative to the bounds
-NEAR = 0.05         # the regression begins within this part of the bounds
+ENOUGH = 0.7  # of the recorded variance: as many loops as are shot err by less, and the search ends
+FLOOR = 0.005  # least mutation, relative to the bounds
+NEAR = 0.05  # the regression begins within this part of the bounds
 FEW, MANY = 25, 250  # evaluations of the first and of the last shooting
 
 
@@ -79,7 +79,7 @@ def search_start(problem: Identification, seed: int, number: int) -> np.ndarray:
     """
     t = problem.transcription
     z = one_relaxed(problem, seed, number)
-    parameters = z[-len(t.layout.parameter_names):] * t.layout.parameter_scale
+    parameters = z[-len(t.layout.parameter_names) :] * t.layout.parameter_scale
     if len(t.recording_of) == len(t.measured):
         return z
     loop = Loop(t, problem.ridge)
@@ -130,7 +130,7 @@ def _relaxed(problem: Identification, z: np.ndarray, prices: tuple[float, ...]) 
     rows = noisy_rows(t)
     for price in prices if len(rows) else ():
         result = solve_nlp(soften(problem.nonlinear_program(z), rows, price), max_iterations=100)
-        z = np.clip(result.z[:t.layout.size], t.program.lower, t.program.upper)
+        z = np.clip(result.z[: t.layout.size], t.program.lower, t.program.upper)
     return z
 
 
@@ -140,7 +140,9 @@ def noisy_rows(t: Transcription) -> np.ndarray:
     residual = t.model.residual()
     noisy = [i for i in range(t.program.interval.m) if residual[i % len(residual)].free_symbols & noises]
     starts = zip(t.program.row_starts, t.layout.intervals, strict=False)
-    return np.concatenate([s + (t.program.interval.m * np.arange(k)[:, None] + noisy).ravel() for s, k in starts]).astype(int)
+    return np.concatenate(
+        [s + (t.program.interval.m * np.arange(k)[:, None] + noisy).ravel() for s, k in starts]
+    ).astype(int)
 
 
 def evolve(loop: Loop, first: np.ndarray, rng: np.random.Generator, children: int = CHILDREN) -> list[np.ndarray]:
@@ -152,7 +154,7 @@ def evolve(loop: Loop, first: np.ndarray, rng: np.random.Generator, children: in
             break
         for _ in range(children):
             z = pool[rng.integers(min(len(pool), PARENTS))][2].copy()
-            p = z[:loop.q]
+            p = z[: loop.q]
             p += spread * np.maximum(np.abs(p), FLOOR) * rng.standard_normal(loop.q)
             z = np.clip(z, loop.lower, loop.upper)
             pool.append((loop.distance(z), len(pool) + rng.random(), z))

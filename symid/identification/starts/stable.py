@@ -77,7 +77,17 @@ def _survives(loop: Simulator, parameters: np.ndarray, m: Measured, states: np.n
     time, targets = m.step * np.arange(len(order)), m.targets[m.nodes]
     inputs = {k: loud * u[m.nodes][order] for k, u in m.inputs.items()}
     limit = loud * LIMIT * np.mean(np.std(targets, axis=0))
-    runs = (loop.simulate(parameters, x, time, inputs, limit=LIMIT * 1e2 * loud * float(np.max(np.abs(m.states[m.nodes]))), keep="outputs") for x in states)
+    runs = (
+        loop.simulate(
+            parameters,
+            x,
+            time,
+            inputs,
+            limit=LIMIT * 1e2 * loud * float(np.max(np.abs(m.states[m.nodes]))),
+            keep="outputs",
+        )
+        for x in states
+    )
     return np.array([not r.diverged and np.sqrt(np.mean((r.y - targets[order]) ** 2)) <= limit for r in runs])
 
 
@@ -125,7 +135,7 @@ def _descend(t: Transcription, z: np.ndarray) -> list[np.ndarray]:
     for n, (price, evaluations) in enumerate(DESCENT):
         loop = DisplacedRuns(t, price, RUNS[1])
         z = loop.shoot(z, evaluations)
-        if survival(t, (z * loop.scale)[:loop.q]) >= SURVIVES:
+        if survival(t, (z * loop.scale)[: loop.q]) >= SURVIVES:
             standing.append(z)
         elif n >= TRUST:
             break
@@ -140,18 +150,26 @@ class DisplacedRuns(Loop):
         self.price = price * np.sqrt(len(t.recording_of) / (runs * len(t.measured)))
         self.displaced = [(r, x) for r, m in enumerate(t.measured) for x in displaced(m.states[m.nodes], runs, WIDE[0])]
 
-    def _displaced_run(self, z: np.ndarray, r: int, x: np.ndarray, slopes: bool = False) -> tuple[np.ndarray, Trajectory]:
+    def _displaced_run(
+        self, z: np.ndarray, r: int, x: np.ndarray, slopes: bool = False
+    ) -> tuple[np.ndarray, Trajectory]:
         """Weighted (nodes, outputs) error of a run, held within ten deviations, and the run."""
         m = self.t.measured[r]
         run = self.simulator.simulate(
-            (z * self.scale)[:self.q], x, m.time[m.nodes], {k: u[m.nodes] for k, u in m.inputs.items()}, limit=self.t.diverged,
-            sensitivity=self.t.layout.parameter_names if slopes else ())
+            (z * self.scale)[: self.q],
+            x,
+            m.time[m.nodes],
+            {k: u[m.nodes] for k, u in m.inputs.items()},
+            limit=self.t.diverged,
+            sensitivity=self.t.layout.parameter_names if slopes else (),
+        )
         return self.held(run.y - m.targets[m.nodes], r) * self.price * np.sqrt(m.step), run
 
     def shoot(self, z: np.ndarray, evaluations: int) -> np.ndarray:
         """In the variables' own scales and to a tenth of the tolerance: the valleys are long and bent."""
-        return least_squares(self.residual, z, self.jacobian, bounds=(self.lower, self.upper), max_nfev=evaluations,
-                             ftol=1e-6).x
+        return least_squares(
+            self.residual, z, self.jacobian, bounds=(self.lower, self.upper), max_nfev=evaluations, ftol=1e-6
+        ).x
 
     def distance(self, z: np.ndarray) -> float:
         errors = np.concatenate([self._displaced_run(z, *d)[0].ravel() for d in self.displaced])
@@ -169,7 +187,7 @@ class DisplacedRuns(Loop):
             free = np.abs(run.y - m.targets[m.nodes]) < self.spread[r]  # False where the run has ended, too
             slopes = np.where(free[..., None], run.dy, 0.0) * (self.price * np.sqrt(m.step) * self.weights[r])[:, None]
             block = np.zeros((error.size, len(z)))
-            block[:, :self.q] = slopes.reshape(error.size, -1) * self.scale[:self.q]
+            block[:, : self.q] = slopes.reshape(error.size, -1) * self.scale[: self.q]
             blocks.append(block)
         return np.concatenate(blocks)
 
@@ -177,6 +195,7 @@ class DisplacedRuns(Loop):
 def displaced(states: np.ndarray, count: int, wide: float) -> np.ndarray:
     """(count, n) states spread evenly (Sobol 1967) over the box of `states` (samples, n), made `wide` times as wide."""
     from scipy.stats import qmc  # here: takes a second, and only this start needs it
+
     low, high = states.min(axis=0), states.max(axis=0)
     middle, half = (low + high) / 2, (high - low) / 2 * wide
     return middle + half * (2 * qmc.Sobol(states.shape[1], rng=np.random.default_rng(0)).random(count) - 1)
