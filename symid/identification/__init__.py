@@ -2,7 +2,8 @@
 
 from symid.identification.pool import Cluster, LocalPool
 from symid.identification.problem import Identification
-from symid.identification.solution import Solution, StartRow
+from symid.identification.solution import Solution
+from symid.identification.start_row import StartRow
 from symid.identification.study import Finished, Solve, Study, StudyResult
 
 __all__ = [

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from symid.errors import SymidError
 from symid.identification.pool import WorkerDied
-from symid.identification.solution import StartRow
+from symid.identification.start_row import StartRow
 from symid.identification.worker import Outcome, pack, solve_here, solve_packed
 from symid.ipopt_solver import Iteration
 from symid.progress import alive

@@ -16,7 +16,8 @@ from symid.errors import RecordingWarning, TranscriptionError
 from symid.identification.arguments import as_recordings, refuse_wrong_types
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
-from symid.identification.solution import Solution, StartRow
+from symid.identification.solution import Solution
+from symid.identification.start_row import StartRow
 from symid.identification.starts.default import default_start, given_start, random_start
 from symid.identification.starts.search import can_search, relaxed_start, search_start
 from symid.identification.starts.stable import stable_start

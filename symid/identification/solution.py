@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import platform
-import sys
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from functools import cached_property
 from importlib import import_module
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,7 +15,9 @@ import pandas as pd
 from symid.errors import SolveError
 from symid.identification.covariance import ParameterErrors, bound_active, parameter_errors
 from symid.identification.fit import fit_measures
+from symid.identification.record import provenance, record
 from symid.identification.sensitivity import outputs_and_targets
+from symid.identification.start_row import StartRow
 from symid.identification.weighting import noise_levels
 from symid.ipopt_solver import SolverResult
 from symid.model import Model
@@ -27,63 +26,6 @@ from symid.transcription import Transcription
 if TYPE_CHECKING:
     from symid.identification.verify import Verification
     from symid.identification.problem import Identification
-
-
-@dataclass(frozen=True)
-class StartRow:
-    """One start and how it ended: RMS over all outputs in their SI unit (rad for angles).
-
-    `status` is Ipopt's, or "failed" (symid refused, `message` says why), or "lost" (its worker died, or the machine
-    failed otherwise).
-    """
-
-    number: int
-    kind: str
-    solved: bool
-    status: str
-    objective: float
-    rms: float
-    iterations: int
-    seconds: float
-    parameters: dict[str, float]
-    message: str = ""
-
-    @property
-    def final(self) -> bool:
-        """Whether doing it again would give the same: not where the machine is to blame."""
-        return self.status not in ("lost", "Insufficient_Memory")
-
-    @classmethod
-    def of(cls, t: Transcription, result: SolverResult, kind, number: int, at_start: float) -> StartRow:
-        error = np.concatenate([(y - d).ravel() for y, d in outputs_and_targets(t, result.z)])
-        values = dict(zip(t.layout.parameter_names, map(float, t.layout.parameters(result.z)), strict=True))
-        return cls(
-            number=number,
-            kind=kind if isinstance(kind, str) else "given",
-            solved=result.solved,
-            status=result.status_name,
-            objective=result.objective,
-            rms=float(np.sqrt(np.nanmean(error**2))),
-            iterations=result.iterations,
-            seconds=result.seconds["total"] + at_start,
-            parameters=values,
-            message=result.message,
-        )
-
-    @classmethod
-    def without_result(cls, status: str, kind, number: int, message: str) -> StartRow:
-        return cls(
-            number=number,
-            kind=kind if isinstance(kind, str) else "given",
-            solved=False,
-            status=status,
-            objective=np.nan,
-            rms=np.nan,
-            iterations=0,
-            seconds=0.0,
-            parameters={},
-            message=message,
-        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -300,72 +242,11 @@ class Solution:
     @cached_property
     def provenance(self) -> dict:
         """Versions, data and options, enough to repeat the identification."""
-        p, t = self.problem, self.transcription
-        return {
-            "created": self.created,
-            "symid": version("symid"),
-            "python": platform.python_version(),
-            "command": sys.argv,
-            "model": self.model.name,
-            "model_fingerprint": self.fingerprint,
-            "terms": [str(term) for term in self.model.terms],
-            "constants": {c.name: c.value for c in self.model.constants.values()},
-            "recordings": [
-                {
-                    "name": m.name,
-                    "window_s": [float(m.time[m.first]), float(m.time[m.last])],
-                    "nodes": m.intervals * p.refine + 1,
-                    "history": list(r.history),
-                }
-                for m, r in zip(t.measured, p.recordings, strict=True)
-            ],
-            "scheme": p.scheme.name,
-            "episodes": asdict(p.episodes) | {"by_word": dict(p.episodes.by_word)},
-            "weights": p.weights,
-            "noise": p.noise,
-        }
+        return provenance(self)
 
     def to_dict(self) -> dict:
         """All of the above but the trajectories, as plain JSON types; the command line writes this."""
-        rows = self.parameters.drop(columns="meaning").to_dict("index")
-        return {
-            "format": "symid solution 1",
-            "parameters": {
-                name: {k: row[k] for k in ("value", "std_error", "unit", "at_bound")}
-                | {"bounds": [row["lower"], row["upper"]]}
-                for name, row in rows.items()
-            },
-            "errors": self._errors_said(),
-            "fit": self.fit,
-            "solver": {
-                "status": self.result.status_name,
-                "solved": self.solved,
-                "sentence": self.message,
-                "iterations": self.result.iterations,
-                "seconds": self.seconds,
-                "interface": self.result.interface,
-                "linear_solver": asdict(self.result.linear_solver),
-            },
-            "warnings": list(self.warnings),
-            "starts": [asdict(row) for row in self.starts],
-            "provenance": self.provenance,
-        }
-
-    def _errors_said(self) -> dict | None:
-        e = self.errors
-        return (
-            None
-            if e is None
-            else {
-                "model": e.model,
-                "why": e.why,
-                "noise": [dict(zip(self.model.outputs, map(float, row), strict=True)) for row in e.noise],
-                "undetermined": [n for n, u in zip(self.values, e.undetermined, strict=True) if u],
-                "determined": {
-                    text: {"value": value, "std_error": error} for text, (value, error) in self.determined.items()
-                },
-            }
-        )
+        return record(self)
 
     @property
     def seconds(self) -> dict[str, float]:

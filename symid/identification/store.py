@@ -19,7 +19,7 @@ import numpy as np
 
 from symid.errors import SolveError
 from symid.files import plain, write_atomically, write_json
-from symid.identification.solution import StartRow
+from symid.identification.start_row import StartRow
 from symid.identification.worker import Outcome
 from symid.ipopt_solver import LinearSolver, SolverResult, WorstConstraint
 

@@ -18,7 +18,8 @@ from symid.errors import SolveError
 from symid.identification.dispatch import in_turn, on_executor
 from symid.identification.identity import digest
 from symid.identification.pool import Cluster, LocalPool
-from symid.identification.solution import Solution, StartRow, build_solution
+from symid.identification.solution import Solution, build_solution
+from symid.identification.start_row import StartRow
 from symid.identification.starts.search import can_search
 from symid.identification.store import StudyDirectory
 from symid.identification.worker import Outcome

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp, deadline
 from symid.errors import MachineError, SymidError
-from symid.identification.solution import StartRow
+from symid.identification.start_row import StartRow
 from symid.ipopt_solver import Iteration, SolverResult
 from symid.ipopt_solver.bounded import LEAVE
 from symid.ipopt_solver.status import STATUS, WALL_TIME
