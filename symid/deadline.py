@@ -10,8 +10,8 @@ from contextvars import ContextVar
 from symid.errors import SolveError
 
 START_LIMIT_S = 600.0
-"""Of one start of a solve, making it included, where nothing else is said [s]: solves that get anywhere take seconds, the
-longest of the article's a few minutes."""
+"""Of one start of a solve, making it included, where nothing else is said [s]: solves that get anywhere take seconds,
+the longest of the article's a few minutes."""
 _until: ContextVar[float | None] = ContextVar("until", default=None)
 
 
@@ -21,7 +21,7 @@ class TimeUp(SolveError):
 
 @contextmanager
 def deadline(limit_s: float | None) -> Iterator[None]:
-    """In the block, `check` raises TimeUp once `limit_s` seconds have passed; an outer limit that ends earlier stays."""
+    """In the block, `check` raises TimeUp after `limit_s` seconds; an outer limit that ends earlier stays."""
     until = [t for t in (_until.get(), None if limit_s is None else time.monotonic() + limit_s) if t is not None]
     token = _until.set(min(until, default=None))
     try:

@@ -1,7 +1,8 @@
 """A made-up person on the moving platform: recordings whose true gains are known.
 
 ``python -m symid.synthetic [FOLDER]`` writes the recording that ships in ``data/standing_synthetic``,
-the same bytes each time on one machine, and the same up to a unit of the last digit on another. `standing_recording` makes others.
+the same bytes each time on one machine, and up to a unit of the last digit on another.
+`standing_recording` makes others.
 """
 
 from __future__ import annotations
@@ -39,7 +40,7 @@ GAINS = {
 }
 """A full-state feedback that keeps `BODY` upright [SI]."""
 TORQUE_NOISE = 4.0
-"""Standard deviation of each joint's torque noise, drawn anew every 10 ms [N m]: 0.6 deg of sway, like a quiet person's."""
+"""Standard deviation of each joint's torque noise, drawn every 10 ms [N m]: 0.6 deg of sway, as of quiet persons."""
 SENSOR_NOISE = 3e-4
 """Standard deviation of the noise of each recorded angle [rad], as of filtered motion capture."""
 DURATION, RATE, SEED = 120.0, 50.0, 2020

@@ -1,4 +1,4 @@
-"""Agreement of files made on different machines: bits are promised on one machine, the last written digit between two."""
+"""Agreement of files made on different machines: bits are promised on one, the last written digit between two."""
 
 import json
 from decimal import Decimal
@@ -9,7 +9,7 @@ DIGITS = 6
 
 
 def assert_same_table(made: Path, shipped: Path) -> None:
-    """Two CSV files with the same header, rows and decimals, whose numbers differ by at most one unit of the last one."""
+    """Two CSV files with the same header, rows and decimals, whose numbers differ by a unit of the last at most."""
     rows = [[line.split(",") for line in file.read_text().splitlines()] for file in (made, shipped)]
     assert [len(r) for r in rows[0]] == [len(r) for r in rows[1]] and rows[0][0] == rows[1][0]
     for number, (new, old) in enumerate(zip(*(r[1:] for r in rows), strict=True), start=1):

@@ -73,7 +73,7 @@ def oscillator(seed: int = 0, samples: int = 201, noise: float = NOISE):
 
 
 def spring_with_sensor(seed: int = 0, samples: int = 801, noise: float = NOISE):
-    """The oscillator, its position with an unknown offset and its speed with an unknown gain, in other units and noise."""
+    """The oscillator, its position with an unknown offset, its speed with an unknown gain, in other units and noise."""
     m = spring()
     m.offset = si.Parameter(unit="m", bounds=(-2, 2))
     m.gain = si.Parameter(unit="1", bounds=(0.1, 10))

@@ -1,4 +1,4 @@
-"""What a recording is trusted for: its noise, its filtering, its rounding; errors and effects that do not believe in white noise."""
+"""What a recording is trusted for: noise, filtering, rounding; errors, effects that do not believe in white noise."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -94,7 +94,7 @@ def test_errors_from_blocks_are_no_smaller_and_alike_where_noise_is_white():
 
 # ---- halves ----------------------------------------------------------------------------------
 def swings(torque_of_half, segments=6, named="coulomb_friction"):
-    """A pendulum in pieces whose dry friction may differ between the halves: the suspect named, fits with and without it, data."""
+    """Pendulum whose dry friction may differ between the halves: the suspect named, fits with and without it, data."""
     term, model = LIBRARY["coulomb_friction"].at("joint1"), rig_model(SINGLE)
     sim, rng, found = simulator(model.with_term(term)), np.random.default_rng(1), []
     time = np.arange(0, 4, 0.01)
@@ -233,8 +233,8 @@ def test_a_hypothesis_beside_an_unknown_rest_is_not_asserted():
         return " ".join(_finding(SimpleNamespace(verdict="unexplained", effects=effects)))
 
     assert said(unknown, guess) == (
-        "Something systematic acts at joint 1 that no established effect explains. It looks like this: a force that depends on "
-        "time. In part it looks like this: the base moves up and down."
+        "Something systematic acts at joint 1 that no established effect explains. It looks like this: a force that "
+        "depends on time. In part it looks like this: the base moves up and down."
     )
     assert said(unknown, guess, sure).startswith("The first sensor is off. That is not all")
     assert said(unknown, guess, sure).endswith("In part it looks like this: the base moves up and down.")

@@ -623,7 +623,8 @@ def test_a_pickled_kernel_works_in_another_process(tmp_path, backend):
     k = compile_program(program(sm.sin(X) * P + D, Y * Q), backend)
     args = arguments(k)
     (tmp_path / "job").write_bytes(pickle.dumps((k, args)))
-    code = f"import pickle; k, a = pickle.load(open({str(tmp_path / 'job')!r}, 'rb')); print(k.backend, k.residual(*a).sum())"
+    job = str(tmp_path / "job")
+    code = f"import pickle; k, a = pickle.load(open({job!r}, 'rb')); print(k.backend, k.residual(*a).sum())"
     assert in_a_new_process(code).communicate() == (f"{backend} {k.residual(*args).sum()}\n", "")
 
 

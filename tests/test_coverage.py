@@ -13,7 +13,7 @@ NORMAL = 1.96
 
 
 def counted(name: str, seeds: range) -> dict:
-    """Coverage by parameter, mean standard error over spread, share of coloured verdicts, and share of variance per likelihood."""
+    """Coverage by parameter, mean error over spread, share of coloured verdicts, and of variance per likelihood."""
     rows, coloured = [], 0
     for seed in seeds:
         problem, truth = SYSTEMS[name](seed)

@@ -306,7 +306,8 @@ def test_windows_and_channels_are_checked():
         ("{", "is not JSON"),
         ("{}", "the key 'system' is missing"),
         (
-            '{"system": "boat", "baseline": {}, "fit_window_s": [], "heldout_window_s": [], "angle_noise_rms_rad_approx": 1}',
+            '{"system": "boat", "baseline": {}, "fit_window_s": [], "heldout_window_s": [], '
+            '"angle_noise_rms_rad_approx": 1}',
             "system is 'boat'; known: standing, rig",
         ),
         (

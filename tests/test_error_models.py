@@ -1,4 +1,4 @@
-"""Standard errors against closed forms and against the spread of repeats; answers where parameters are not determined."""
+"""Standard errors against closed forms and the spread of repeats; answers where parameters are not determined."""
 
 import json
 

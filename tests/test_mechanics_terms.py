@@ -74,7 +74,8 @@ LISTED = {
         "global": "feedback_delay muscle_lag",
         "input": "input_gain input_delay",
         "trunk": "extra_mass",
-        "ankle": "torque_saturation sensory_dead_zone coulomb_friction cubic_stiffness periodic_torque integral_feedback "
+        "ankle": "torque_saturation sensory_dead_zone coulomb_friction cubic_stiffness periodic_torque "
+        "integral_feedback "
         "acceleration_feedback torque_feedback gain_change external_push viscous_friction torsional_spring",
         "sensor:ankle": "sensor_gain",
         "sensor:hip": "sensor_gain",
@@ -115,7 +116,7 @@ def test_a_term_makes_another_sound_model_and_leaves_the_first_alone(model, term
 
 
 def at_null(model, term):
-    """Residuals and outputs of the model with the term switched off, its own states solved for, or at rest if nothing moves them."""
+    """Residuals and outputs with the term switched off, its own states solved for, or at rest if nothing moves them."""
     augmented = model.with_term(term)
     table = {
         augmented[term.parameter_name(q.key)].symbol: sm.sympify(q.null)

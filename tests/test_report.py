@@ -183,7 +183,8 @@ def test_in_a_browser_nothing_is_wider_than_the_page_and_no_figure_is_empty(solu
         f"""<iframe id="f" src="report.html" style="width:{width}px;height:3000px"></iframe><p id="out"></p><script>
         window.onload = () => {{ const d = document.getElementById("f").contentDocument, e = d.documentElement;
           const empty = [...d.images].filter(i => !i.naturalWidth).length;
-          document.getElementById("out").textContent = `overflow ${{e.scrollWidth - e.clientWidth}} empty ${{empty}}`; }};
+          document.getElementById("out").textContent =
+            `overflow ${{e.scrollWidth - e.clientWidth}} empty ${{empty}}`; }};
         </script>"""
     )
     done = subprocess.run(

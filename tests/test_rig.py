@@ -1,4 +1,4 @@
-"""Rigs that nobody prepared a case for: their models, their recordings, what is asked of a user who leaves things out."""
+"""Rigs that nobody prepared a case for: their models, their recordings, what is asked if a user leaves things out."""
 
 import json
 from importlib import import_module

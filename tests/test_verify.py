@@ -13,7 +13,7 @@ from symid.recording import Recording
 
 
 def swing(rate: float, seed: int = 0) -> si.Identification:
-    """Vyasarayani's pendulum x'' = -p sin x, p = 10, over 50 s (Vyasarayani, Uchida & McPhee 2012), recorded at `rate` [Hz]."""
+    """Pendulum x'' = -p sin x, p = 10, over 50 s (Vyasarayani, Uchida & McPhee 2012), recorded at `rate` [Hz]."""
     m = si.Model("pendulum")
     m.x = si.State(unit="rad")
     m.v = si.State(unit="rad/s")

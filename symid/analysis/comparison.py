@@ -34,7 +34,7 @@ def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] 
     -------
     DataFrame
         One row per model: parameters (free, not at a bound), log_likelihood, aic and bic
-        (Akaike 1974, Schwarz 1978) with the least taken as zero, evidence in words (from aic), rms [SI, over all outputs],
+        (Akaike 1974, Schwarz 1978) with the least taken as zero, evidence in words (from aic), rms [SI, all outputs],
         held_out_rms where asked for; ``attrs["independent_samples"]`` by output.
 
     Raises

@@ -14,8 +14,8 @@ from symid.model.symmetry import unchanged
 from symid.simulation import simulator
 
 DEPENDENT = 1e-8
-"""Singular value, relative to unit columns, below which sensitivities are dependent: Runge-Kutta keeps a symmetry of the
-model to rounding, while what only looks alike over a short time differs by more."""
+"""Singular value, relative to unit columns, below which sensitivities are dependent: Runge-Kutta keeps a symmetry of
+the model to rounding, while what only looks alike over a short time differs by more."""
 POINTS, EXPERIMENTS, SAMPLES = 3, 3, 300
 """Random parameter values; motions from other states and inputs at each of them; samples of a motion."""
 GROWN = 4.0
@@ -49,8 +49,8 @@ class Identifiability:
         said = ["All parameters are determined by the outputs."] if self.identifiable else []
         if self.undetermined:
             said.append(
-                f"{', '.join(self.undetermined)}: not determined one by one; together {len(self.parameters) - self.rank} "
-                "of their numbers can be chosen freely."
+                f"{', '.join(self.undetermined)}: not determined one by one; together "
+                f"{len(self.parameters) - self.rank} of their numbers can be chosen freely."
             )
         for text, exact in self.combinations.items():
             said.append(f"Determined: {text} ({'exact, by the equations' if exact else 'at random points'}).")
@@ -135,7 +135,7 @@ def _range(slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _run(model: Model, values: np.ndarray, rng):
-    """A motion with its sensitivities, from a random state under random inputs, over the time of the model's own modes."""
+    """A motion and its sensitivities, from a random state under random inputs, over the time of the model's modes."""
     start = _draw(model.states.values(), rng, centred=True)
     names = list(model.parameters)
     slopes = slopes_at(model, start[None, :], dict(zip(names, values, strict=True)))

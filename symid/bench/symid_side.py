@@ -41,7 +41,7 @@ def first_use(task: Task) -> dict:
 
 
 def linear_systems(task: Task, solver: str) -> dict:
-    """Milliseconds of processor time in linear systems, per iteration from the default start, with one linear solver."""
+    """Processor time in linear systems [ms], per iteration from the default start, with one linear solver."""
     import re
     import tempfile
     from pathlib import Path

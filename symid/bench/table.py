@@ -97,4 +97,5 @@ def _verdicts(found: dict) -> Iterator[str]:
 
 def _line(what: str, value: float, unit: str, target: float, at_least: bool = False) -> str:
     met = value >= target if at_least else value <= target
-    return f"{what:<62}{value:>9.3g} {unit:<3} target {'>=' if at_least else '<='} {target:g}: {'met' if met else 'NOT MET'}"
+    sign, verdict = ">=" if at_least else "<=", "met" if met else "NOT MET"
+    return f"{what:<62}{value:>9.3g} {unit:<3} target {sign} {target:g}: {verdict}"

@@ -94,7 +94,8 @@ def _formulations(task, arguments: argparse.Namespace) -> list[dict]:
     rows = head_to_head(
         range(arguments.formulations),
         on_row=lambda row: _say(
-            f"recording {row['seed']}, {row['formulation']}: {'stable' if row['stable'] else 'unstable'}, {row['seconds']:.2f} s"
+            f"recording {row['seed']}, {row['formulation']}: "
+            f"{'stable' if row['stable'] else 'unstable'}, {row['seconds']:.2f} s"
         ),
     )
     print(summary(rows).to_string(float_format=lambda x: f"{x:.3g}"))

@@ -13,7 +13,7 @@ CONTROLLERS = ("pd", "fpd")
 PERSON = ("body", "controller", "window")
 OF_A_RECORDING = ("body", "controller", "rig", "friction", "window", "held_out", "sensor_noise")
 EXAMPLES = (
-    "symid diagnose recording.csv --body body.json --controller fpd --window 0 100 --held-out 100 200 --report diagnosis.html",
+    "symid diagnose recording.csv --body body.json --controller fpd --window 0 100 --held-out 100 200 --report a.html",
     "symid diagnose swing.csv --rig rig.json --window fit --held-out held_out --friction joint1 joint2",
     "symid diagnose case --json answer.json --held-out-csv held_out.csv",
 )

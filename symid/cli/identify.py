@@ -18,7 +18,7 @@ from symid.progress import say
 
 SUMMARY = "identify the parameters of a model from a recording"
 EXAMPLES = (
-    "symid identify recording.csv --body body.json --controller fpd --window 0 100 --held-out 100 120 --report fit.html",
+    "symid identify recording.csv --body body.json --controller fpd --window 0 100 --held-out 100 120 --report a.html",
     "symid identify recording.csv --body body.json --controller pd --episodes 3 --starts 10 --jobs 2 --store folder",
 )
 

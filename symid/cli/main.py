@@ -16,7 +16,7 @@ from symid.cli.options import refuse_absurd
 from symid.errors import SymidError
 from symid.progress import alive
 
-# Every module of this package but these is a command: SUMMARY, EXAMPLES, add_arguments(parser), run(arguments) -> exit code.
+# Every module of this package but these is a command: SUMMARY, EXAMPLES, add_arguments(parser), run(arguments) -> code.
 NOT_COMMANDS = ("__main__", "main", "options")
 SOLVED, NOT_SOLVED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 

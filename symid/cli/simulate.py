@@ -77,7 +77,8 @@ def run(arguments: argparse.Namespace) -> int:
     )
     write_atomically(arguments.output, csv_text(recording))
     print(
-        f"{arguments.output}: {len(recording)} samples, {duration:g} s at {rate:g} Hz, {model.name}, seed {arguments.seed}"
+        f"{arguments.output}: {len(recording)} samples, {duration:g} s at {rate:g} Hz, "
+        f"{model.name}, seed {arguments.seed}"
     )
     return 0
 

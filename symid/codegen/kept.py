@@ -1,4 +1,4 @@
-"""The C of a model's simulation, kept on disk by the fingerprint of its equations: to derive it takes longer than to compile it."""
+"""The C of a model's simulation, kept on disk by the fingerprint of its equations: deriving it takes long."""
 
 from __future__ import annotations
 

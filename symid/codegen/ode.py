@@ -24,7 +24,7 @@ from symid.model import TIME, Model, symbol
 TABLE = Path(__file__).with_name("ode.h").read_text()
 """The C declaration of what a model exports and the integrating loop reads."""
 ARGUMENTS = ("xd", "x", "l", "u", "w", "p", "c")
-"""Arrays that every function is given, before the time t: rates, states, late signals, inputs, noises, parameters, constants."""
+"""Arrays of every function, before the time t: rates, states, late signals, inputs, noises, parameters, constants."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -118,11 +118,12 @@ def standing_facts(rng: np.random.Generator) -> dict:
             "motion use a = -platform_acceleration",
         },
         "angle_noise_rms_rad_approx": float(f"{np.radians(np.exp(rng.uniform(np.log(0.015), np.log(0.1)))):.2g}"),
-        "other_noise": "The person also sways for reasons unrelated to the platform (random joint torques of unknown size).",
+        "other_noise": "The person also sways for reasons unrelated to the platform "
+        "(random joint torques of unknown size).",
         "fit_window_s": [0.0, fit],
         "heldout_window_s": [fit, fit + float(rng.choice([30.0, 40.0]))],
-        "fit_measure": "rms_rad = root mean square over both angles and all samples of the window of (simulated - recorded) "
-        "in a free run driven by platform_acceleration from one free initial state; the first "
+        "fit_measure": "rms_rad = root mean square over both angles and all samples of the window of (simulated - "
+        "recorded) in a free run driven by platform_acceleration from one free initial state; the first "
         f"{SETTLING:g} s of the fit window are left out; the held-out run continues the fit run or starts anew",
     }
 
@@ -148,11 +149,12 @@ def rig_facts(rng: np.random.Generator, conservative: bool) -> dict:
         "system": "rig",
         "description": "Freely swinging double pendulum on a bench, released from rest.",
         "parameters": own,
-        "parameter_meaning": "a1, a2: joint to centre of mass; L1: joint 1 to joint 2; I1, I2: about the centre of mass",
+        "parameter_meaning": "a1, a2: joint to centre of mass; L1: joint 1 to joint 2; "
+        "I1, I2: about the centre of mass",
         "baseline": {
             "terms": friction or ["conservative"],
-            "equations": "Lagrangian double pendulum, angles absolute from the downward vertical; viscous friction at joint 1 "
-            "acts on w1, at joint 2 on w2-w1",
+            "equations": "Lagrangian double pendulum, angles absolute from the downward vertical; viscous friction at "
+            "joint 1 acts on w1, at joint 2 on w2-w1",
             "unknown": [*(f"coefficient_Nms_rad of {f}" for f in friction), "initial state"],
         },
         "sampling_rate_Hz": int(rng.choice([100, 200, 250])),
@@ -167,8 +169,8 @@ def rig_facts(rng: np.random.Generator, conservative: bool) -> dict:
         "fit_window_s": [0.0, fit],
         "heldout_window_s": [fit, SEGMENT * pieces],
         "segment_s": SEGMENT,
-        "fit_measure": "rms_rad = root mean square over both angles and all samples of the window of (simulated - recorded); "
-        "the window is cut into consecutive segments of segment_s seconds, each simulated from its own free "
+        "fit_measure": "rms_rad = root mean square over both angles and all samples of the window of (simulated - "
+        "recorded); the window is cut into consecutive segments of segment_s seconds, each simulated from its own free "
         "initial state; all other parameters from the fit window",
     }
 

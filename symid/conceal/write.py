@@ -12,7 +12,7 @@ from symid.model import Term
 from symid.units import column_name
 
 DECIMALS = {"rad": 6, "m/s^2": 5}
-"""Of columns with this unit: far above rounding errors, so that two machines differ by a unit of the last one at most."""
+"""Of columns with this unit: far above rounding errors, so that two machines differ by a unit of the last at most."""
 UNSCORED = ("phase_rad",)
 ALSO_ACCEPTED = {
     "feedback_delay": ("feedback", "controller", "input_to_controller", "ankle+hip"),

@@ -23,7 +23,7 @@ ITERATIONS = 8
 SEEN = 3.0
 """A mean bias counts when it exceeds this many of its own standard errors."""
 WIDER = 1.6
-"""Repeats that spread this many times more than the standard error says replace it; of 100 that do not, one seems to."""
+"""Repeats that spread this many times more than the standard error says replace it; 1 of 100 seems to by chance."""
 
 
 def unbiased(fit: Fit, data: Data, names: Sequence[str], threads: int = 2) -> Fit:

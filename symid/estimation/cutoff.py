@@ -2,8 +2,8 @@
 
 Beyond the motion lies the noise of sensors, flat or falling, and what random forces do, which falls with
 the fourth power of the frequency, faster above a resonance: a + b / f^2 + c / f^4 + d / f^6, times the square of
-the filter's gain, and the rounding of a file that came after it. The filter is the one of greatest likelihood (Whittle 1953)
-for what no input explains linearly (Bendat & Piersol 2010, 6.2).
+the filter's gain, and the rounding of a file that came after it. The filter is the one of greatest likelihood
+(Whittle 1953) for what no input explains linearly (Bendat & Piersol 2010, 6.2).
 """
 
 from __future__ import annotations

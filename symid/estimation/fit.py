@@ -25,13 +25,13 @@ from symid.simulation import Simulator, simulator
 TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
 LONGEST_STEP = {True: 0.01, False: 0.005}
-"""The integrator takes no longer steps than this [s], with random forces and without: free motion shows dry friction's corners."""
+"""Longest step of the integrator [s], with random forces and without: free motion shows dry friction's corners."""
 STEPS_A_SWING = 300
 """Free motion that is slower than that takes longer steps: so many of Runge and Kutta's a swing err by 1e-9 of it."""
 PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
 SHARPEST = 4.0
-"""The sharpness of a filter is within this factor of what the spectra show: its cutoff of order 2 within a factor of 1.4."""
+"""A filter is sharp within this factor of what the spectra show: its cutoff of order 2 within a factor of 1.4."""
 REACH = 0.03
 """The motion at the start of an segment is continued backwards for so long [s], for signals that are late."""
 

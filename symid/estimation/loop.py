@@ -76,7 +76,7 @@ class Loop:
         return self.held(self.run(z, episode, **options).y - m.targets[m.nodes], r)
 
     def held(self, error: np.ndarray, r: int) -> np.ndarray:
-        """Weighted error of recording `r` (nodes, outputs), within ten deviations; NaN, where a run has ended, is ten."""
+        """Weighted error of recording `r` (nodes, outputs), at most ten deviations; NaN, after a run's end, is ten."""
         return (
             np.nan_to_num(np.clip(error, -self.spread[r], self.spread[r]), nan=self.spread[r].max()) * self.weights[r]
         )

@@ -20,8 +20,8 @@ from symid.transcription.scales import RANGE
 MAX_EVALUATIONS = 15
 GAINS = (0.7, 0.3, 0.1, 0.03)
 """Shares of the output error by which a simulation is led back to the recording at each sample, one fit after the other
-(homotopy: Vyasarayani, Uchida & McPhee 2012). Led strongly, no model runs away from the recording, and what is fitted is
-nearly the equation error, which has one optimum; led by nothing it is the output error."""
+(homotopy: Vyasarayani, Uchida & McPhee 2012). Led strongly, no model runs away from the recording, and what is fitted
+is nearly the equation error, which has one optimum; led by nothing it is the output error."""
 DRAWS, BEST, PATIENCE = 24, 4, 60
 """Random parameters tried where states are hidden, how many of all fits with the strongest gain go on, and the
 evaluations that each may take from there."""
@@ -34,8 +34,8 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarra
 
     The search begins from each of the `candidates` (free parameters,) SI, and the best end is kept.
     Process noise enters only the final simulation of each episode. None where parameters belong to
-    single recordings or the model has no states, or controls or algebraic variables, where from every candidate the first simulation errs by more than the
-    recorded outputs vary, or where an episode cannot be simulated.
+    single recordings or the model has no states, or controls or algebraic variables, where from every candidate the
+    first simulation errs by more than the recorded outputs vary, or where an episode cannot be simulated.
     """
     if (
         len(t.layout.parameter_names) != len(t.model.parameters)
@@ -119,8 +119,8 @@ class _Shooting:
         return self.unknowns(np.where(low >= 0, decades, even))
 
     def gains(self, r: int, gain: float) -> np.ndarray | None:
-        """(n, m) corrections at each sample: the states that outputs show by `gain` of the output error, and their rates
-        as a critically damped alpha-beta filter does (Kalata 1984)."""
+        """(n, m) corrections at each sample: the states that outputs show by `gain` of the output error, and their
+        rates as a critically damped alpha-beta filter does (Kalata 1984)."""
         if not gain:
             return None
         model, states = self.t.model, list(self.t.model.states)

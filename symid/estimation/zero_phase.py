@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 SMALLEST_GAIN = 0.03
-"""The filter is undone where it left at least this part of a signal; what was rounded stays far below the sensors' noise."""
+"""The filter is undone where it left at least this part of a signal; rounding stays far below the sensors' noise."""
 PADDING = 5.0
 """Seconds of odd reflection at both ends that fade away, so that the undoing meets no step and no kink there."""
 
@@ -49,7 +49,7 @@ class ZeroPhase:
         return max(1, round(0.5 / step / band))
 
     def undone(self, x: np.ndarray, step: float, ratio: int) -> tuple[np.ndarray, np.ndarray]:
-        """A channel (N,) with the filter undone as far as one sample in `ratio` holds it, and the part that undoing added."""
+        """A channel (N,), the filter undone as far as one sample in `ratio` holds it, and what undoing added."""
         pad = min(len(x) - 1, round(PADDING / step))
         middle = 0.5 * (x[0] + x[-1])
         fade = 0.5 - 0.5 * np.cos(np.pi * np.arange(pad) / max(pad, 1))

@@ -79,7 +79,7 @@ def _of_group(
 
 
 def _independent(null: np.ndarray) -> np.ndarray:
-    """(m - k, m) rows orthogonal to the null space (m, k), each with few parameters: the first of them with coefficient 1."""
+    """(m - k, m) rows orthogonal to the null space (m, k), each with few parameters, the first with coefficient 1."""
     m, k = null.shape
     order, rest = [], null.copy()
     for _ in range(k):  # pivots: the parameters that move most, last ones first

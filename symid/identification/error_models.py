@@ -16,11 +16,11 @@ from symid.errors import SolveError
 
 CHOICES = ("auto", "white", "coloured", "clustered")
 FEWEST_CLUSTERS = 5
-"""Recordings from which the spread between them says something: the variance of q numbers has q - 1 degrees of freedom."""
+"""Recordings whose spread says something: the variance of q numbers has q - 1 degrees of freedom."""
 ROUNDS = 3
 """Rounds in which the part of the noise that the fit followed is put back: the third changes a per cent."""
 REFUTED = 0.01
-"""Probability under white noise below which a residual counts as coloured: a false alarm costs little, see `coloured`."""
+"""Probability under white noise below which a residual is coloured: a false alarm costs little, see `coloured`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +71,8 @@ def choose(errors: list[Errors], choice: str, episodes: int) -> tuple[str, str]:
     """Name of the error model, and a sentence on why it is this one."""
     if choice not in CHOICES:
         raise SolveError(
-            f"error model '{choice}': known are {', '.join(CHOICES)}; blocks are drawn again by symid.bootstrap(solution)"
+            f"error model '{choice}': known are {', '.join(CHOICES)}; "
+            "blocks are drawn again by symid.bootstrap(solution)"
         )
     if choice == "clustered" and len(errors) < FEWEST_CLUSTERS:
         raise SolveError(
@@ -171,7 +172,7 @@ def whiteness(errors: list[Errors]) -> float:
 
 
 def coloured(errors: list[Errors], influences: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-    """As `white`, for stationary noise with a memory: its autocovariance is estimated, up to a lag that the data choose.
+    """As `white`, for stationary noise with a memory: its autocovariance is estimated up to a lag that the data choose.
 
     The taper is flat up to half of that lag (Politis & Romano 1995): against Bartlett's (Newey & West 1987) the
     variance is too small by 8 instead of 27 % for an autoregression of 0.95 over 1500 samples. Where the noise

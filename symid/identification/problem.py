@@ -135,7 +135,7 @@ class Identification:
 
     @cached_property
     def remarks(self) -> tuple[str, ...]:
-        """What is implausible about the recordings, the body and the two together, see `symid.plausibility`; one sentence each."""
+        """What is implausible about recordings, body and both together (`symid.plausibility`), one sentence each."""
         from symid.plausibility import remarks
 
         found = [text for r, w in zip(self.recordings, self.windows, strict=True) for text in remarks(self.model, r, w)]

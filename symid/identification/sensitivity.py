@@ -14,7 +14,7 @@ from symid.codegen.interval import output_program
 from symid.transcription import Transcription
 
 DAMPING = 1e-11
-"""Curvature, relative to the largest, that is added to every state: an unobserved one would make the system singular."""
+"""Curvature, relative to the largest, added to every state: an unobserved one would make the system singular."""
 ACTIVE = 1e-8
 """Multiplier of an inequality from which on it counts as one that holds, as for bounds."""
 PROBES = 2
@@ -101,7 +101,7 @@ class Sensitivity:
 
     @cached_property
     def weights(self) -> np.ndarray:
-        """(rows,) of the objective, a sum of weighted squares, in the order of `outputs`; zero where none was recorded."""
+        """(rows,) of the objective, a sum of weighted squares, ordered as `outputs`; zero where none was recorded."""
         p, t = self.t.program, self.t
         return np.concatenate(
             [
@@ -206,7 +206,7 @@ class Reduced:
         return step.T @ (matrix @ step)
 
     def initial_slopes(self, count: int) -> np.ndarray:
-        """(rows, count) outputs that the motion can add for itself, with the parameters kept: a random basis of them."""
+        """(rows, count) outputs that the motion can add by itself, parameters kept: a random basis of them."""
         probes = np.random.default_rng(0).standard_normal((self.s.outputs.shape[0], count))
         pull = self.s.outputs[:, self.states].T @ (self.s.curvatures[:, None] * probes)
         solved = self.factor.solve(

@@ -77,8 +77,8 @@ def _at_bounds(solution: Solution) -> list[str]:
     """A sentence for each parameter at a bound, if it was solved."""
     table = solution.parameters[solution.parameters["at_bound"]] if solution.solved else solution.parameters[:0]
     return [
-        f"{name} lies at its bound ({p.value:.5g} {p.unit}): the data ask for a value beyond it, and the other parameters "
-        "depend on where it stands"
+        f"{name} lies at its bound ({p.value:.5g} {p.unit}): the data ask for a value beyond it, and the other "
+        "parameters depend on where it stands"
         for name, p in table.iterrows()
         if p.lower < p.upper
     ]
@@ -108,7 +108,8 @@ def text(solution: Solution) -> str:
     table = solution.parameters[["value", "std_error", "unit", "at_bound"]]
     starts = f"\nBest of {len(solution.starts)} starts." if len(solution.starts) > 1 else ""
     cut = "".join(f"\n{warning}." for warning in (*solution.warnings, *error_notes(solution)))
-    return f"{solution.model.name}\n{headline(solution)}\n{solution.message}{starts}{cut}\n{table.to_string(float_format='%.5g')}"
+    numbers = table.to_string(float_format="%.5g")
+    return f"{solution.model.name}\n{headline(solution)}\n{solution.message}{starts}{cut}\n{numbers}"
 
 
 def html(solution: Solution) -> str:

@@ -150,8 +150,8 @@ class Solution:
 
     @cached_property
     def warnings(self) -> tuple[str, ...]:
-        """What should be looked at before the numbers are trusted, one sentence each: mistakes of units and signs that show
-        in the recording, the body or the motion (`symid.plausibility`), and states that their bounds cut off."""
+        """What should be looked at before the numbers are trusted, one sentence each: mistakes of units and signs that
+        show in the recording, the body or the motion (`symid.plausibility`), and states that their bounds cut off."""
         from symid.identification.show import warnings
 
         return tuple(warnings(self))
@@ -178,7 +178,7 @@ class Solution:
 
     @cached_property
     def trajectories(self) -> tuple[pd.DataFrame, ...]:
-        """One table per episode: states, controls, algebraic variables, outputs and "<output> recorded" over time_s, SI."""
+        """A table per episode: states, controls, algebraic variables, outputs, "<output> recorded" over time_s, SI."""
         t, frames = self.transcription, []
         for e, (y, d) in enumerate(outputs_and_targets(t, self.result.z)):
             m = t.measured[t.recording_of[e]]
@@ -250,7 +250,7 @@ class Solution:
 
     @property
     def seconds(self) -> dict[str, float]:
-        """Wall time [s]: build (compile included), compile, functions, linear_algebra (with the rest of Ipopt), total."""
+        """Wall time [s]: build (with compile), compile, functions, linear_algebra (with the rest of Ipopt), total."""
         build, spent = self.transcription.seconds, self.result.seconds
         compiled = sum(v for k, v in build.items() if k != "build")
         return {

@@ -71,7 +71,7 @@ class Solve:
 
     @property
     def time_limit_s(self) -> float:
-        """Of this start, making it included [s]; no part of the identity: a solve that ran out of less is done again."""
+        """Of this start, making it included [s]; no part of the identity: who ran out of less is solved again."""
         given = self.options.get("time_limit_s")
         return START_LIMIT_S if given is None else given
 

@@ -1,4 +1,4 @@
-"""A solution looked at by others than the solver that found it: a finer mesh, an integrator, the optimality conditions."""
+"""A solution checked by others than its solver: a finer mesh, an integrator, the optimality conditions."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ if TYPE_CHECKING:
     from symid.identification.solution import Solution
 
 COARSE = 0.5
-"""Error of the mesh [standard errors] from which on it is said: it shifts a 95 % interval by a quarter of its half width."""
+"""Error of the mesh [standard errors] that is said: it shifts a 95 % interval by a quarter of its half width."""
 FINE = 0.1
 """Error of the mesh [standard errors] that the advised refinement leaves."""
 ROUNDED = 1e-6
 """Part of a parameter's value that is no error of the mesh, however small the noise."""
 DEPARTS = 0.01
-"""Part of the recorded outputs' standard deviation by which an integrated motion may depart from the fitted one, or by as
-much as the fit errs."""
+"""Part of the recorded outputs' standard deviation by which an integrated motion may depart from the fitted one, or by
+as much as the fit errs."""
 PIECES, HALVINGS, AGREES = 8, 6, 1e-4
-"""Of a sample interval into pieces, of which the integrator halves its steps until the outputs agree to that part of their
-standard deviation."""
+"""Of a sample interval into pieces, of which the integrator halves its steps until the outputs agree to that part of
+their standard deviation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,10 +37,10 @@ class Verification:
 
     Attributes
     ----------
-    mesh : (parameters) index name, columns error [SI] (the value's excess that the mesh makes) and std_errors (the same in
+    mesh : (parameters) index name, columns error [SI] (the value's excess that the mesh makes) and std_errors (in
         standard errors), by solving again with steps half as long (Richardson 1911); None if that was not solved.
-    departures : per episode (m,) largest distance [SI] of outputs that are integrated from the fitted initial state with
-        the fitted parameters to the fitted ones; None where the simulator cannot run the model.
+    departures : per episode (m,) largest distance [SI] of outputs that are integrated from the fitted initial state
+        with the fitted parameters to the fitted ones; None where the simulator cannot run the model.
     departs : whether an integrated motion departs by more than `DEPARTS` and than the fit errs.
     optimality : errors of the first-order conditions, measured without Ipopt.
     sentences : what does not agree, in words.
@@ -163,7 +163,8 @@ def _said_of_departure(solution: Solution, departures) -> str:
         for (name, y), x in zip(solution.model.outputs.items(), worst, strict=True)
     ]
     return (
-        "No integrator reproduces this motion: from the fitted initial state with the fitted parameters it departs from the "
+        "No integrator reproduces this motion: from the fitted initial state with the fitted parameters it departs "
+        "from the "
         f"fitted one, {', '.join(parts)}. The model with these parameters is unstable, or the mesh far too coarse"
     )
 
@@ -178,6 +179,6 @@ def _said_of_mesh(solution: Solution, mesh: pd.DataFrame | None) -> list[str]:
     factor = int(np.ceil((worst.max() / FINE) ** (1 / p.scheme.order)))
     return [
         f"The mesh is too coarse: it shifts {name} by {mesh.loc[name, 'std_errors']:.2g} standard errors "
-        f"({mesh.loc[name, 'error']:+.3g} {solution.model.parameters[name.split('[')[0]].unit}); solution.refined() solves again with "
-        f"{p.refine * factor} intervals in a sample interval"
+        f"({mesh.loc[name, 'error']:+.3g} {solution.model.parameters[name.split('[')[0]].unit}); solution.refined() "
+        f"solves again with {p.refine * factor} intervals in a sample interval"
     ]

@@ -46,10 +46,10 @@ class Outcome:
 
 
 NEAR = {"mu_strategy": "monotone", "mu_init": 1e-4, "bound_push": 1e-6, "bound_frac": 1e-6}
-"""Options of Ipopt for a start close to an optimum: no barrier drives it from bounds that are near, such as a level of zero."""
+"""Options of Ipopt for a start close to an optimum: no barrier drives it from near bounds, such as a level of zero."""
 LOST, TRACE = 1.2, 1e-9
-"""An end whose objective is so much larger than that of a start by simulation has lost it; a start with no more than that part
-of the objective's scale is the recorded motion itself, whose objective says nothing."""
+"""An end whose objective is so much larger than that of a start by simulation has lost it; a start with no more than
+that part of the objective's scale is the recorded motion itself, whose objective says nothing."""
 
 
 def _kept_near(solve: Solve, z: np.ndarray, result: SolverResult, on_iteration) -> SolverResult:

@@ -211,8 +211,8 @@ def _runner(interface: str) -> tuple[str, Callable[..., int]]:
         ) from absent
     except (ImportError, OSError, MemoryError) as problem:
         raise MachineError(
-            f"cyipopt is installed but cannot be loaded ({problem}). Does the machine, or its limit for a process, have "
-            "memory enough? If it never loads, build it anew with `python -m symid.setup_ipopt`."
+            f"cyipopt is installed but cannot be loaded ({problem}). Does the machine, or its limit for a process, "
+            "have memory enough? If it never loads, build it anew with `python -m symid.setup_ipopt`."
         ) from problem
     library = None
     if interface != "cyipopt":

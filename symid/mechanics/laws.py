@@ -57,7 +57,7 @@ def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
 
 
 def unit_along(unit: str, force: str, length: str) -> str:
-    """The unit of a law's parameter, stated for a torque [N*m] and an angle, for another kind of force and coordinate."""
+    """Unit of a law's parameter, stated for a torque [N*m] and an angle, for another kind of force and coordinate."""
     if force == "N":  # reads better than what pint would make of it
         return unit.replace("N*m", "N").replace("rad", length)
     return reduced(unit.replace("rad", length).replace("N*m", f"({force})"))

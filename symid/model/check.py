@@ -53,9 +53,9 @@ def _values(model: Model) -> Iterator[str]:
         if isinstance(c, Process) and not (isfinite(c.size) and c.size > 0):
             yield f"the process noise '{c.name}' has size={c.size}; give a positive number [{c.unit}*sqrt(s)]"
         if isinstance(c, Parameter) and c.prior is not None and not isinstance(c.prior, Prior):
-            yield f"the prior {c.prior!r} of '{c.name}' is none: give Normal(mean, deviation) or LogNormal(median, factor)"
+            yield f"'{c.name}' has no prior in {c.prior!r}: give Normal(mean, deviation) or LogNormal(median, factor)"
         if isinstance(c, Parameter) and isinstance(c.prior, LogNormal) and not _ends(c.bounds)[0] > 0:
-            yield f"'{c.name}' has a log-normal prior, whose logarithm needs a lower bound above 0; its bounds are {c.bounds}"
+            yield f"'{c.name}' has a log-normal prior, which needs a lower bound above 0; its bounds are {c.bounds}"
         if isinstance(c, Constant) and not isfinite(c.value):
             yield f"constant '{c.name}' is {c.value}; give it a finite value [{c.unit}]"
         if isinstance(c, (State, Algebraic, Control, Parameter)):
@@ -219,6 +219,6 @@ def _dimension_of_port(port: Port, found_of: dict) -> Iterator[str]:
     for name in port.into if port.unit else ():
         if name in found_of and found_of[name] != dimension(port.unit):
             yield (
-                f"port '{port.name}' is declared in {port.unit}, but the equation '{name}', which its force enters, has the "
-                f"dimension {found_of[name]}"
+                f"port '{port.name}' is declared in {port.unit}, but the equation '{name}', which its force enters, "
+                f"has the dimension {found_of[name]}"
             )

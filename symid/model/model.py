@@ -69,13 +69,16 @@ class Model:
     def __setattr__(self, name: str, part: Component) -> None:
         if not isinstance(part, Component):
             raise ModelError(
-                f"model '{self.name}': cannot attach {name} = {part!r}{hint(part)}; attach a State, Algebraic, Control, "
-                "Input, Parameter, Constant, Noise, Expression, Equation, Output, Port, Constraint, Boundary or Objective"
+                f"model '{self.name}': cannot attach {name} = {part!r}{hint(part)}; attach a State, Algebraic, "
+                "Control, "
+                "Input, Parameter, Constant, Noise, Expression, Equation, Output, Port, Constraint, Boundary or "
+                "Objective"
             )
         if name in self.components or name in self.groups:
             raise ModelError(
                 f"model '{self.name}': '{name}' is declared already as "
-                f"{type(self.components.get(name, self.groups.get(name))).__name__}; choose another name or use redefine()"
+                f"{type(self.components.get(name, self.groups.get(name))).__name__}; "
+                "choose another name or use redefine()"
             )
         if hasattr(type(self), name) or name in self.__dict__ or name == "t" or name.startswith("_"):
             raise ModelError(f"model '{self.name}': the name '{name}' is reserved; choose another")

@@ -226,8 +226,8 @@ def _few_enough(name: str, count: float) -> float:
     """The number of samples of an even grid; RecordingError where they would not fit into memory."""
     if not count <= MOST_SAMPLES:
         raise RecordingError(
-            f"{name}: {count:.3g} samples would be needed, more than {MOST_SAMPLES:.0e}; look at the unit and the jumps "
-            f"of the time column, or take a lower rate"
+            f"{name}: {count:.3g} samples would be needed, more than {MOST_SAMPLES:.0e}; look at the unit and the "
+            f"jumps of the time column, or take a lower rate"
         )
     return count
 

@@ -158,8 +158,8 @@ def _check_lengths(path: Path, columns: list[Column]):
 
 def _wrong_length(path: Path, row: int, line: int, found: int, expected: int) -> RecordingError:
     return RecordingError(
-        f"{path}: row {row} (line {line}) has {found} cells, the header has {expected}; leave the cell of a missing value "
-        f"empty, but keep its comma"
+        f"{path}: row {row} (line {line}) has {found} cells, the header has {expected}; leave the cell of a missing "
+        f"value empty, but keep its comma"
     )
 
 

@@ -73,7 +73,7 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
 
 
 def effects_table(d: Diagnosis) -> str:
-    """What was found: law, place, when, whether each half of the window asks for it, parameters with standard errors."""
+    """What was found: law, place, when, whether both halves of the window ask for it, parameters and their errors."""
     kept = {(s.name, s.location): "no" if s.reason else "yes" for s in d.halves}
     rows = []
     for e in d.effects:
@@ -110,7 +110,8 @@ _EXPERIMENTS = (
     ),
     (
         ("friction", "drag", "dead_zone", "stiffness", "saturation", "backlash", "hysteresis"),
-        "the same excitation at half and at twice the amplitude: each of these laws changes with amplitude in its own way",
+        "the same excitation at half and at twice the amplitude: "
+        "each of these laws changes with amplitude in its own way",
     ),
     (
         ("gain_change", "push", "periodic"),
@@ -160,8 +161,8 @@ def _where(d: Diagnosis) -> list[str]:
         ]
     after = latent_torques(d.final, d.runs["augmented_train"]) if d.effects else ()
     caption = (
-        "The force that would have to be added at each place to make the free run follow the recording, with two standard "
-        "errors; it holds what random forces contribute as well."
+        "The force that would have to be added at each place to make the free run follow the recording, with two "
+        "standard errors; it holds what random forces contribute as well."
     )
     if d.baseline.kalman_gain is None:
         caption += " It rests on one mean linearisation, so where the motion is large it is a rough picture."

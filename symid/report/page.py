@@ -74,7 +74,7 @@ def facts(content: Mapping[str, object]) -> Markup:
 
 
 def equations(lines: Iterable[str]) -> Markup:
-    """Equations from lines of LaTeX (`symid.model.show.latex_lines`) as MathML, which browsers show without a script."""
+    """Equations from lines of LaTeX (`symid.model.show.latex_lines`) as MathML, shown by browsers without a script."""
     from latex2mathml.converter import convert
 
     rows = []

@@ -20,12 +20,14 @@ from symid.units import unit_symbol, with_error
 SHOWN_EPISODES = 3
 """Episodes that get figures of their own: more of them look alike."""
 TOGETHER = 0.9
-"""Correlation from which two estimates are said to move together: the smaller axis of their ellipse is then a quarter of the larger."""
+"""Correlation from which estimates are said to move together: the ellipse's smaller axis is a quarter of the larger."""
 CITATION = (
-    "H. Wang and A. J. van den Bogert (2020). Identification of the human postural control system through stochastic trajectory "
+    "H. Wang and A. J. van den Bogert (2020). Identification of the human postural control system through stochastic "
+    "trajectory "
     "optimization. Journal of Neuroscience Methods 334, 108580. doi:10.1016/j.jneumeth.2020.108580 (the method)",
     "A. Wächter and L. T. Biegler (2006). On the implementation of an interior-point filter line-search algorithm for "
-    "large-scale nonlinear programming. Mathematical Programming 106, 25-57. doi:10.1007/s10107-004-0559-y (Ipopt, the solver)",
+    "large-scale nonlinear programming. Mathematical Programming 106, 25-57. doi:10.1007/s10107-004-0559-y "
+    "(Ipopt, the solver)",
 )
 
 
@@ -115,8 +117,8 @@ def _together(solution: Solution) -> list[str]:
     return (
         [
             paragraph(
-                f"Estimates that move together (correlation beyond {TOGETHER:g}): {', '.join(told)}. The data determine a "
-                "combination of them better than each.",
+                f"Estimates that move together (correlation beyond {TOGETHER:g}): {', '.join(told)}. The data "
+                "determine a combination of them better than each.",
                 "note",
             )
         ]

@@ -40,4 +40,5 @@ def late_feedback(body: DoubleLinkPendulum, recording: Recording) -> pd.DataFram
 def late_feedback_text(table: pd.DataFrame) -> str:
     """The table for a person to read."""
     shown = table.to_string(index=False, na_rep="", float_format=lambda x: f"{x:.5g}")
-    return f"Beyond the article: a feedback that comes late (held out: {HELD_OUT[0]:g} to {HELD_OUT[1]:g} s, free run)\n{shown}"
+    window = f"held out: {HELD_OUT[0]:g} to {HELD_OUT[1]:g} s, free run"
+    return f"Beyond the article: a feedback that comes late ({window})\n{shown}"

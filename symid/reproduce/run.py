@@ -24,7 +24,7 @@ LAWS = {"PD": mechanics.PD, "FPD": mechanics.FullStatePD, "NN": mechanics.Neural
 NETWORK_RIDGE = 4e-4
 """Weight of the network's squared weights: w/20 have a standard deviation of a few tenths, and Ipopt a Hessian."""
 START_RIDGE = 0.1
-"""Weight of their squared distance from the start where there is process noise: keeps them near a loop that survives."""
+"""Weight of their squared distance from the start where there is process noise: they stay near a surviving loop."""
 SOLVER = {
     kind: {"max_iterations": 200, "dual_limit": 1e6, "time_limit_s": 3600.0} for kind in ("search", "relaxed", "stable")
 } | {"random": {"max_iterations": 500}}

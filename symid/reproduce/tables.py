@@ -8,8 +8,8 @@ import pandas as pd
 from symid.reproduce.run import NETWORK_RIDGE, START_RIDGE, Finding, Reproduction
 
 NOISE = {
-    "multisine": "orthogonal random-phase multisines of the power of the latter, around whose means their gains scatter "
-    "far less from draw to draw (`transcription.episodes`)",
+    "multisine": "orthogonal random-phase multisines of the power of the latter, around whose means their gains "
+    "scatter far less from draw to draw (`transcription.episodes`)",
     "uniform": "uniform",
     "gaussian": "Gaussian with a standard deviation of 0.25 N m",
 }
@@ -38,7 +38,8 @@ NOTES = (
         "best start of the network",
         "least RMS",
         "with noise least RMS among those whose loop, simulated with the input of "
-        "the fitted window, as it is and made larger, from states around its own, does not fall (`identification.starts.stable`)",
+        "the fitted window, as it is and made larger, from states around its own, does not fall "
+        "(`identification.starts.stable`)",
     ),
 )
 

@@ -58,7 +58,7 @@ class CompiledLoop:
         )
 
     def linearise(self, arguments: tuple[np.ndarray, ...], out: list[np.ndarray]) -> None:
-        """Write mass matrix, slopes of the residual by x, late and w, of the outputs by x and late, and lags to `out`."""
+        """Mass matrix, slopes of the residual by x, late and w, of the outputs by x and late, and lags, into `out`."""
         self._loop.linearise(self._ode, *map(_pointer, arguments), ct.c_double(0.0), *map(_pointer, out))
 
 

@@ -125,8 +125,8 @@ def measure(model: Model, recording: Recording, window: tuple[float, float] | No
     if missing:
         raise TranscriptionError(
             "; ".join(
-                f"'{name}' of model '{model.name}' needs the channel '{channel}', which {recording.name} does not have: "
-                + nearest(channel, recording.channels)
+                f"'{name}' of model '{model.name}' needs the channel '{channel}', "
+                f"which {recording.name} does not have: " + nearest(channel, recording.channels)
                 for name, channel in missing
             )
         )

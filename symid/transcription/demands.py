@@ -66,7 +66,7 @@ class Demands:
         return (*self._path(), *self._ends(end_rows(self.model), "boundary"), *self._parameters())
 
     def wanted(self) -> tuple[Block, ...]:
-        """Running and terminal objectives, then priors; these and the likelihood of process noise times `information`."""
+        """Running, terminal objectives, priors; these and the process noise's likelihood times `information`."""
         return (
             *self._running(),
             *self._terminal(terminal_objective(self.model), "terminal", 1.0),

@@ -89,7 +89,8 @@ class Episodes:
         if self.count > 1 and not values.any():
             raise TranscriptionError(
                 f"episodes: {self.count} episodes without any noise would be {self.count} times the same; give an "
-                f"amplitude, for instance Episodes({self.count}, torque=0.25) (noises: {', '.join(model.noises) or 'none'})"
+                f"amplitude, for instance Episodes({self.count}, torque=0.25) "
+                f"(noises: {', '.join(model.noises) or 'none'})"
             )
         return values
 

@@ -28,7 +28,8 @@ def refuse_late(model: Model, measured: Sequence[Measured]) -> None:
         held = model.inputs.get(str(d.of)) or model.controls.get(str(d.of))
         if held is not None and held.hold == "zero":
             raise TranscriptionError(
-                f"model '{model.name}' delays the {type(held).__name__.lower()} '{d.of}', which is held between samples or nodes: direct "
+                f"model '{model.name}' delays the {type(held).__name__.lower()} '{d.of}', which is held between "
+                "samples or nodes: direct "
                 "collocation reads late signals through smooth weights; give hold='linear', or shift "
                 "the recorded channel by a known lag"
             )

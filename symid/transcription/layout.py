@@ -158,7 +158,7 @@ class Layout:
         return z
 
     def spread(self, nodes: np.ndarray, own: np.ndarray, parameters: np.ndarray, other: float) -> np.ndarray:
-        """A free vector with one value (SI) for all that a node holds, per algebraic at points, per parameter, and `other`."""
+        """A free vector, one value (SI) for all that a node holds, algebraic at points, per parameter, and `other`."""
         z = np.full(self.size, other)
         for e in range(len(self.intervals)):
             end = self.block - self.late

@@ -39,7 +39,7 @@ class CollocationProgram:
     Rows: all intervals of episode 0, of episode 1 ..., then late signals, then ties (unknowns that are
     equal: the initial states of linked episodes, the last two values of a held control), then the
     `demanded` blocks of constraints. Objective: the integral over time of the weighted squared output
-    error, with `weights` (episodes, m), summed over episodes, where there are recorded outputs, and the `wanted` blocks.
+    error, with `weights` (episodes, m), summed over episodes, if outputs were recorded, and the `wanted` blocks.
     """
 
     def __init__(

@@ -136,7 +136,8 @@ def equation_scale(equation: np.ndarray, values: np.ndarray, equations: int, ste
     ----------
     equation : (nnz,) equation that each entry belongs to.
     values : (intervals, nnz) unscaled derivatives to the unknowns of an interval.
-    step : (intervals, nnz) or (nnz,) [s] in an equation with rates, where a state enters with coefficient / step; one in others.
+    step : (intervals, nnz) or (nnz,) [s] in an equation with rates, where a state enters with
+        coefficient / step; else 1.
     """
     size = np.zeros(equations)
     # An expression may have no value at the recorded motion: the solver says so, in words.

@@ -37,7 +37,7 @@ def scaled_by_data(
     recording_of: Sequence[int],
     graded: bool,
 ) -> Layout:
-    """`layout`, whose states have no scale yet, with the scales of states and parameters that the recordings suggest."""
+    """`layout`, whose states have no scale yet, with scales of states and parameters as the recordings suggest."""
     layout = replace(layout, parameter_scale=np.ones(len(layout.parameter_names)))
     bounds = np.array([s.bounds for s in model.states.values()], dtype=float).reshape(-1, 2)
 

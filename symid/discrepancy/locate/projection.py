@@ -43,7 +43,7 @@ class Projection:
         return a - self.own @ (self.own.T @ a)
 
     def score(self, columns: np.ndarray, rest: np.ndarray | None = None) -> tuple[float, np.ndarray]:
-        """Gain of twice the log-likelihood forecast for (N m, q) columns, and their coefficients; of other innovations if given."""
+        """Forecast gain of twice the log-likelihood for (N m, q) columns and their coefficients; of `rest` if given."""
         rest = self.rest if rest is None else rest
         a = self.project(columns)
         kept = (a**2).sum(0) > 1e-8 * (columns**2).sum(0)
@@ -64,7 +64,7 @@ class Projection:
     def response(
         self, suspect: Suspect, sim: Simulator, values: dict[str, float], each: Sequence[dict[str, float]] | None = None
     ) -> np.ndarray | None:
-        """(N m, q) change of the predictions per unit of what can be switched off, at `values`, `each` of one segment."""
+        """(N m, q) change of the predictions per unit of what can be off, at `values`, `each` of one segment."""
         names = [suspect.term.parameter_name(q.key) for q in suspect.law.parameters if q.null is not None]
         out = []
         for e, x0, own in zip(

@@ -39,7 +39,8 @@ class Test:
     Attributes
     ----------
     place : where it would act. what : in words. log_ratio : growth of twice the log-likelihood, or the
-    statistic. size : its degrees of freedom. tried : the largest of so many. minus_log10_p : -log10 of the probability by chance.
+    statistic. size : its degrees of freedom. tried : the largest of so many.
+    minus_log10_p : -log10 of the probability by chance.
     """
 
     place: str
@@ -51,7 +52,7 @@ class Test:
 
     @property
     def minus_log10_p(self) -> float:
-        # Upper tail of chi-square with k degrees, by Tricomi's function (Abramowitz & Stegun 1972, 13.6.28): never underflows.
+        # Upper tail of chi-square by Tricomi's function (Abramowitz & Stegun 1972, 13.6.28), which never underflows.
         a, x = self.size / 2, max(self.log_ratio, 0.0) / 2
         log_p = -x + np.log(hyperu(1 - a, 1 - a, x)) - gammaln(a) if x > 0 else 0.0
         return max(0.0, float(-log_p / np.log(10) - np.log10(self.tried)))

@@ -91,7 +91,7 @@ class Hypothesis:
 
 
 def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, share: float = 1.0) -> float:
-    """What suspects cost: log N for each parameter, twice for one that was scanned for, and for each new initial value."""
+    """Cost of suspects: log N for each parameter, twice for one that was scanned for and for each new initial value."""
     states = after.initial.size - before.initial.size
     count = states + sum(s.size + (s.scanned is not None) for s in suspects)
     return log(max(share * data.samples, 2.0)) * count

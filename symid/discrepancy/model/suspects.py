@@ -24,7 +24,7 @@ KINDS = {
     "inertia": "geometry",
     "length": "geometry",
 }
-"""Role of the parts that a law changes -> what kind of suspect it is; "state" where it is none of these, nor follows a clock."""
+"""Role of the parts that a law changes -> kind of suspect; "state" where it is none of these, nor follows a clock."""
 HIGHEST_FREQUENCY = 5.0
 """Up to here a periodic suspect is looked for [Hz]."""
 
@@ -64,7 +64,7 @@ class Suspect:
 
     @property
     def bypasses(self) -> bool:
-        """Whether a forecast at zero strength misses the law, so that it is always refitted: delays, lags and integrals."""
+        """Whether a forecast at zero strength misses the law, then always refitted: delays, lags, integrals."""
         q = self.strength
         return self.established and q is not None and q.null == 0 and bool(q.starts) and self.scanned is None
 
@@ -144,7 +144,7 @@ ESTABLISHED = {*CANONICAL, *(law.name for law in GEOMETRY_LAWS), "constant_torqu
 
 
 def _equations(model: Model, term: Term) -> tuple | None:
-    """What the model is with a term, whatever its parameters are called; None if it is there, or something it needs is not."""
+    """The model's equations with a term, whatever its names; None if it is there, or something it needs is not."""
     if any(str(t) == str(term) for t in model.terms):
         return None
     try:

@@ -117,7 +117,7 @@ class Search:
         return flexible.evidence(share) > max(found.evidence(share), 0.0) + POLICY.doubt
 
     def _enough(self, found: Hypothesis) -> bool:
-        """Whether what it leaves of a free motion is not far above the sensors' noise: else more than one thing is missing."""
+        """Whether what it leaves of a free motion is near the sensors' noise: else more than one thing is missing."""
         rms = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
         return found.fit.kalman_gain is not None or bool(np.all(rms < POLICY.far * self.data.sensor_noise))
 

@@ -16,7 +16,7 @@ from symid.estimation.robust_errors import with_robust_errors
 
 
 def honest(found: Hypothesis, white: bool, threads: int) -> Hypothesis:
-    """The hypothesis with errors that do not believe in white innovations where they are not, without what these take back."""
+    """The hypothesis with errors that do not believe in white innovations, without what these errors take back."""
     if white:
         names = (
             [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters]
@@ -41,7 +41,7 @@ def steady(found: Hypothesis) -> Hypothesis | None:
 
 
 def sure(found: Hypothesis) -> Hypothesis:
-    """The hypothesis without effects that could as well be nothing, the least certain dropped first; one at least is kept."""
+    """The hypothesis without effects that could as well be nothing, the least certain dropped first; one stays."""
     while len(found.suspects) > 1:
         doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
         if _certainty(doubtful, found.fit) > POLICY.sure:
@@ -55,7 +55,7 @@ def sure(found: Hypothesis) -> Hypothesis:
 
 
 def weakest(found: Hypothesis) -> float:
-    """Log-likelihood ratio of the least certain effect to nothing, from its standard errors; of all where none can be nothing."""
+    """Log-likelihood ratio of the least certain effect to nothing, by its standard errors; of all if none can be 0."""
     return min((min(_certainty(s, found.fit) ** 2, found.log_ratio) for s in found.suspects), default=0.0)
 
 

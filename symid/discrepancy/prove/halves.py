@@ -48,7 +48,7 @@ class Survival:
 
 @dataclass(frozen=True)
 class HalfVerdict:
-    """What one half of the fit window says alone: start and end [s], the verdict, and a suspect that explains more there, if any."""
+    """One half of the fit window alone: start and end [s], the verdict, and a suspect that explains more, if any."""
 
     span: tuple[float, float]
     verdict: str
@@ -95,7 +95,7 @@ def _better(rivals: Sequence[Suspect], score: float, given: Fit, half: Data) -> 
 def survivals(
     suspects: Sequence[Suspect], fit: Fit, base: Fit, data: Data, white: bool, others: Sequence[Suspect] = ()
 ) -> tuple[Survival, ...]:
-    """Every lasting effect of `suspects` refitted on two disjoint halves, each compared with the model that lacks only it.
+    """Every lasting effect of `suspects` refitted on two disjoint halves, each against the model that lacks only it.
 
     Effects that last for a time only, or begin at one, are left out: a half need not contain them.
 

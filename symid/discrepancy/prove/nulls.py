@@ -43,7 +43,7 @@ def _signs(rng: np.random.Generator, segment) -> np.ndarray:
 
 
 def false_alarm_probability(observed: float, maxima: np.ndarray) -> float | None:
-    """Probability by chance of a log-likelihood ratio this large, with a Gumbel tail (1935) fitted to the nulls by moments."""
+    """Probability by chance of a log-likelihood ratio so large: Gumbel tail (1935), fitted to the nulls by moments."""
     if len(maxima) == 0 or not maxima.std() > 0:
         return None
     scale = float(maxima.std()) * np.sqrt(6) / np.pi

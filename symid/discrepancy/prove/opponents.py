@@ -23,7 +23,7 @@ def with_values(fit: Fit, values: dict[str, float]) -> Fit:
 
 
 def collocated(fit: Fit, recording: Recording, window: tuple[float, float] | str) -> list[Fit]:
-    """The model with the values of a collocation of the same window, from those of `fit`; nothing where it does not end.
+    """The model with the values of a collocation of the same window, from those of `fit`; None where it does not end.
 
     Where random forces act, a collocation follows the recording by other means than predictions do.
     """

@@ -153,7 +153,7 @@ class Diagnosis:
         return common_unit(y.unit for y in self.baseline.model.outputs.values()) or "mixed"
 
     def _errors(self, when: str) -> dict:
-        """RMS errors of free runs in the outputs' unit, of each segment and of each channel; in radians under the former keys, too."""
+        """RMS errors of free runs in the outputs' unit, by segment and by channel; radians under the old keys, too."""
         channels, found = [y.channel for y in self.baseline.model.outputs.values()], {"unit": self.unit}
         for part in ("train", "heldout"):
             run = self.runs.get(f"{when}_{part}")

@@ -105,8 +105,8 @@ def _finding(s: Story) -> list[str]:
             *part,
         ]
     out = [
-        f"Something systematic acts at {place_name(first.location)} that no established effect explains. It looks like this: "
-        f"{_lowered(first.sentence)}.",
+        f"Something systematic acts at {place_name(first.location)} that no established effect explains. It looks like "
+        f"this: {_lowered(first.sentence)}.",
         *part,
     ]
     return out + (["Besides:", *said] if said else [])
@@ -138,8 +138,8 @@ def _losses(s: Story) -> list[str]:
     left = float(np.sqrt(np.mean(np.vstack(alone.fit.innovations) ** 2)))
     name = law_name(alone.suspect.term.name, alone.suspect.term.location)
     return [
-        f"{text}, and one law is not enough: the best alone, {name}, leaves an error of {s.error(left)} in the fit window, "
-        f"all that was found together {s.error(s.runs['augmented_train'].rms)}."
+        f"{text}, and one law is not enough: the best alone, {name}, leaves an error of {s.error(left)} in the fit "
+        f"window, all that was found together {s.error(s.runs['augmented_train'].rms)}."
     ]
 
 
@@ -148,8 +148,8 @@ def _alike(s: Story) -> list[str]:
         return []
     names = _listed([law_name(c.suspect.term.name, c.suspect.term.location) for c in s.equivalent[:3]], "or")
     return [
-        f"{names[:1].upper()}{names[1:]} would explain the recording almost as well; motion that is faster, larger or longer "
-        "would tell them apart."
+        f"{names[:1].upper()}{names[1:]} would explain the recording almost as well; motion that is faster, larger or "
+        "longer would tell them apart."
     ]
 
 
@@ -172,7 +172,8 @@ def _confirmation(p: Proof) -> str:
     if p.margin <= 0:
         return ": the held-out window does not confirm the finding"
     longer = f"; about {p.needed:.2g} s like these would" if p.needed is not None and p.needed > p.seconds else ""
-    return f": not confirmed, because chance could do that (probability {p.probability:.2g} from {p.blocks} blocks{longer})"
+    chance = f"probability {p.probability:.2g} from {p.blocks} blocks{longer}"
+    return f": not confirmed, because chance could do that ({chance})"
 
 
 def _chance(s: Story) -> list[str]:
@@ -182,7 +183,8 @@ def _chance(s: Story) -> list[str]:
     size = f"{s.chance:.2g}" if s.chance >= 1e-6 else "below one in a million"
     what = "the least certain effect" if s.effects else "the best suspect"
     return [
-        f"With nothing missing, chance alone would make a suspect look as good as {what} here with a probability of {size}."
+        f"With nothing missing, chance alone would make a suspect look as good as {what} here "
+        f"with a probability of {size}."
         if s.chance >= 1e-6
         else f"With nothing missing, chance alone would make a suspect look like this with a probability {size}."
     ]
@@ -196,11 +198,12 @@ def _halves(s: Story) -> list[str]:
     out = []
     if kept:
         out.append(
-            f"{'It' if one else _capital(_listed(kept))} {'survives' if one or len(kept) == 1 else 'survive'} on both halves "
-            "of the fit window, taken alone."
+            f"{'It' if one else _capital(_listed(kept))} {'survives' if one or len(kept) == 1 else 'survive'} on both "
+            "halves of the fit window, taken alone."
         )
     out += [
-        f"{'It' if one else _capital(law_name(v.name, v.location))} does not survive on two halves of the fit window: {v.reason}."
+        f"{'It' if one else _capital(law_name(v.name, v.location))} does not survive on two halves of the fit window: "
+        f"{v.reason}."
         for v in s.survived
         if v.reason
     ]
@@ -222,7 +225,8 @@ def _verdicts_of_halves(s: Story) -> list[str]:
         else "Either half alone leads to the same verdict."
     ]
     return out + [
-        f"On the {which} half alone {law_name(v.rival.term.name, v.rival.term.location)} explains more than what was found."
+        f"On the {which} half alone {law_name(v.rival.term.name, v.rival.term.location)} explains more "
+        "than what was found."
         for v, which in zip(s.halves, ("first", "second"), strict=True)
         if v.rival is not None
     ]
@@ -257,12 +261,13 @@ def _caveats(s: Story) -> list[str]:
     out = []
     if s.filter is not None:
         out.append(
-            f"The recording was low-pass filtered: about as a Butterworth filter of order {s.filter.order}, forwards and "
-            f"backwards, does at {s.filter.cutoff:.2g} Hz. That was undone before anything was compared."
+            f"The recording was low-pass filtered: about as a Butterworth filter of order {s.filter.order}, forwards "
+            f"and backwards, does at {s.filter.cutoff:.2g} Hz. That was undone before anything was compared."
         )
     elif not s.audit.stated:
         out.append(
-            f"The sensors' noise was not stated; the highest frequencies of the recording show {s.channels(s.audit.noise)}."
+            "The sensors' noise was not stated; the highest frequencies of the recording show "
+            f"{s.channels(s.audit.noise)}."
         )
     if not s.white and any(e.parameters for e in s.effects):
         out.append("What is left is not random, so the standard errors are taken from blocks of the recording.")

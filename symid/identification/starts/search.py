@@ -1,4 +1,4 @@
-"""A start found by search: regressed, identified with estimated process noise, evolved until the loop follows the recording, shot.
+"""A start by search: regressed, identified with process noise, evolved until the loop follows the recording, shot.
 
 A collocation restores feasibility by Newton steps, which explode where a controller is unstable
 and several disturbed episodes have to be followed at once. From a loop whose simulations already

@@ -1,4 +1,4 @@
-"""A start for controllers that could fall away from the data: searched among loops that survive simulations from displaced states.
+"""A start for controllers that could fall away from the data: a search among loops that survive displaced states.
 
 A network of 30 weights follows ten recorded seconds equally well with loops that stand and with loops
 that fall from any other state. Which is which the model tells without further data: simulate it from
@@ -49,11 +49,11 @@ RUNGS = ((0.1, 20, CANDIDATES), (0.03, 40, 3), (0.01, 120, 2))
 """Shooting of one episode (successive halving): price of the fitted runs, evaluations, how many of the best loops."""
 DESCENT = ((0.01, 40), *2 * ((2.5e-3, 20),), *3 * ((1.6e-3, 20),), *6 * ((1e-3, 20),), *10 * ((5e-4, 10),))
 TRUST = 3
-"""Shooting of all episodes, judged after each: price, evaluations; after the first few for as long as the loop survives."""
+"""Shooting of all episodes: price, evaluations; it is judged after each, later only as long as the loop survives."""
 RUNS = 8, 4
 """Fitted runs of the former and of the latter."""
 RELAXED_RIDGE, RIDGE = 4e-4, 1e-5
-"""About zero: in the identification with estimated process noise, which has no loop yet to stay near; in all shootings."""
+"""About zero: in the identification with process noise, which has no loop yet to stay near; in all shootings."""
 
 
 def survival(t: Transcription, parameters: np.ndarray) -> float:

@@ -14,7 +14,7 @@ def read_c3d(path: Path) -> list[RawColumn]:
     """Time, ``<marker>_x``, ``_y``, ``_z`` in the file's unit, and analog channels at the frames of the markers.
 
     Time counts from the first frame of the trial. A marker that was not seen is missing (NaN). An analog channel
-    without a unit is taken to be in volts. The reader is py-c3d: it is all Python, and a damaged file cannot end the process.
+    without a unit is taken to be in volts. The reader is py-c3d: all Python, a damaged file cannot end the process.
     """
     c3d = library("c3d", path)
     try:

@@ -12,7 +12,7 @@ from symid.recording.readers.raw import RawColumn
 
 
 def read_trc(path: Path) -> list[RawColumn]:
-    """Time and ``<marker>_x``, ``_y``, ``_z`` in the unit that the file states; a marker that was not seen is missing."""
+    """Time and ``<marker>_x``, ``_y``, ``_z`` in the unit of the file; a marker that was not seen is missing."""
     lines = _lines(path)
     if len(lines) < 6 or not lines[0].startswith("PathFileType"):
         raise RecordingError(f"{path}: is not a TRC file: it does not begin with PathFileType")
@@ -25,7 +25,7 @@ def read_trc(path: Path) -> list[RawColumn]:
 
 
 def read_storage(path: Path) -> list[RawColumn]:
-    """Time and columns, in degrees where the header says ``inDegrees=yes``, radians else; translations in m, forces in N.
+    """Time and columns, in degrees where the header says ``inDegrees=yes``, else radians; translations [m], forces [N].
 
     Which column is what follows OpenSim's names: ``_tx`` and ``_px`` are lengths, ``force_vx`` forces,
     ``torque_x`` and ``moment`` torques. What ends in a unit keeps it; any other unit is given by a mapping of columns.
