@@ -777,3 +777,11 @@ def test_every_pandas_is_told_to_read_to_the_last_digit():
 
     assert _every_digit("2.1.4") == _every_digit("3.0.0") == {"float_precision": "round_trip"}
     assert _every_digit("3.1.1") == {} == _every_digit("4.0.0rc1")
+
+
+@pytest.mark.parametrize("header", ["force [N]", "force (N)", "force[N]", "pull force (N)"])
+def test_a_unit_in_brackets(tmp_path, header):
+    path = tmp_path / "bench.csv"
+    path.write_text(f"time (s),{header}\n0,1\n0.1,2\n0.2,3\n")
+    recording = read_recording(path)
+    assert list(recording.units.values()) == ["N"] and recording.time[-1] == 0.2

@@ -119,8 +119,40 @@ def test_column_names_that_are_refused(column, message):
 
 
 def test_a_unit_that_no_column_can_carry():
-    with pytest.raises(RecordingError, match="'flow' has the unit m\\^3/s"):
-        column_name("flow", "m^3/s")
+    with pytest.raises(RecordingError, match="'moment' has the unit kg\\*m"):
+        column_name("moment", "kg*m")
+
+
+@pytest.mark.parametrize(
+    "ending, factor, si",
+    [
+        ("K", 1.0, "K"),
+        ("W_per_K", 1.0, "W/K"),
+        ("L_min", 1e-3 / 60, "m^3/s"),
+        ("mol_per_m3", 1.0, "mol/m^3"),
+        ("J_per_kg_K", 1.0, "J/(kg*K)"),
+        ("kPa", 1e3, "Pa"),
+        ("bar", 1e5, "Pa"),
+        ("rpm", 2 * math.pi / 60, "rad/s"),
+        ("mrad", 1e-3, "rad"),
+        ("uNm", 1e-6, "N*m"),
+        ("g_per_cm3", 1e3, "kg/m^3"),
+        ("kohm", 1e3, "ohm"),
+        ("1_per_s", 1.0, "1/s"),
+    ],
+)
+def test_endings_that_are_built_by_rule(ending, factor, si):
+    name, text = split_column_name(f"some_signal_{ending}")
+    known = known_unit(text)
+    assert name == "some_signal" and known.si == si and known.factor == pytest.approx(factor, rel=1e-14)
+    back = split_column_name(column_name(name, known.si))
+    assert back[0] == name and dimension(back[1]) == dimension(si)
+
+
+@pytest.mark.parametrize("column", ["angle_min", "knee_L", "hip_h", "field_T", "a_per_s", "x_m_per", "per_s2x"])
+def test_endings_that_may_mean_something_else_are_refused(column):
+    with pytest.raises(RecordingError, match="does not end in a known unit"):
+        split_column_name(column)
 
 
 @pytest.mark.parametrize("text", ["rda", "m)", "(", "kg/", "m//s", "1e5", "N**", "?"])

@@ -2,15 +2,18 @@
 
 import csv
 import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from symid.errors import RecordingError
+from symid.errors import RecordingError, SymidError
 from symid.units import KnownUnit, known_unit, nearest, split_column_name
 
 LABELS = ("segment", "split")
 """Columns without a unit: they part the rows into separate runs."""
+
+_IN_BRACKETS = re.compile(r"(.*\S)\s*[\[(]([^\[\]()]+)[\])]")
 
 # A name's last word says what is measured, so an angle in metres is seen at the door.
 _UNITS_OF_QUANTITY = {
@@ -119,7 +122,7 @@ def _parse(cells: list[str]) -> tuple[list[Column], list[str]]:
         else:
             try:
                 columns.append(measured_column(text))
-            except RecordingError as error:
+            except SymidError as error:
                 problems.append(str(error))
     problems += contradictions(columns)
     if not any(column.name == "time" for column in columns) and not _time_named_wrongly(cells):
@@ -137,8 +140,14 @@ def _time_named_wrongly(cells: list[str]) -> bool:
 
 
 def measured_column(text: str) -> Column:
-    """A column from its name, whose last part is the unit; RecordingError where that cannot be right."""
-    name, unit_text = split_column_name(text)
+    """A column from its name, which ends in the unit: ``force_N``, ``force [N]``, ``force (N)``.
+
+    Raises
+    ------
+    RecordingError, UnitError : the unit is missing, not known, or cannot be that of the quantity.
+    """
+    in_brackets = _IN_BRACKETS.fullmatch(text)
+    name, unit_text = ("_".join(in_brackets[1].split()), in_brackets[2]) if in_brackets else split_column_name(text)
     unit = known_unit(unit_text)
     quantity = name.split("_")[-1]
     right = _UNITS_OF_QUANTITY.get(quantity, {unit.si})

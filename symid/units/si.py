@@ -120,7 +120,7 @@ def nearest(word: str, candidates, count: int = 3) -> list[str]:
 
 def normal(text: str) -> str:
     """Unit text in one spelling: ^ for powers, * for products, N*m for Nm, 1 for nothing."""
-    text = text.strip().replace("**", "^").replace("·", "*").replace("²", "^2").replace("³", "^3")
+    text = text.strip().replace("**", "^").replace("·", "*").replace("²", "^2").replace("³", "^3").replace("Ω", "ohm")
     text = re.sub(r"\s*([*/^()])\s*", r"\1", text)
     text = re.sub(r"\s+", "*", text)
     return text.replace("Nms", "N*m*s").replace("Nm", "N*m") or "1"
@@ -149,12 +149,28 @@ def parsed(text: str):
 
 @functools.cache
 def base_of(text: str) -> tuple[float, str]:
-    """Factor to SI base units and the text of those, from pint."""
+    """Factor to SI and the SI text, from pint: ``"kPa"`` is 1000 of ``"Pa"``, ``"bar"`` 100000 of ``"Pa"``."""
     registry, unit = _registry(), parsed(text)
     if registry.Quantity(0.0, unit).to_base_units().magnitude != 0.0:
         raise UnitError(f"'{text}' has an offset and cannot be converted by a factor; use K")
     base = registry.Quantity(1.0, unit).to_base_units()
-    return float(base.magnitude), normal(f"{base.units:~C}") or "1"
+    plain = _without_prefixes(unit)
+    if registry.Quantity(1.0, plain).to_base_units().magnitude != 1.0:
+        plain = base.units
+    si = normal(f"{plain:~C}") or "1"
+    return float(base.magnitude), _NAMED.get(si, si)
+
+
+_NAMED = {"kg/m/s^2": "Pa", "m*N": "N*m"}
+
+
+def _without_prefixes(unit):
+    """Each factor of a unit without its SI prefix, the kilogram being SI without one."""
+    registry, plain = _registry(), parsed("1")
+    for name, power in unit._units.items():
+        _, root, _ = registry.parse_unit_name(name)[0]
+        plain = plain * registry.Unit("kilogram" if root == "gram" else root) ** power
+    return plain
 
 
 def reduced(text: str) -> str:
