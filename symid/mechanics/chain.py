@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import sympy as sm
 
 from symid.errors import ModelError
 from symid.mechanics.lagrange import Link, Surroundings, chain_residuals
 from symid.model import Constant, Equation, Expression, Input, Model, Noise, Output, Port, State
+
+if TYPE_CHECKING:
+    from symid.mechanics.feedback import Feedback
 
 _QUANTITIES = {  # quantity: role, unit, letter, meaning
     "mass": ("mass", "kg", "m", "mass of the {}"),
@@ -91,7 +95,7 @@ class Chain:
     friction_speed: float = 0.05
     name: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not self.joints:
             object.__setattr__(self, "joints", tuple(f"joint{i + 1}" for i in range(len(self.links))))
         names = (*self.joints, *(k.name for k in self.links))
@@ -102,14 +106,14 @@ class Chain:
             )
 
     @classmethod
-    def uniform(cls, n: int, length: float = 1.0, mass: float = 1.0, **options) -> Chain:
+    def uniform(cls, n: int, length: float = 1.0, mass: float = 1.0, **options: Any) -> Chain:
         """`n` equal slender rods of `length` [m] and `mass` [kg]; options as for `Chain`."""
-        rod = {"mass": mass, "com": length / 2, "inertia": mass * length**2 / 12}
+        rod: dict[str, Any] = {"mass": mass, "com": length / 2, "inertia": mass * length**2 / 12}
         return cls(
             tuple(ChainLink(f"link{i + 1}", length=length if i < n - 1 else None, **rod) for i in range(n)), **options
         )
 
-    def with_feedback(self, law) -> Model:
+    def with_feedback(self, law: Feedback) -> Model:
         """The chain with the loop closed by a feedback law of `symid.mechanics`."""
         return law.close(self.plant())
 

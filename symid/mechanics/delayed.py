@@ -25,7 +25,7 @@ class DelayedFullState(Feedback):
 
     lags: tuple[float, ...] = (0.06, 0.1, 0.14)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         check_lags(self.lags, type(self).__name__)
 
     def torques(self, model: Model, joints: tuple[str, ...]) -> list[sm.Expr]:

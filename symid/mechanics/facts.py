@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 from symid.errors import ModelError
 from symid.mechanics.feedback import PD, FullStatePD
@@ -22,7 +23,7 @@ _BODY = {
 }
 
 
-def model_of(facts: Mapping, channels: Iterable[str] = ()) -> Model:
+def model_of(facts: Mapping[str, Any], channels: Iterable[str] = ()) -> Model:
     """The model of a case from what its user knows, the content of a ``case.json``.
 
     Parameters
@@ -41,15 +42,16 @@ def model_of(facts: Mapping, channels: Iterable[str] = ()) -> Model:
     return readers[facts["system"]](facts, channels)
 
 
-def _table(facts: Mapping, key: str) -> Mapping:
-    if not isinstance(facts.get(key), Mapping):
+def _table(facts: Mapping[str, Any], key: str) -> Mapping[str, Any]:
+    table = facts.get(key)
+    if not isinstance(table, Mapping):
         raise ModelError(
             f"the key '{key}' is missing" if key not in facts else f"'{key}' is no table of names and numbers"
         )
-    return facts[key]
+    return table
 
 
-def _standing(facts: Mapping, channels: Iterable[str]) -> Model:
+def _standing(facts: Mapping[str, Any], channels: Iterable[str]) -> Model:
     body, controller = _table(facts, "body"), _table(facts, "baseline").get("controller")
     missing = [k for k in _BODY.values() if k not in body]
     if missing:
@@ -60,7 +62,7 @@ def _standing(facts: Mapping, channels: Iterable[str]) -> Model:
     return person.with_feedback(CONTROLLERS[controller]())
 
 
-def _rig(facts: Mapping, channels: Iterable[str]) -> Model:
+def _rig(facts: Mapping[str, Any], channels: Iterable[str]) -> Model:
     terms = _table(facts, "baseline").get("terms", ()) if "baseline" in facts else ()
     odd = [t for t in terms if t != "conservative" and not t.startswith("viscous_friction:")]
     if odd:

@@ -88,7 +88,8 @@ class Feedback(ABC):
         self, model: Model, joints: tuple[str, ...], references: bool, lag: float = 0.0, suffix: str = ""
     ) -> Signals:
         """Declare the error and rate of each joint, late by `lag` [s] and by the unknown delay."""
-        errors, rates = [], []
+        errors: list[sm.Expr] = []
+        rates: list[sm.Expr] = []
         late = lag + (model.feedback_delay.symbol if self.delay is not None else 0)
         for joint, s in zip(joints, subscripts(joints), strict=True):
             port = model[joint]

@@ -12,6 +12,8 @@ from functools import lru_cache
 
 import sympy as sm
 
+Symbols = tuple[sm.Symbol, ...]
+
 Exprs = Sequence[sm.Expr]
 
 
@@ -91,7 +93,7 @@ def chain_energies(
 
 @lru_cache(maxsize=32)
 def chain_residuals(
-    links: tuple[Link, ...], q: tuple, dq: tuple, ddq: tuple, around: Surroundings, absolute: bool, upright: bool
+    links: tuple[Link, ...], q: Symbols, dq: Symbols, ddq: Symbols, around: Surroundings, absolute: bool, upright: bool
 ) -> tuple[sm.Expr, ...]:
     """Residuals (forces minus rates of momentum [N m]) of a planar chain, one per coordinate.
 

@@ -57,7 +57,7 @@ class NeuralNetwork(Feedback):
     scale: float = 100.0
     lags: tuple[float, ...] = (0.0,)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         check_lags(self.lags, type(self).__name__)
         if self.activation not in ACTIVATIONS:
             raise ModelError(

@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from typing import Any, cast
 
 from symid.errors import ModelError, RecordingError
 from symid.mechanics.chain import Chain, ChainLink
@@ -25,7 +26,9 @@ _COUNT = {1: "pendulum", 2: "double pendulum", 3: "triple pendulum"}
 
 
 def rig_model(
-    parameters: Mapping[str, object] | str | os.PathLike, channels: Iterable[str] = (), friction: Iterable[str] = ()
+    parameters: Mapping[str, object] | str | os.PathLike[str],
+    channels: Iterable[str] = (),
+    friction: Iterable[str] = (),
 ) -> Model:
     """A chain of links that hangs from a mount, as its parameters and its recording say.
 
@@ -47,8 +50,8 @@ def rig_model(
     ModelError : `friction` names a joint that the rig does not have.
     """
     name = "rig" if isinstance(parameters, Mapping) else str(parameters)
-    content = load_table(parameters)
-    content = content.get("parameters", content)
+    given = load_table(parameters)
+    content = given.get("parameters", given)
     if not isinstance(content, Mapping):
         raise RecordingError(f"{name}: 'parameters' must be an object such as {{\"m1_kg\": 0.09}}")
     table = {_short(k): v for k, v in content.items()}
@@ -70,7 +73,7 @@ def rig_model(
         ChainLink(
             f"link{i}",
             constants=tuple((_FIELDS[q], f"{q}{i}") for q in _QUANTITIES),
-            **{_FIELDS[q]: values.get(f"{q}{i}") for q in _QUANTITIES},
+            **cast("dict[str, Any]", {_FIELDS[q]: values.get(f"{q}{i}") for q in _QUANTITIES}),
         )
         for i in range(1, count + 1)
     )

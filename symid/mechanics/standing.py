@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from symid.mechanics.chain import Chain, ChainLink
 from symid.model import Model
 from symid.recording import read_body
+
+if TYPE_CHECKING:
+    from symid.mechanics.feedback import Feedback
 
 _UNITS = {"length": "m", "com": "m", "mass": "kg", "inertia": "kg*m^2", "gravity": "m/s^2"}
 
@@ -40,7 +44,7 @@ class DoubleLinkPendulum:
         """Read a body file with ``name_unit`` keys (``leg_length_m`` ... ``gravity_m_s2``)."""
         return cls(**read_body(path, {n: _UNITS[n.split("_")[-1]] for n in cls.__dataclass_fields__}))
 
-    def with_feedback(self, law) -> Model:
+    def with_feedback(self, law: Feedback) -> Model:
         """The closed loop: this body under a feedback law such as `PD()`."""
         return law.close(self.plant())
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import sympy as sm
 from sympy.core.function import AppliedUndef
@@ -27,7 +27,7 @@ class _Draft:
     violations: list[str] = field(default_factory=list)
     table: dict[sm.Basic, sm.Expr] = field(default_factory=dict)
 
-    def declare(self, name: str, make: Callable[..., Component], *args, **more) -> None:
+    def declare(self, name: str, make: Callable[..., Component], *args: Any, **more: Any) -> None:
         """Attach one part with its unit; a sentence among the violations where that fails."""
         unit = self.units.get(name)
         if unit is None:
@@ -121,7 +121,7 @@ def from_lagrange(
     )
 
 
-def from_system(system: System, units: Mapping[str, str], **options) -> Model:
+def from_system(system: System, units: Mapping[str, str], **options: Any) -> Model:
     """A Model from a System whose equations were formed (``form_eoms``); as `from_kane`."""
     method = system.eom_method
     if method is None:
@@ -134,9 +134,9 @@ def from_system(system: System, units: Mapping[str, str], **options) -> Model:
 
 def _wrapped(
     name: str,
-    q: list,
-    speeds: list,
-    speed_names: dict,
+    q: list[sm.Expr],
+    speeds: list[sm.Expr],
+    speed_names: dict[sm.Expr, str],
     mass: sm.Matrix,
     forcing: sm.Matrix,
     units: Mapping[str, str],
@@ -173,7 +173,14 @@ def _wrapped(
     return draft.model
 
 
-def _equations(draft: _Draft, q: list, speeds: list, speed_names: dict, mass: sm.Matrix, forcing: sm.Matrix) -> None:
+def _equations(
+    draft: _Draft,
+    q: list[sm.Expr],
+    speeds: list[sm.Expr],
+    speed_names: dict[sm.Expr, str],
+    mass: sm.Matrix,
+    forcing: sm.Matrix,
+) -> None:
     """Residuals forcing - mass x', ports where a rate is a speed, and outputs."""
     model, names = draft.model, [*map(_name, q), *speed_names.values()]
     if draft.violations:

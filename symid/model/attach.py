@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import sympy as sm
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from symid.model.model import Model
 
 
-def hint(part) -> str:
+def hint(part: Any) -> str:
     """What a thing that is no part could become, for an error message."""
     if isinstance(part, sm.core.relational.Relational):
         return " (a comparison becomes a Constraint(...))"
@@ -30,7 +30,7 @@ def hint(part) -> str:
 
 def completed(model: Model, part: Component, name: str) -> Component:
     """The part with its name, its expression as SymPy, and defaults taken from its state."""
-    changes: dict = {"name": name}
+    changes: dict[str, Any] = {"name": name}
     refuse_odd_name(model, name)
     _refuse_wrong_types(model, part, name)
     if isinstance(part, (Expression, Equation, Output)):

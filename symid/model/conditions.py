@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from math import inf
+from typing import Any
 
 import sympy as sm
 from sympy.core.relational import Relational
@@ -91,12 +92,19 @@ class Boundary(Component):
         it has at the end.
     """
 
-    conditions: tuple = ()
-    initial: Mapping = field(default_factory=dict)
-    terminal: Mapping = field(default_factory=dict)
-    periodic: Mapping | Sequence = ()
+    conditions: tuple[Any, ...] = ()
+    initial: Mapping[Any, Any] = field(default_factory=dict)
+    terminal: Mapping[Any, Any] = field(default_factory=dict)
+    periodic: Mapping[Any, Any] = field(default_factory=dict)
 
-    def __init__(self, *conditions, initial=None, terminal=None, periodic=(), **common):
+    def __init__(
+        self,
+        *conditions: Any,
+        initial: Mapping[Any, Any] | None = None,
+        terminal: Mapping[Any, Any] | None = None,
+        periodic: Mapping[Any, Any] | Sequence[Any] = (),
+        **common: Any,
+    ) -> None:
         periodic = periodic if isinstance(periodic, Mapping) else {x: x for x in periodic}
         values = {
             "conditions": conditions,
@@ -113,7 +121,7 @@ class Boundary(Component):
         for name, value in (values | common).items():
             object.__setattr__(self, name, value)
 
-    def __hash__(self):
+    def __hash__(self) -> int:
         return id(self)
 
     def rows(self, along: set[sm.Symbol]) -> list[Row]:
@@ -157,14 +165,14 @@ class Objective(Component):
     terminal: sm.Expr = 0
 
 
-def _plain(ends) -> dict:
+def _plain(ends: Any) -> dict[sm.Expr, Any]:
     """Parts as keys would compare by their fields: their symbols are the keys."""
     if ends is not None and not isinstance(ends, Mapping):
         raise ModelError(f"a Boundary needs a dictionary of quantity -> value, not {ends!r}: initial={{m.x: 0}}")
     return {sympified(k): v for k, v in (ends or {}).items()}
 
 
-def _interval(value) -> tuple:
+def _interval(value: Any) -> tuple[Any, Any]:
     """(lower, upper) of a value that is a number or a pair; (None, expression) of any other."""
     if isinstance(value, (tuple, list)):
         low, high = (float(v) for v in value)
@@ -173,7 +181,7 @@ def _interval(value) -> tuple:
     return (float(value), float(value)) if value.is_number else (None, value)
 
 
-def row_of(condition, lower: float | None = None, upper: float | None = None) -> Row:
+def row_of(condition: Any, lower: float | None = None, upper: float | None = None) -> Row:
     """A comparison, or an expression with its bounds, as one Row."""
     try:
         condition = sympified(condition)

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from math import inf
 from types import MappingProxyType
+from typing import Any
 
 import sympy as sm
 
@@ -20,6 +21,8 @@ from symid.model.quantity import AlongTime, Quantity, symbol
 
 Bounds = tuple[float, float]
 HOLDS = ("smooth", "linear", "zero")
+REQUIRED: Any = None
+"""A unit that was not given: attaching the part to a model refuses it, with the part's name."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,9 +47,9 @@ class Component:
     at: str = ""
     latex: str = ""
     name: str = field(default="", repr=True)
-    index: Iterable | None = field(default=None, repr=False)
+    index: Iterable[Any] | None = field(default=None, repr=False)
 
-    def copies(self) -> dict | None:
+    def copies(self) -> dict[Any, Component] | None:
         """index -> the copy of this part that stands there, without an index; None where it does not repeat itself."""
         for key in ("expr", "condition"):
             value = getattr(self, key, None)
@@ -70,7 +73,7 @@ class Component:
 class State(AlongTime, Component):
     """A quantity with a time derivative, unknown at every node. Bounds in its unit."""
 
-    unit: str = None
+    unit: str = REQUIRED
     bounds: Bounds = (-inf, inf)
 
     @property
@@ -87,7 +90,7 @@ class Algebraic(AlongTime, Component):
     >>> m.aerodynamics = Equation(m.lift - m.c * m.speed**2)
     """
 
-    unit: str = None
+    unit: str = REQUIRED
     bounds: Bounds = (-inf, inf)
 
 
@@ -105,7 +108,7 @@ class Control(AlongTime, Component):
         objective: it makes the control an estimated disturbance that is as smooth as the data allow.
     """
 
-    unit: str = None
+    unit: str = REQUIRED
     bounds: Bounds = (-inf, inf)
     hold: str = "linear"
     smooth: float = 0.0
@@ -141,7 +144,7 @@ class Input(AlongTime, Component):
         the scheme is of second order on the samples themselves, else a cubic spline.
     """
 
-    unit: str = None
+    unit: str = REQUIRED
     channel: str = ""
     hold: str = "smooth"
 
@@ -157,7 +160,7 @@ class Parameter(Quantity, Component):
     prior : what is known before the data: `Normal` or `LogNormal`.
     """
 
-    unit: str = None
+    unit: str = REQUIRED
     bounds: Bounds = (-inf, inf)
     guess: float | None = None
     prior: Prior | None = None
@@ -168,14 +171,14 @@ class Constant(Quantity, Component):
     """A known number, in its unit. Changing the value never needs new code."""
 
     value: float
-    unit: str = field(default=None, kw_only=True)
+    unit: str = field(default=REQUIRED, kw_only=True)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Noise(Quantity, Component):
     """Process noise: drawn for an episode, then known. Zero in a deterministic problem."""
 
-    unit: str = None
+    unit: str = REQUIRED
 
 
 @dataclass(frozen=True)
@@ -183,7 +186,7 @@ class Expression(Quantity, Component):
     """A named intermediate quantity, such as a joint torque, that a Term can redefine."""
 
     expr: sm.Expr
-    unit: str = field(default=None, kw_only=True)
+    unit: str = field(default=REQUIRED, kw_only=True)
 
 
 @dataclass(frozen=True)
@@ -222,14 +225,14 @@ class Port(Component):
     into: Mapping[str, float]
     unit: str = ""
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         object.__setattr__(self, "into", MappingProxyType(dict(self.into)))
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         return _restore_port, (self.__dict__ | {"into": dict(self.into)},)
 
 
-def _restore_port(fields: dict) -> Port:
+def _restore_port(fields: dict[str, Any]) -> Port:
     return Port(**fields)
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import sympy as sm
 
@@ -30,18 +30,19 @@ from symid.model.declare import (
     Process,
     State,
 )
-from symid.model.quantity import symbol, sympified
+from symid.model.quantity import Operand, symbol, sympified
 
 if TYPE_CHECKING:
     from symid.model.term import Term
 
+Part = TypeVar("Part", bound=Component)
 TIME = symbol("t")
 FREE_FACTOR = 10.0
 """What was written down as known is rarely wrong by more than an order of magnitude."""
 
 
-def _kind(kind: type) -> property:
-    return property(lambda self: self._of(kind))
+def _kind(kind: type[Part]) -> dict[str, Part]:
+    return cast("dict[str, Part]", property(lambda self: self._of(kind)))
 
 
 class Model:
@@ -61,6 +62,13 @@ class Model:
     terms : the missing-physics terms that were added, in order.
     """
 
+    name: str
+    description: str
+    components: dict[str, Component]
+    groups: dict[str, dict[Any, str]]
+    delays: dict[sm.Symbol, Delay]
+    terms: tuple[Term, ...]
+
     def __init__(self, name: str, description: str = ""):
         fields = {"name": name, "description": description, "components": {}, "groups": {}, "delays": {}, "terms": ()}
         self.__dict__.update(fields)
@@ -70,9 +78,8 @@ class Model:
         if not isinstance(part, Component):
             raise ModelError(
                 f"model '{self.name}': cannot attach {name} = {part!r}{hint(part)}; attach a State, Algebraic, "
-                "Control, "
-                "Input, Parameter, Constant, Noise, Expression, Equation, Output, Port, Constraint, Boundary or "
-                "Objective"
+                "Control, Input, Parameter, Constant, Noise, Expression, Equation, Output, Port, Constraint, "
+                "Boundary or Objective"
             )
         if name in self.components or name in self.groups:
             raise ModelError(
@@ -90,7 +97,8 @@ class Model:
             setattr(self, f"{name}_{i}", copy)
         self.groups[name] = {i: f"{name}_{i}" for i in copies}
 
-    def __getattr__(self, name: str) -> Component | dict:
+    def __getattr__(self, name: str) -> Any:
+        """The part called `name`, or index -> part; to a type checker whatever a subclass says it is."""
         try:
             if name in self.__dict__["groups"]:
                 return {i: self.components[member] for i, member in self.groups[name].items()}
@@ -98,33 +106,33 @@ class Model:
         except KeyError:
             raise AttributeError(f"model has no part '{name}'") from None
 
-    def __getitem__(self, name: str) -> Component:
+    def __getitem__(self, name: str) -> Any:
         """The part called `name`; ModelError with the nearest names if there is none."""
         if name not in self.components:
             raise ModelError(f"model '{self.name}' has no part '{name}'; {nearest(name, self.components)}")
         return self.components[name]
 
-    def __dir__(self):
+    def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.components, *self.groups]
 
     # ---- parts by kind: {name: part}, in order of declaration --------------------------
-    def _of(self, kind: type | tuple[type, ...]) -> dict[str, Component]:
+    def _of(self, kind: type[Part] | tuple[type[Part], ...]) -> dict[str, Part]:
         return {k: c for k, c in self.components.items() if isinstance(c, kind)}
 
-    states: dict[str, State] = _kind(State)
-    algebraics: dict[str, Algebraic] = _kind(Algebraic)
-    controls: dict[str, Control] = _kind(Control)
-    inputs: dict[str, Input] = _kind(Input)
-    parameters: dict[str, Parameter] = _kind(Parameter)
-    constants: dict[str, Constant] = _kind(Constant)
-    noises: dict[str, Noise] = _kind(Noise)
-    expressions: dict[str, Expression] = _kind(Expression)
-    equations: dict[str, Equation] = _kind(Equation)
-    outputs: dict[str, Output] = _kind(Output)
-    ports: dict[str, Port] = _kind(Port)
-    constraints: dict[str, Constraint] = _kind(Constraint)
-    boundaries: dict[str, Boundary] = _kind(Boundary)
-    objectives: dict[str, Objective] = _kind(Objective)
+    states = _kind(State)
+    algebraics = _kind(Algebraic)
+    controls = _kind(Control)
+    inputs = _kind(Input)
+    parameters = _kind(Parameter)
+    constants = _kind(Constant)
+    noises = _kind(Noise)
+    expressions = _kind(Expression)
+    equations = _kind(Equation)
+    outputs = _kind(Output)
+    ports = _kind(Port)
+    constraints = _kind(Constraint)
+    boundaries = _kind(Boundary)
+    objectives = _kind(Objective)
 
     @property
     def informed(self) -> bool:
@@ -140,7 +148,7 @@ class Model:
         """Time in seconds, for forces that depend on it explicitly."""
         return TIME
 
-    def find(self, role: str, at: str | None = None) -> list[Component]:
+    def find(self, role: str, at: str | None = None) -> list[Any]:
         """The parts with this role, at this place or (None) anywhere, in order of declaration."""
         return [c for c in self.components.values() if c.role == role and at in (None, c.at)]
 
@@ -181,7 +189,7 @@ class Model:
                         found[states[rate].name] = x.name
         return found
 
-    def delayed(self, expr, lag) -> sm.Expr:
+    def delayed(self, expr: Operand, lag: Operand) -> sm.Expr:
         """`expr` with each state, control and input taken at time t - lag.
 
         `lag` [s] is a number, a Constant or a Parameter of this model; a signal that is late
@@ -284,7 +292,7 @@ class Model:
             )
         return self._with(parts)
 
-    def _part(self, name: str, kind) -> Component:
+    def _part(self, name: str, kind: type[Component] | tuple[type[Component], ...]) -> Any:
         part = self[name]
         if not isinstance(part, kind):
             raise ModelError(
@@ -298,11 +306,11 @@ class Model:
         return new
 
     # ---- for the build function of a Law, which works on a fresh copy -----------------
-    def redefine(self, name: str, expr) -> None:
+    def redefine(self, name: str, expr: Operand) -> None:
         """Give the Expression or Output `name` another meaning, everywhere it is used."""
         self.components[name] = replace(self._part(name, (Expression, Output)), expr=sympified(expr))
 
-    def add_effort(self, port: str, force) -> None:
+    def add_effort(self, port: str, force: Operand) -> None:
         """Let `force` (along the port's rate) act: it enters each equation that the port names."""
         for equation, coefficient in self._part(port, Port).into.items():
             part = self._part(equation, Equation)
@@ -320,7 +328,7 @@ class Model:
     def fingerprint(self) -> str:
         """Changes with the equations and conditions, their symbols and their order; not with values or bounds."""
         parts = (*self.components.values(), *self.delays.items())
-        known = self.__dict__.get("_known_fingerprint", ((), ""))
+        known: tuple[tuple[Any, ...], str] = self.__dict__.get("_known_fingerprint", ((), ""))
         if len(known[0]) != len(parts) or any(a is not b and a != b for a, b in zip(known[0], parts, strict=True)):
             known = parts, self._new_fingerprint()
             object.__setattr__(self, "_known_fingerprint", known)
@@ -371,7 +379,7 @@ class Model:
         return latex(self)
 
 
-def nearest(name: str, names) -> str:
+def nearest(name: str, names: Iterable[str]) -> str:
     """A phrase with the known names most like `name`, for error messages."""
     from difflib import get_close_matches
 

@@ -24,7 +24,7 @@ class Normal:
     mean: float
     deviation: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not (isfinite(self.mean) and isfinite(self.deviation) and self.deviation > 0):
             raise ModelError(f"{self}: a prior needs a finite mean and a positive standard deviation")
 
@@ -39,7 +39,7 @@ class LogNormal:
     median: float
     factor: float
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not (self.median > 0 and isfinite(self.median) and isfinite(self.factor) and self.factor > 1):
             raise ModelError(f"{self}: a log-normal prior needs a positive median and a factor above 1")
 

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import sympy as sm
 
 from symid.errors import ModelError
+
+Operand = Any
+"""What stands beside a quantity in an expression: a number, a part or a SymPy expression."""
 
 
 def symbol(name: str) -> sm.Symbol:
@@ -25,58 +30,63 @@ def terminal(s: sm.Symbol) -> sm.Symbol:
 class Quantity:
     """A part that behaves as a SymPy symbol in arithmetic, in comparisons and in SymPy functions."""
 
+    if TYPE_CHECKING:
+
+        @property
+        def symbol(self) -> sm.Symbol: ...
+
     def _sympy_(self) -> sm.Symbol:
         return self.symbol
 
-    def __add__(self, other):
+    def __add__(self, other: Operand) -> sm.Expr:
         return self.symbol + sympified(other)
 
-    def __radd__(self, other):
+    def __radd__(self, other: Operand) -> sm.Expr:
         return sympified(other) + self.symbol
 
-    def __sub__(self, other):
+    def __sub__(self, other: Operand) -> sm.Expr:
         return self.symbol - sympified(other)
 
-    def __rsub__(self, other):
+    def __rsub__(self, other: Operand) -> sm.Expr:
         return sympified(other) - self.symbol
 
-    def __mul__(self, other):
+    def __mul__(self, other: Operand) -> sm.Expr:
         return self.symbol * sympified(other)
 
-    def __rmul__(self, other):
+    def __rmul__(self, other: Operand) -> sm.Expr:
         return sympified(other) * self.symbol
 
-    def __truediv__(self, other):
+    def __truediv__(self, other: Operand) -> sm.Expr:
         return self.symbol / sympified(other)
 
-    def __rtruediv__(self, other):
+    def __rtruediv__(self, other: Operand) -> sm.Expr:
         return sympified(other) / self.symbol
 
-    def __pow__(self, other):
+    def __pow__(self, other: Operand) -> sm.Expr:
         return self.symbol ** sympified(other)
 
-    def __rpow__(self, other):
+    def __rpow__(self, other: Operand) -> sm.Expr:
         return sympified(other) ** self.symbol
 
-    def __neg__(self):
+    def __neg__(self) -> sm.Expr:
         return -self.symbol
 
-    def __pos__(self):
+    def __pos__(self) -> sm.Expr:
         return self.symbol
 
-    def __abs__(self):
+    def __abs__(self) -> sm.Expr:
         return sm.Abs(self.symbol)
 
-    def __le__(self, other):
+    def __le__(self, other: Operand) -> sm.Expr:
         return sm.Le(self.symbol, sympified(other))
 
-    def __lt__(self, other):
+    def __lt__(self, other: Operand) -> sm.Expr:
         return sm.Lt(self.symbol, sympified(other))
 
-    def __ge__(self, other):
+    def __ge__(self, other: Operand) -> sm.Expr:
         return sm.Ge(self.symbol, sympified(other))
 
-    def __gt__(self, other):
+    def __gt__(self, other: Operand) -> sm.Expr:
         return sm.Gt(self.symbol, sympified(other))
 
 
@@ -94,7 +104,7 @@ class AlongTime(Quantity):
         return terminal(self.symbol)
 
 
-def sympified(other) -> sm.Expr:
+def sympified(other: Operand) -> sm.Expr:
     try:
         return sm.sympify(other, strict=True)
     except (sm.SympifyError, AttributeError, TypeError):

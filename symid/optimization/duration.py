@@ -22,7 +22,7 @@ class Free:
     upper: float
     guess: float | None = None
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not 0 < self.lower <= self.upper < float("inf"):
             raise TranscriptionError(
                 f"Free({self.lower}, {self.upper}): a free duration needs finite bounds above 0 s, the lower one first"
@@ -31,7 +31,7 @@ class Free:
             raise TranscriptionError(f"Free: the guess {self.guess} s lies outside {self.lower} to {self.upper} s")
 
 
-def with_duration(model: Model, duration) -> tuple[Model, float, str | None]:
+def with_duration(model: Model, duration: float | Free | Parameter) -> tuple[Model, float, str | None]:
     """(model with the duration as a parameter, length of the time axis, name of that parameter or None).
 
     Raises

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -54,7 +55,7 @@ class Plan:
     def duration(self) -> float:
         """[s]"""
         name = self.problem.duration_name
-        return self.values[name] if name else float(self.problem.duration)
+        return self.values[name] if name else float(cast("float", self.problem.duration))
 
     @cached_property
     def trajectories(self) -> pd.DataFrame:
@@ -65,21 +66,22 @@ class Plan:
         time = pd.Index(self.duration * self.problem.shares, name="time_s")
         return pd.DataFrame(layout.nodes(self.result.z, 0), index=time, columns=list(layout.node_names))
 
-    def as_start(self) -> dict:
+    def as_start(self) -> dict[str, Any]:
         """Values by name from which another Optimization can start: functions of time, and parameters."""
         layout, time = self.problem.transcription.layout, self.trajectories.index.to_numpy()
         columns = layout.nodes(self.result.z, 0).T
 
-        def along(column):
+        def along(column: np.ndarray) -> Callable[[float], Any]:
             return lambda t: np.interp(t, time, column)
 
         return {name: along(c) for name, c in zip(layout.node_names, columns, strict=True)} | self.values
 
-    def __getitem__(self, name) -> np.ndarray:
+    def __getitem__(self, name: Any) -> np.ndarray:
         """(nodes,) the motion of one quantity, by name or part."""
-        return self.trajectories[str(getattr(name, "symbol", name))].to_numpy()
+        column: np.ndarray = self.trajectories[str(getattr(name, "symbol", name))].to_numpy()
+        return column
 
-    def plot(self):
+    def plot(self) -> Any:
         """Figure of the motion and its controls."""
         # Drawing stands on the roof, and computing must not need it: fetched by name when asked for.
         return import_module("symid.plots").plot_plan(self)

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -44,10 +45,13 @@ class Optimization:
     duration: float | Free | Parameter = field(kw_only=True)
     nodes: int | Sequence[float] = field(default=101, kw_only=True)
     scheme: Scheme = field(default_factory=HermiteSimpson, kw_only=True)
-    history: Mapping = field(default_factory=dict, kw_only=True)
+    history: Mapping[Any, float] = field(default_factory=dict, kw_only=True)
     backend: str = field(default="auto", kw_only=True)
+    shares: np.ndarray = field(init=False, repr=False, compare=False)
+    """(nodes,) places of the nodes as shares of the duration."""
+    _timed: tuple[Model, float, str | None] = field(init=False, repr=False, compare=False)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not isinstance(self.model, Model):
             raise TranscriptionError(f"Optimization needs a Model first, not {type(self.model).__name__}")
         if not isinstance(self.scheme, Scheme):
@@ -92,18 +96,18 @@ class Optimization:
         made.seconds["build"] = time.perf_counter() - began
         return made
 
-    def start(self, values: Mapping | Plan | None = None) -> np.ndarray:
+    def start(self, values: Mapping[str, Any] | Plan | None = None) -> np.ndarray:
         """A free vector to start from, see `solve`."""
         return start_vector(self, values)
 
     def solve(
         self,
-        start: Mapping | Plan | None = None,
+        start: Mapping[str, Any] | Plan | None = None,
         *,
         starts: int = 1,
         seed: int = 0,
         on_iteration: Callable[[Iteration], bool | None] | None = None,
-        **solver,
+        **solver: Any,
     ) -> Plan:
         """Solve with Ipopt, and return the best plan found.
 
@@ -141,7 +145,7 @@ class Optimization:
         )
 
 
-def _shares(nodes) -> np.ndarray:
+def _shares(nodes: int | Sequence[float]) -> np.ndarray:
     """(nodes,) places of the nodes as shares of the duration."""
     if isinstance(nodes, (int, np.integer)) and nodes >= 3:
         return np.linspace(0.0, 1.0, nodes)

@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Mapping
 from itertools import islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -35,7 +36,10 @@ _MISSING = {"", "nan", "na", "n/a", "null", "none"}
 
 
 def read_recording(
-    path: str | os.PathLike, *, allow_gaps: bool = False, columns: Mapping[str, str] | str | os.PathLike | None = None
+    path: str | os.PathLike[str],
+    *,
+    allow_gaps: bool = False,
+    columns: Mapping[str, str] | str | os.PathLike[str] | None = None,
 ) -> Recording:
     """Read a recording into SI, from a file whose ending says what it is.
 
@@ -86,7 +90,7 @@ def read_recording(
     return recording.noted(*(f"warning: {remark}" for remark in remarks))
 
 
-def _read_other(path: Path, mapping, allow_gaps: bool) -> tuple[list[Column], dict[str, np.ndarray]]:
+def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column], dict[str, np.ndarray]]:
     """Columns and values of a file with names of its own, or in a format of its own."""
     from symid.recording.columns import load_columns, mapped, own_names
     from symid.recording.readers import READERS
@@ -100,7 +104,7 @@ def _read_other(path: Path, mapping, allow_gaps: bool) -> tuple[list[Column], di
     columns, table = own_names(path, raw) if chosen is None else mapped(path, raw, chosen)
     for column in columns:
         values = table[column.name]
-        wrong = np.flatnonzero(~np.isfinite(values)) if column.name != "split" else []
+        wrong: Any = np.flatnonzero(~np.isfinite(values)) if column.name != "split" else []
         if len(wrong) and not (allow_gaps and column.unit and column.name != "time" and not np.isinf(values).any()):
             raise RecordingError(
                 f"{path}: column '{column.text}', row {wrong[0] + 1}: a value is missing or not finite"
@@ -140,7 +144,7 @@ def _read_table(path: Path, columns: list[Column], allow_gaps: bool) -> dict[str
     return table
 
 
-def _check_first_row(path: Path, columns: list[Column]):
+def _check_first_row(path: Path, columns: list[Column]) -> None:
     """Refuse a column of true and false, which pandas would take for 1 and 0 without a word."""
     line, cells = next(islice(file_rows(path), 1, None))
     for column, cell in zip(columns, cells, strict=False):
@@ -148,7 +152,7 @@ def _check_first_row(path: Path, columns: list[Column]):
             raise RecordingError(f"{path}: column '{column.text}', row 1 (line {line}): {_shown(cell)} is not a number")
 
 
-def _check_lengths(path: Path, columns: list[Column]):
+def _check_lengths(path: Path, columns: list[Column]) -> None:
     """Refuse a row with a cell too few or too many: pandas would fill it up at its end, and so shift its values."""
     for row, (line, cells) in enumerate(file_rows(path)):
         cells = cells[:-1] if len(cells) == len(columns) + 1 and not cells[-1].strip() else cells  # a comma at its end
@@ -225,7 +229,7 @@ def _shown(cell: str) -> str:
     return repr(cell if len(cell) <= 40 else cell[:37] + "...")
 
 
-def _assemble(path: Path, columns: list[Column], table: dict, allow_gaps: bool) -> Recording:
+def _assemble(path: Path, columns: list[Column], table: dict[str, np.ndarray], allow_gaps: bool) -> Recording:
     """The Recording in SI, its times checked run by run."""
     units = {c.name: c.unit for c in columns if c.unit}
     history = [f"read {path.name}: {table['time'].size} samples"]
@@ -248,7 +252,9 @@ def _assemble(path: Path, columns: list[Column], table: dict, allow_gaps: bool) 
     )
 
 
-def _checked_time(path: Path, text: str, table: dict, allow_gaps: bool) -> tuple[FloatArray, str | None]:
+def _checked_time(
+    path: Path, text: str, table: dict[str, np.ndarray], allow_gaps: bool
+) -> tuple[FloatArray, str | None]:
     """Times of all rows [s], moved onto an even grid where they are nearly so, and a note."""
     time = table["time"].copy()
     largest = 0.0
@@ -265,7 +271,7 @@ def _checked_time(path: Path, text: str, table: dict, allow_gaps: bool) -> tuple
     return time, f"times moved onto an even grid, by at most {largest:.2g} s"
 
 
-def _runs(path: Path, table: dict) -> list[slice]:
+def _runs(path: Path, table: dict[str, np.ndarray]) -> list[slice]:
     """Rows that belong together; refused where a segment's rows are not all in one place."""
     count = table["time"].size
     labels = [table[name] for name in ("split", "segment") if name in table]

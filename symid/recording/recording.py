@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -54,8 +54,10 @@ class Recording:
     split: np.ndarray | None = None
     source: str | None = None
 
-    def __post_init__(self):
-        put = lambda key, value: object.__setattr__(self, key, value)  # noqa: E731
+    def __post_init__(self) -> None:
+        def put(key: str, value: Any) -> None:
+            object.__setattr__(self, key, value)
+
         put("time", _frozen(self.time, float))
         put("channels", MappingProxyType({k: _frozen(v, float) for k, v in self.channels.items()}))
         for key in ("units", "signs", "noise"):
@@ -65,7 +67,7 @@ class Recording:
         put("split", None if self.split is None else _frozen(self.split, str))
         self._check()
 
-    def _check(self):
+    def _check(self) -> None:
         count = self.time.size
         if self.time.ndim != 1 or count < 2:
             raise RecordingError(f"{self.name}: a recording needs at least two samples")
@@ -170,16 +172,15 @@ class Recording:
                 f"{self.name}: window {start:g} s to {end:g} s holds {rows.size} sample(s) of "
                 f"{step:g} s; take a longer one"
             )
-        rows = slice(int(rows[0]), int(rows[-1]) + 1)
-        return self.rows(rows, f"window {start:g} s to {end:g} s")
+        return self.rows(slice(int(rows[0]), int(rows[-1]) + 1), f"window {start:g} s to {end:g} s")
 
     def segments(self, split: str | None = None) -> list["Recording"]:
         """One recording for each segment, in order; only those with this split label, if given."""
         if split is not None and (self.split is None or split not in self.split):
-            labels = [] if self.split is None else sorted(set(self.split.tolist()))
-            raise RecordingError(f"{self.name}: no segment is labelled '{split}'; labels: {labels or 'none'}")
-        chosen = [r for r in self.runs if split is None or self.split[r.start] == split]
-        return [self._segment(run) for run in chosen]
+            known = [] if self.split is None else sorted(set(self.split.tolist()))
+            raise RecordingError(f"{self.name}: no segment is labelled '{split}'; labels: {known or 'none'}")
+        labels = self.split if split is not None else None
+        return [self._segment(run) for run in self.runs if labels is None or labels[run.start] == split]
 
     def select(self, *names: str) -> "Recording":
         """Only these channels, in this order."""
@@ -192,7 +193,7 @@ class Recording:
         new = [names.get(name, name) for name in self.channels]
         if len(set(new)) < len(new):
             raise RecordingError(f"{self.name}: two channels would have one name: {new}")
-        tables = {
+        tables: dict[str, Any] = {
             table: {names.get(k, k): v for k, v in getattr(self, table).items()}
             for table in ("channels", "units", "signs", "noise")
         }
@@ -234,7 +235,7 @@ class Recording:
 
     # -- keeping ------------------------------------------------------------------------------
 
-    def to_csv(self, path: str | os.PathLike) -> Path:
+    def to_csv(self, path: str | os.PathLike[str]) -> Path:
         """Write the samples with units in the column names; read_recording gives them back.
 
         Numbers keep all their digits. The file appears under its name only when it is whole.
@@ -254,7 +255,7 @@ class Recording:
             raise
         return path
 
-    def __reduce__(self):
+    def __reduce__(self) -> tuple[Any, ...]:
         values = {f.name: getattr(self, f.name) for f in fields(self)}
         for table in ("channels", "units", "signs", "noise"):
             values[table] = dict(values[table])
@@ -298,7 +299,9 @@ class Recording:
         title = " ".join(["segment", *map(str, labels)])
         return replace(self.rows(run, f"{title} taken"), name=f"{self.name} {title}")
 
-    def _with_channels(self, channels, units, note: str | None) -> "Recording":
+    def _with_channels(
+        self, channels: Mapping[str, FloatArray], units: Mapping[str, str], note: str | None
+    ) -> "Recording":
         return replace(
             self,
             channels=channels,
@@ -309,13 +312,13 @@ class Recording:
         )
 
 
-def _rebuild(values: dict) -> Recording:
+def _rebuild(values: dict[str, Any]) -> Recording:
     return Recording(**values)
 
 
-def _frozen(values, kind) -> np.ndarray:
+def _frozen(values: Any, kind: type) -> np.ndarray:
     """The values as an array that nobody can write to; shared, not copied, where it is one."""
-    array = np.asarray(values, dtype=kind)
+    array: np.ndarray = np.asarray(values, dtype=kind)
     owner = array if array.base is None else array.base
     if array.flags.writeable or getattr(getattr(owner, "flags", None), "writeable", True):
         array = array.copy()

@@ -65,7 +65,7 @@ class Episodes:
         for word, value in {"amplitude": amplitude, **by_word}.items():
             if not (np.isfinite(value) and value >= 0):
                 raise TranscriptionError(f"episodes: {word}={value} must be a finite amplitude of at least 0")
-        for name, value in (
+        for name, given in (
             ("count", int(count)),
             ("amplitude", float(amplitude)),
             ("seed", int(seed)),
@@ -73,7 +73,7 @@ class Episodes:
             ("shared_initial_state", shared_initial_state),
             ("by_word", dict(by_word)),
         ):
-            object.__setattr__(self, name, value)
+            object.__setattr__(self, name, given)
 
     def amplitudes(self, model: Model) -> np.ndarray:
         """(noises,) amplitude of each Noise of `model`; TranscriptionError where a word fits none."""
@@ -128,4 +128,5 @@ def _multisines(episodes: int, intervals: int, noises: int, seed: int) -> np.nda
     turns = 2 * np.pi / episodes * np.multiply.outer(np.arange(episodes), multiple)
     lines = np.sqrt(2 / count) * np.exp(1j * (phase + turns[:, None]))
     half_a_line = np.exp(1j * np.pi / intervals * np.arange(intervals))
-    return (half_a_line[:, None] * np.fft.ifft(lines, intervals, axis=1, norm="forward")).real
+    signals: np.ndarray = half_a_line[:, None] * np.fft.ifft(lines, intervals, axis=1, norm="forward")
+    return signals.real

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from symid.codegen.stencil import Stencil
 from symid.errors import TranscriptionError
@@ -30,19 +31,23 @@ class Scheme:
     stencil: Stencil
 
 
+def _stencil(*numbers: ArrayLike) -> Stencil:
+    return Stencil(*(np.asarray(n, dtype=float) for n in numbers))
+
+
 def Midpoint() -> Scheme:
     """Implicit midpoint rule, also called the one-stage Gauss method; the article's scheme."""
-    return Scheme("midpoint", 2, Stencil([0.5], [[0.5, 0.5]], [[-1, 1]], [[1]], np.zeros((0, 2))))
+    return Scheme("midpoint", 2, _stencil([0.5], [[0.5, 0.5]], [[-1, 1]], [[1]], np.zeros((0, 2))))
 
 
 def BackwardEuler() -> Scheme:
     """Implicit Euler; strongly damping, for stiff or non-smooth models."""
-    return Scheme("backward_euler", 1, Stencil([1], [[0, 1]], [[-1, 1]], [[1]], np.zeros((0, 2))))
+    return Scheme("backward_euler", 1, _stencil([1], [[0, 1]], [[-1, 1]], [[1]], np.zeros((0, 2))))
 
 
 def Trapezoid() -> Scheme:
     """Implicit trapezoidal rule in residual form: the mean of the residuals at both ends."""
-    return Scheme("trapezoid", 2, Stencil([0, 1], np.eye(2), [[-1, 1], [-1, 1]], [[0.5, 0.5]], np.zeros((0, 2))))
+    return Scheme("trapezoid", 2, _stencil([0, 1], np.eye(2), [[-1, 1], [-1, 1]], [[0.5, 0.5]], np.zeros((0, 2))))
 
 
 def HermiteSimpson() -> Scheme:
@@ -50,12 +55,12 @@ def HermiteSimpson() -> Scheme:
 
     Three interior slots hold the increments h x' at the start, middle and end of the interval.
     """
-    state = [[1, 0, 0, 0, 0], [1, 5 / 24, 1 / 3, -1 / 24, 0], [0, 0, 0, 0, 1]]
+    state: list[list[float]] = [[1, 0, 0, 0, 0], [1, 5 / 24, 1 / 3, -1 / 24, 0], [0, 0, 0, 0, 1]]
     rate = [[0, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0]]
     return Scheme(
         "hermite_simpson",
         4,
-        Stencil([0, 0.5, 1], state, rate, np.eye(3), [[-1, -1 / 6, -2 / 3, -1 / 6, 1]], [0, 2 / 3, 0]),
+        _stencil([0, 0.5, 1], state, rate, np.eye(3), [[-1, -1 / 6, -2 / 3, -1 / 6, 1]], [0, 2 / 3, 0]),
     )
 
 
