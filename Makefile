@@ -8,7 +8,7 @@ READY := .venv/.ready
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: demo test test-slow lint bench docs clean
+.PHONY: demo test test-slow coverage lint bench docs clean
 
 demo: $(READY)
 	$(PY) -m symid.cli demo
@@ -19,9 +19,17 @@ test: $(READY)
 test-slow: $(READY)
 	$(PY) -m pytest -n 2 -m slow
 
+# Of lines and branches, by the normal test run; processes that tests start are counted, too.
+coverage: $(READY)
+	$(PY) -m coverage erase
+	$(PY) -m coverage run -m pytest -n 2 --dist loadfile
+	$(PY) -m coverage combine --quiet
+	$(PY) -m coverage report --fail-under=92
+
 lint: $(READY)
 	$(PY) -m ruff check symid tests
 	$(PY) -m ruff format --check --quiet .
+	$(PY) -m mypy
 
 bench: $(READY)
 	$(PY) -m symid.cli bench

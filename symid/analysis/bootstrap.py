@@ -6,12 +6,14 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 import pandas as pd
 
 from symid.errors import ModelError
 from symid.identification import Solution, Solve, Study
+from symid.identification.covariance import ParameterErrors
 from symid.identification.error_models import Errors, bandwidth
 from symid.identification.study import Finished, tell
 from symid.recording import Recording
@@ -75,8 +77,9 @@ def bootstrap(
     """
     if not solution.solved:
         raise ModelError(f"bootstrap: the problem was not solved: {solution.message}")
-    residuals = solution.errors.residuals
-    blocks = tuple(block or (1 if solution.errors.model == "white" else max(1, bandwidth(r.error))) for r in residuals)
+    errors = cast("ParameterErrors", solution.errors)  # it was solved
+    residuals = errors.residuals
+    blocks = tuple(block or (1 if errors.model == "white" else max(1, bandwidth(r.error))) for r in residuals)
     rng = np.random.default_rng(seed)
     solves = {}
     for k in range(count):
@@ -96,9 +99,10 @@ def bootstrap(
     return Bootstrap(draws, parameters.loc[list(solution.values)], count - len(draws), blocks)
 
 
-def _drawn(solution: Solution, r: int, residual: Errors, block: int, rng) -> Recording:
+def _drawn(solution: Solution, r: int, residual: Errors, block: int, rng: np.random.Generator) -> Recording:
     """Recording `r` with its outputs drawn anew inside the window."""
-    recording, m = solution.problem.recordings[r], solution.transcription.measured[r]
+    recording: Recording = solution.problem.recordings[r]
+    m = solution.transcription.measured[r]
     samples = len(residual.error)
     begins = rng.integers(0, samples, -(-samples // block))
     order = ((begins[:, None] + np.arange(block)) % samples).ravel()[:samples]

@@ -110,7 +110,8 @@ def _errors(name: str, s: Solution) -> np.ndarray:
             "compare fits of one episode"
         )
     errors = np.concatenate([y - d for y, d in outputs_and_targets(s.transcription, s.result.z)])
-    return errors[np.isfinite(errors).all(axis=1)]
+    complete: np.ndarray = np.isfinite(errors).all(axis=1)
+    return np.asarray(errors[complete])
 
 
 def _words(aic: float, best: bool) -> str:
@@ -119,8 +120,8 @@ def _words(aic: float, best: bool) -> str:
 
 
 def _refuse_other_data(solutions: Mapping[str, Solution]) -> None:
-    def data(s):
-        return [(m.name, m.first, m.last, m.targets.tobytes()) for m in s.transcription.measured]
+    def data(s: Solution) -> list[tuple[str, int, int, bytes]]:
+        return [(m.name, m.first, m.last, np.asarray(m.targets).tobytes()) for m in s.transcription.measured]
 
     names = list(solutions)
     for other in names[1:]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -11,7 +13,7 @@ from symid.errors import ModelError
 from symid.identification.combinations import combinations, involved
 from symid.model import Model
 from symid.model.symmetry import unchanged
-from symid.simulation import simulator
+from symid.simulation import Trajectory, simulator
 
 DEPENDENT = 1e-8
 """Singular value, relative to unit columns, below which sensitivities are dependent: Runge-Kutta keeps a symmetry of
@@ -98,13 +100,13 @@ def _unit(null: np.ndarray) -> np.ndarray:
     return null / np.where(size > 0, size, 1.0)[:, None]
 
 
-def _at_point(model: Model, rng) -> tuple[np.ndarray, np.ndarray, list[str]]:
+def _at_point(model: Model, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray, list[str]]:
     """Random parameters (q,), null space (q, k) of the sensitivities there, states that no output shows."""
     states, blocks, seen = list(model.states), [], np.zeros(len(model.states))
     for _ in range(20):
         values = _draw(model.parameters.values(), rng)
         runs = [_run(model, values, rng) for _ in range(EXPERIMENTS)]
-        if not any(run.diverged or not np.all(np.isfinite(run.dy)) for run in runs):
+        if not any(run.diverged or run.dy is None or not np.all(np.isfinite(run.dy)) for run in runs):
             break
     else:
         raise ModelError(
@@ -134,7 +136,7 @@ def _range(slopes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return u[:, s > DEPENDENT], seen.astype(float)
 
 
-def _run(model: Model, values: np.ndarray, rng):
+def _run(model: Model, values: np.ndarray, rng: np.random.Generator) -> Trajectory:
     """A motion and its sensitivities, from a random state under random inputs, over the time of the model's modes."""
     start = _draw(model.states.values(), rng, centred=True)
     names = list(model.parameters)
@@ -163,7 +165,7 @@ def _run(model: Model, values: np.ndarray, rng):
     )
 
 
-def _draw(parts, rng, centred: bool = False) -> np.ndarray:
+def _draw(parts: Iterable[Any], rng: np.random.Generator, centred: bool = False) -> np.ndarray:
     """Random values inside the bounds, about the guesses, or of order one."""
     values = []
     for p in parts:

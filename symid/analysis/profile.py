@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import cast
 
 import numpy as np
 import pandas as pd
 
 from symid.errors import ModelError
 from symid.identification import Solution
+from symid.identification.covariance import ParameterErrors
 from symid.ipopt_solver import SolverResult
 from symid.model import nearest
 
@@ -50,7 +52,8 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
     names = list(solution.values)
     if parameter not in names:
         raise ModelError(f"profile: the solution has no parameter '{parameter}'; {nearest(parameter, names)}")
-    profiled = _Profile(solution, names.index(parameter))
+    errors = cast("ParameterErrors", solution.errors)  # it was solved
+    profiled = _Profile(solution, errors, names.index(parameter))
     if values is None:
         rows = {**profiled.side(-1), **profiled.side(1)}
     else:
@@ -62,19 +65,19 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
     table.index.name = parameter
     table["deviance"] = (table["objective"] - solution.result.objective) * profiled.worth
     table.attrs["interval"] = _interval(table["deviance"], solution.values[parameter])
-    table.attrs["errors"] = solution.errors.model
+    table.attrs["errors"] = errors.model
     return table
 
 
 class _Profile:
     """Fits with one parameter kept; `worth` is the deviance of a unit of the objective."""
 
-    def __init__(self, solution: Solution, index: int):
+    def __init__(self, solution: Solution, errors: ParameterErrors, index: int):
         t = solution.transcription
         self.solution, self.name = solution, list(solution.values)[index]
         self.column, self.scale = t.layout.offsets[-1] + index, t.layout.parameter_scale[index]
         self.lower, self.upper = t.program.lower[self.column] * self.scale, t.program.upper[self.column] * self.scale
-        self.error, self.worth = solution.errors.std_errors[index], solution.errors.worth(index)
+        self.error, self.worth = errors.std_errors[index], errors.worth(index)
 
     def at(self, value: float, start: SolverResult) -> tuple[SolverResult, float]:
         """The fit with the parameter at `value`, and its objective."""
@@ -114,7 +117,7 @@ class _Profile:
 
 def _interval(deviance: pd.Series, centre: float) -> tuple[float, float]:
     """Where the square root of the deviance, which is straight for a parabola, crosses that of LIMIT."""
-    ends = []
+    ends: list[float] = []
     for sign in (-1, 1):
         side = deviance[(deviance.index - centre) * sign >= 0]
         side = side if sign > 0 else side[::-1]
@@ -126,4 +129,4 @@ def _interval(deviance: pd.Series, centre: float) -> tuple[float, float]:
         i = above[0]
         share = (np.sqrt(LIMIT) - root[i - 1]) / (root[i] - root[i - 1])
         ends.append(float(at[i - 1] + share * (at[i] - at[i - 1])))
-    return tuple(ends)
+    return ends[0], ends[1]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -64,11 +65,11 @@ class Stability:
                 raise ModelError(f"the stability map has no state '{name}'; it has {', '.join(self.states)}")
         if test == "forward" and self.rms is None:
             raise ModelError("no forward simulations were made: ask for them with held_out=(start, end)")
-        stable = self.growth <= 0 if test == "eigenvalue" else self.rms <= self.limit
+        stable = np.asarray(self.growth <= 0 if self.rms is None or test == "eigenvalue" else self.rms <= self.limit)
         table = stable.reshape((self.per_state,) * len(self.states))
         a, b = self.states.index(first), self.states.index(second)
         others = tuple(k for k in range(len(self.states)) if k not in (a, b))
-        shares = table.mean(axis=others)
+        shares: FloatArray = table.mean(axis=others)
         return shares if a < b else shares.T
 
     def axis(self, state: str) -> FloatArray:
@@ -89,7 +90,7 @@ class Stability:
 
 
 def stability(
-    solution: Solution, *, held_out: tuple[float, float] | None = None, which: int = 0, **options
+    solution: Solution, *, held_out: tuple[float, float] | None = None, which: int = 0, **options: Any
 ) -> Stability:
     """Both tests of an identified controller over the states recorded in its window.
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 import pandas as pd
@@ -88,10 +90,11 @@ def uncertainty(solution: Solution, errors: str = "auto") -> Uncertainty:
     correlation = covariance / np.outer(error, error)
     table.loc[inner, "explained"] = 1 - 1 / np.diag(np.linalg.pinv(correlation, hermitian=True))
     columns = ["value", "std_error", "relative_error", "explained", "at_bound"]
-    return Uncertainty(table[columns], tuple(_combinations(inner, correlation)), solution.errors, solution.determined)
+    known = cast("ParameterErrors", solution.errors)  # it was solved
+    return Uncertainty(table[columns], tuple(_combinations(inner, correlation)), known, solution.determined)
 
 
-def _combinations(names: list[str], correlation: np.ndarray):
+def _combinations(names: list[str], correlation: np.ndarray) -> Iterator[tuple[float, dict[str, float]]]:
     if not names:
         return
     variances, directions = np.linalg.eigh(correlation)

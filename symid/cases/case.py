@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -74,8 +75,8 @@ def read_case(directory: str | Path) -> Case:
     except SymidError as error:
         raise error if str(directory) in str(error) else DiagnosisError(f"{path}: {error}") from None
     _check(facts, path)
-    given = (tuple(facts[k]) if k in facts else None for k in ("fit_window_s", "heldout_window_s"))
-    fit, held_out = parts_of(recording, *given, source=str(path))
+    given = {k: tuple(facts[f"{k}_s"]) if f"{k}_s" in facts else None for k in ("fit_window", "heldout_window")}
+    fit, held_out = parts_of(recording, given["fit_window"], given["heldout_window"], source=str(path))
     common = {
         "name": facts.get("id", directory.name),
         "model": model,
@@ -92,8 +93,8 @@ def read_case(directory: str | Path) -> Case:
 
 
 def rig_case(
-    recording: str | os.PathLike,
-    parameters: str | os.PathLike | Mapping[str, object],
+    recording: str | os.PathLike[str],
+    parameters: str | os.PathLike[str] | Mapping[str, object],
     *,
     friction: Iterable[str] = (),
     fit_window: Part | None = None,
@@ -122,7 +123,7 @@ def rig_case(
     )
 
 
-def diagnose_case(case: Case, **options) -> Diagnosis:
+def diagnose_case(case: Case, **options: Any) -> Diagnosis:
     """`diagnose` with everything that the case says."""
     return diagnose(
         case.model,
@@ -179,7 +180,7 @@ def _pieces(model: Model, recording: Recording, fit: Part) -> float:
     return piece_length(segments_of(model, recording, fit))
 
 
-def _check(facts: dict, path: Path) -> None:
+def _check(facts: dict[str, Any], path: Path) -> None:
     """Windows, noise and length of a piece are usable where they are there."""
     for key in ("fit_window_s", "heldout_window_s"):
         if key in facts and not _is_window(facts[key]):
@@ -196,7 +197,7 @@ def _check(facts: dict, path: Path) -> None:
             )
 
 
-def _is_window(window) -> bool:
+def _is_window(window: Any) -> bool:
     return (
         isinstance(window, list)
         and len(window) == 2
@@ -206,7 +207,7 @@ def _is_window(window) -> bool:
     )
 
 
-def _facts(path: Path) -> dict:
+def _facts(path: Path) -> dict[str, Any]:
     if not path.exists():
         raise DiagnosisError(f"{path.parent} is no case: it has no case.json")
     try:

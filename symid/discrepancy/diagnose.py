@@ -107,7 +107,7 @@ def diagnose(
         weakest(found) if found.suspects else _largest(ranking), null_maxima(search.projection, found.fit)
     )
     if found.suspects and chance is not None and chance > POLICY.chance:
-        found = Hypothesis((), base, 0.0)
+        found = Hypothesis((), base, base, data)
         left = search.remainder(found)
     survived = survivals(found.suspects, found.fit, base, data, white)
     halves = () if white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking))
@@ -182,7 +182,12 @@ def _largest(ranking: Sequence[Hypothesis]) -> float:
     return max((h.log_ratio for h in ranking), default=0.0)
 
 
-def _of_solution(solution: Solution, recording, fit_window, start):
+def _of_solution(
+    solution: Solution,
+    recording: Recording | None,
+    fit_window: tuple[float, float] | str | None,
+    start: Mapping[str, float] | None,
+) -> tuple[Recording, tuple[float, float] | str, dict[str, float]]:
     """Recording, window and values that a solution brings where they are not given."""
     problem = solution.problem
     if len(problem.recordings) > 1:

@@ -14,6 +14,19 @@ if TYPE_CHECKING:
     from symid.identification.problem import Identification
 
 
+class Recordings:
+    """A field that takes one recording or several and keeps them as a tuple."""
+
+    def __get__(self, owner: object, kind: type | None = None) -> tuple[Recording, ...]:
+        if owner is None:
+            raise AttributeError("recordings: a field without a default")
+        found: tuple[Recording, ...] = vars(owner)["recordings"]
+        return found
+
+    def __set__(self, owner: object, given: Recording | Sequence[Recording]) -> None:
+        vars(owner)["recordings"] = as_recordings(given)
+
+
 def as_recordings(recordings) -> tuple[Recording, ...]:
     """One recording or several as a tuple; TranscriptionError for what is none."""
     many = tuple(recordings) if isinstance(recordings, Sequence) and not isinstance(recordings, str) else (recordings,)

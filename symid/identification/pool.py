@@ -9,6 +9,7 @@ import warnings
 from collections.abc import Callable
 from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecutor
 from multiprocessing import connection, current_process, get_context, parent_process
+from typing import Any
 
 from symid.codegen.build import warn_without_compiler
 from symid.codegen.cache import CodegenWarning
@@ -55,11 +56,11 @@ class LocalPool(Executor):
         self._workers: set[_Worker] = set()
         self._closed = False
 
-    def submit(self, function: Callable, /, *arguments) -> Future:
+    def submit(self, function: Callable[..., Any], /, *arguments: Any) -> Future[Any]:  # type: ignore[override]
         """Call `function(*arguments)`, all of which must pickle, in the next idle worker."""
         return self._keepers.submit(self._call, function, arguments)
 
-    def _call(self, function, arguments):
+    def _call(self, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
         """In a keeper thread, which has one worker of its own."""
         worker = getattr(self._own, "worker", None)
         if worker is None:
@@ -86,14 +87,14 @@ class LocalPool(Executor):
             for worker in tuple(self._workers):
                 worker.end()
 
-    def __exit__(self, error, *_) -> None:
+    def __exit__(self, error: type[BaseException] | None, *_: object) -> None:
         self.shutdown(cancel_futures=error is not None)
 
 
 class _Worker:
     """One process that answers calls over a pipe."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.gone = False
         self.pipe, theirs = _SPAWN.Pipe()
         self.process = _SPAWN.Process(target=_serve, args=(theirs,), daemon=True, name=_NAME)
@@ -110,11 +111,11 @@ class _Worker:
             self.pipe.recv()
         except (EOFError, OSError):
             self.process.join()
-            if self.process.exitcode < 0:
+            if self._code() < 0:
                 raise WorkerDied(self._end()) from None
             raise SolveError(f"worker processes cannot start (what they said stands above); {_GUARD}") from None
 
-    def call(self, function, arguments):
+    def call(self, function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
         try:
             self.pipe.send((function, arguments))
             answer, error, self.gone = self.pipe.recv()
@@ -128,8 +129,11 @@ class _Worker:
             raise error
         return answer
 
+    def _code(self) -> int:
+        return self.process.exitcode or 0
+
     def _end(self) -> str:
-        code = self.process.exitcode
+        code = self._code()
         return f"was killed by {signal.Signals(-code).name}" if code < 0 else f"ended with exit code {code}"
 
     def end(self) -> None:
@@ -137,7 +141,7 @@ class _Worker:
         self.process.join()
 
 
-def _serve(pipe) -> None:
+def _serve(pipe: connection.Connection) -> None:
     """A worker's life: answer calls until the pipe or the parent is gone."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches the parent, which ends its workers
     warnings.simplefilter("ignore", CodegenWarning)  # the parent has said it
@@ -163,7 +167,8 @@ def _serve(pipe) -> None:
 
 def _end_with_parent() -> None:
     """A parent that was killed cannot tell; without this its workers would go on, or wait, for ever."""
-    connection.wait([parent_process().sentinel])
+    parent = parent_process()
+    connection.wait([] if parent is None else [parent.sentinel])
     os._exit(1)
 
 
@@ -180,16 +185,17 @@ class Cluster(Executor):
         dask.distributed is absent, or no scheduler answers there.
     """
 
-    def __init__(self, client, timeout_s: float = 10.0):
+    def __init__(self, client: Any, timeout_s: float = 10.0):
         self._own_client = None
         if isinstance(client, str):
             client = self._own_client = _connected(client, timeout_s)
         self._client, self._executor = client, client.get_executor(pure=False)
 
-    def submit(self, function: Callable, /, *arguments) -> Future:
-        return self._executor.submit(function, *arguments)
+    def submit(self, function: Callable[..., Any], /, *arguments: Any) -> Future[Any]:  # type: ignore[override]
+        future: Future[Any] = self._executor.submit(function, *arguments)
+        return future
 
-    def share(self, value: bytes):
+    def share(self, value: bytes) -> Any:
         """Something that stands for `value` among the arguments of `submit`.
 
         A task's result rather than scattered data: dask makes it again where a worker that kept it died.
@@ -202,7 +208,7 @@ class Cluster(Executor):
         if self._own_client is not None:
             self._own_client.close()
 
-    def __exit__(self, error, *_) -> None:
+    def __exit__(self, error: type[BaseException] | None, *_: object) -> None:
         self.shutdown(cancel_futures=error is not None)
 
 
@@ -210,13 +216,13 @@ def _same(value: bytes) -> bytes:
     return value
 
 
-def _connected(address: str, timeout_s: float):
+def _connected(address: str, timeout_s: float) -> Any:
     try:
         from distributed import Client
     except ImportError as absent:
         raise SolveError(f"a cluster needs dask.distributed ({absent}): pip install symid[dask]") from None
     try:
-        return Client(address, timeout=timeout_s, set_as_default=False)
+        return Client(address, timeout=timeout_s, set_as_default=False)  # type: ignore[no-untyped-call,unused-ignore]
     except (OSError, ValueError) as problem:
         raise SolveError(
             f"no dask scheduler answers at {address} within {timeout_s:g} s ({problem}); start one with "

@@ -9,11 +9,12 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 
 from symid.errors import RecordingWarning, TranscriptionError
-from symid.identification.arguments import as_recordings, refuse_wrong_types
+from symid.identification.arguments import Recordings, refuse_wrong_types
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution
@@ -26,7 +27,6 @@ from symid.identification.weighting import information_of, to_likelihood, weight
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model
 from symid.nlp import NonlinearProgram, with_ridge
-from symid.recording import Recording
 from symid.transcription import Episodes, Midpoint, Scheme, Transcription, measure, transcribe
 
 DELAY_OPTIONS = {"mumps_pivot_order": 2}
@@ -73,7 +73,7 @@ class Identification:
     """
 
     model: Model
-    recordings: Recording | Sequence[Recording]
+    recordings: Recordings = Recordings()
     window: tuple[float, float] | Sequence[tuple[float, float]] | None = None
     scheme: Scheme = field(default_factory=Midpoint)
     episodes: Episodes = field(default_factory=Episodes)
@@ -86,8 +86,7 @@ class Identification:
     ridge: float = 0.0
     ridge_about: str = "zero"
 
-    def __post_init__(self):
-        object.__setattr__(self, "recordings", as_recordings(self.recordings))
+    def __post_init__(self) -> None:
         refuse_wrong_types(self)
         if int(self.refine) != self.refine or self.refine < 1:
             raise TranscriptionError(
@@ -102,13 +101,13 @@ class Identification:
     def windows(self) -> list[tuple[float, float] | None]:
         """One window for each recording; None for all of it."""
         if self.window is None or isinstance(self.window[0], (int, float)):
-            return [self.window] * len(self.recordings)
+            return [cast("tuple[float, float] | None", self.window)] * len(self.recordings)
         if len(self.window) != len(self.recordings):
             raise TranscriptionError(
                 f"{len(self.window)} windows were given for {len(self.recordings)} recordings; "
                 "give one for all or one for each"
             )
-        return list(self.window)
+        return list(cast("Sequence[tuple[float, float]]", self.window))
 
     @cached_property
     def transcription(self) -> Transcription:
@@ -152,7 +151,7 @@ class Identification:
     def _repr_html_(self) -> str:
         return problem_html(self)
 
-    def __getstate__(self) -> dict:
+    def __getstate__(self) -> dict[str, Any]:
         """Pickled without the transcription, which is larger than the recording and quickly made again."""
         return {f.name: getattr(self, f.name) for f in fields(self)}
 
@@ -179,7 +178,7 @@ class Identification:
         searches = {"search": search_start, "relaxed": relaxed_start, "stable": stable_start}
         if isinstance(kind, str) and kind in searches:
             return searches[kind](self, seed, number)
-        return given_start(self.transcription, kind)
+        return given_start(self.transcription, cast("dict[str, float] | Solution", kind))
 
     def load(self, path: str | Path) -> Solution:
         """The solution of this problem that `Solution.save` wrote; SolveError where it is that of another."""
@@ -213,7 +212,7 @@ class Identification:
         warm_start: SolverResult | None = None,
         dual_limit: float = np.inf,
         kept: Mapping[str, float] | None = None,
-        **solver,
+        **solver: Any,
     ) -> SolverResult:
         """Run Ipopt from one free vector; `solver` goes to `symid.ipopt_solver.solve_nlp`.
 
@@ -242,7 +241,7 @@ class Identification:
         on_iteration: Callable[[Iteration], bool | None] | None = None,
         on_start: Callable[[StartRow], None] | None = None,
         check: bool = True,
-        **solver,
+        **solver: Any,
     ) -> Solution:
         """Solve from one start or from many, and return the best solution found.
 

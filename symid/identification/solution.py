@@ -7,7 +7,7 @@ from datetime import UTC, datetime
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -21,6 +21,7 @@ from symid.identification.start_row import StartRow
 from symid.identification.weighting import noise_levels
 from symid.ipopt_solver import SolverResult
 from symid.model import Model
+from symid.recording import Recording
 from symid.transcription import Transcription
 
 if TYPE_CHECKING:
@@ -193,7 +194,7 @@ class Solution:
         return tuple(frames)
 
     @cached_property
-    def fit(self) -> dict:
+    def fit(self) -> dict[str, Any]:
         """Fit of the collocation trajectory over all episodes, see `identification.fit`."""
         pairs = outputs_and_targets(self.transcription, self.result.z)
         outputs = self.model.outputs
@@ -203,11 +204,11 @@ class Solution:
             *(np.concatenate(side) for side in zip(*pairs, strict=True)),
         )
 
-    def fit_on(self, window: tuple[float, float], recording=None) -> dict:
+    def fit_on(self, window: tuple[float, float], recording: Recording | None = None) -> dict[str, Any]:
         """Fit of the `free_run` on another window, or another recording."""
         return self.free_run(window, recording).fit
 
-    def free_run(self, window: tuple[float, float], recording=None) -> Solution:
+    def free_run(self, window: tuple[float, float], recording: Recording | None = None) -> Solution:
         """The model on another window, or another recording, with all parameters kept.
 
         It runs freely over the window, driven by the recorded inputs only; its initial state, and
@@ -240,11 +241,11 @@ class Solution:
         return solution
 
     @cached_property
-    def provenance(self) -> dict:
+    def provenance(self) -> dict[str, Any]:
         """Versions, data and options, enough to repeat the identification."""
         return provenance(self)
 
-    def to_dict(self) -> dict:
+    def to_dict(self) -> dict[str, Any]:
         """All of the above but the trajectories, as plain JSON types; the command line writes this."""
         return record(self)
 
@@ -267,7 +268,7 @@ class Solution:
 
         save(self, path)
 
-    def plot(self):
+    def plot(self) -> Any:
         """Figure of the fit over time; more of them in `symid.plots`."""
         # Drawing stands on the roof, and computing must not need it: fetched by name when asked for.
         return import_module("symid.plots").plot_fit(self)

@@ -14,6 +14,7 @@ import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, fields
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -25,6 +26,16 @@ from symid.ipopt_solver import LinearSolver, SolverResult, WorstConstraint
 
 FORMAT = "symid study 2"
 ARRAYS = tuple(f.name for f in fields(SolverResult) if "ndarray" in str(f.type))
+
+
+class Store(Protocol):
+    """Outcomes by key: a dictionary, or a StudyDirectory."""
+
+    def get(self, key: str, /) -> Outcome | None: ...
+
+    def __getitem__(self, key: str, /) -> Outcome: ...
+
+    def __setitem__(self, key: str, outcome: Outcome, /) -> None: ...
 
 
 class StudyDirectory:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
@@ -21,8 +21,7 @@ from symid.identification.pool import Cluster, LocalPool
 from symid.identification.solution import Solution, build_solution
 from symid.identification.start_row import StartRow
 from symid.identification.starts.search import can_search
-from symid.identification.store import StudyDirectory
-from symid.identification.worker import Outcome
+from symid.identification.store import Store, StudyDirectory
 from symid.ipopt_solver import Iteration
 from symid.progress import say
 
@@ -47,10 +46,10 @@ class Solve:
     start: str | dict[str, float] | np.ndarray | Solution = "default"
     number: int = 0
     seed: int = 0
-    options: Mapping = field(default_factory=dict)
-    labels: Mapping = field(default_factory=dict)
+    options: Mapping[str, Any] = field(default_factory=dict)
+    labels: Mapping[str, Any] = field(default_factory=dict)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if isinstance(self.start, Solution):  # what a worker needs of it is the free vector alone
             object.__setattr__(self, "start", self.problem.start(self.start))
 
@@ -118,18 +117,20 @@ class Study:
         self.solves = dict(solves)
         if not self.solves:
             raise SolveError("a study needs at least one solve")
-        self._store = {} if store is None else StudyDirectory(store, {n: s.identity for n, s in self.solves.items()})
+        self._store: Store = (
+            {} if store is None else StudyDirectory(store, {n: s.identity for n, s in self.solves.items()})
+        )
 
     @classmethod
     def product(
         cls,
-        problems: Mapping[str | tuple, Identification],
+        problems: Mapping[Any, Identification],
         starts: int = 10,
         seed: int = 0,
         *,
         labels: Sequence[str] = ("problem",),
         store: str | Path | None = None,
-        **options,
+        **options: Any,
     ) -> Study:
         """Every problem from every start, as `Identification.solve` makes them.
 
@@ -140,7 +141,7 @@ class Study:
         labels : what the words of the labels are called: ``("controller", "episodes")``.
         options : for `symid.ipopt_solver.solve_nlp`.
         """
-        solves = {}
+        solves: dict[str, Solve] = {}
         for label, problem in problems.items():
             words = label if isinstance(label, tuple) else (label,)
             if len(words) != len(labels):
@@ -194,7 +195,9 @@ class Study:
         """`run` in this process, one solve after the other; `on_iteration` sees every iteration."""
         return self._collect(self.outcomes(None, on_iteration), on_finished)
 
-    def outcomes(self, executor: Executor | None, on_iteration=None) -> Iterator[tuple[str, StartRow]]:
+    def outcomes(
+        self, executor: Executor | None, on_iteration: Callable[[Iteration], bool | None] | None = None
+    ) -> Iterator[tuple[str, StartRow]]:
         """Names and rows of all solves as they finish, those of earlier runs first."""
         names: dict[str, list[str]] = {}
         for name, solve in self.solves.items():
@@ -211,7 +214,9 @@ class Study:
             self._store[key] = outcome
             yield from ((name, outcome.row) for name in names[key])
 
-    def _collect(self, outcomes: Iterator[tuple[str, StartRow]], on_finished) -> StudyResult:
+    def _collect(
+        self, outcomes: Iterator[tuple[str, StartRow]], on_finished: Callable[[Finished], None] | None
+    ) -> StudyResult:
         rows = {}
         for name, row in outcomes:
             rows[name] = row
@@ -223,7 +228,7 @@ class Study:
         return f"<Study of {len(self.solves)} solves>"
 
 
-def start_kinds(problem: Identification, starts: int, start="default") -> list:
+def start_kinds(problem: Identification, starts: int, start: Any = "default") -> list[Any]:
     """`start` alone, or (several starts) as many random ones, searched for where there are several episodes."""
     if starts < 1 or int(starts) != starts:
         raise SolveError(f"starts={starts}: give a whole number of at least 1")
@@ -241,7 +246,7 @@ class StudyResult:
 
     solves: Mapping[str, Solve]
     rows: Mapping[str, StartRow]
-    _store: MutableMapping[str, Outcome]
+    _store: Store
 
     @property
     def table(self) -> pd.DataFrame:
@@ -266,7 +271,7 @@ class StudyResult:
         """Whether every solve ran to an end; if not, running the study again repeats the lost ones."""
         return all(row.final for row in self.rows.values())
 
-    def best(self, accept: Callable[[StartRow], bool] = lambda row: True, **labels) -> Solution:
+    def best(self, accept: Callable[[StartRow], bool] = lambda row: True, **labels: Any) -> Solution:
         """The best solution of the one problem that these labels leave: solved, accepted, with the least objective.
 
         Draws of process noise may differ: the problem is the same.
@@ -308,7 +313,7 @@ class StudyResult:
         return f"<StudyResult of {len(self.rows)} solves: " + ", ".join(f"{n} {s}" for s, n in ended.items()) + ">"
 
     def _repr_html_(self) -> str:
-        return self.table.to_html(float_format=lambda x: f"{x:.5g}", border=0)
+        return str(self.table.to_html(float_format=lambda x: f"{x:.5g}", border=0))
 
 
 def _besides_its_draw(problem: Identification) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import product
+from typing import Any, cast
 
 import numpy as np
 
@@ -89,7 +90,7 @@ class Suspect:
         start, duration = self.clock("start"), self.clock("duration")
         if start is None or duration is None:
             return True
-        return values[start] < segment.time[-1] and values[start] + values[duration] > segment.time[0]
+        return bool(values[start] < segment.time[-1] and values[start] + values[duration] > segment.time[0])
 
     def clock(self, what: str) -> str | None:
         """Key of the parameter that follows a clock in this way."""
@@ -112,7 +113,7 @@ class Suspect:
 
     def grid(self, data: Data) -> Iterator[dict[str, float]]:
         """Values by key, strength off, over the grid of the scanned parameter."""
-        q, (t0, t1) = self.scanned, data.span
+        q, (t0, t1) = cast("LawParameter", self.scanned), data.span
         span = t1 - t0
         for values in self.shapes():
             if q.clock == "frequency":
@@ -120,7 +121,7 @@ class Suspect:
             elif q.clock == "moment":
                 places = np.linspace(t0 + 0.04 * span, t1 - 0.04 * span, 40)
             else:
-                width = values.get(self.clock("duration"), 1.0)
+                width = values.get(self.clock("duration") or "", 1.0)
                 places = np.arange(t0 - 0.25 * width, t1 - 0.5 * width, max(0.5 * width, span / 60))
             for place in places:
                 yield values | {q.key: float(place)}
@@ -131,7 +132,7 @@ def suspects(model: Model) -> list[Suspect]:
 
     Of laws that write the same equations, such as a drag on the first link and friction at its joint, the first stands.
     """
-    found = {}
+    found: dict[Any, Any] = {}
     for term in terms_of(model):
         equations = _equations(model, term)
         if equations is not None:
@@ -143,7 +144,7 @@ ESTABLISHED = {*CANONICAL, *(law.name for law in GEOMETRY_LAWS), "constant_torqu
 """Names that are an answer: of the answer files, of what may be stated wrongly, and the plainest force of all."""
 
 
-def _equations(model: Model, term: Term) -> tuple | None:
+def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:
     """The model's equations with a term, whatever its names; None if it is there, or something it needs is not."""
     if any(str(t) == str(term) for t in model.terms):
         return None

@@ -8,6 +8,7 @@ from html import escape
 from importlib import import_module
 from math import isfinite
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -90,7 +91,7 @@ class Diagnosis:
         """Parameters of the improved model, SI."""
         return self.final.values
 
-    def answer(self) -> dict:
+    def answer(self) -> dict[str, Any]:
         """The finding as plain numbers and text, in the answer format."""
         return {
             "format": FORMAT,
@@ -152,9 +153,10 @@ class Diagnosis:
         """SI unit of all outputs, or "mixed"."""
         return common_unit(y.unit for y in self.baseline.model.outputs.values()) or "mixed"
 
-    def _errors(self, when: str) -> dict:
+    def _errors(self, when: str) -> dict[str, Any]:
         """RMS errors of free runs in the outputs' unit, by segment and by channel; radians under the old keys, too."""
-        channels, found = [y.channel for y in self.baseline.model.outputs.values()], {"unit": self.unit}
+        channels = [y.channel for y in self.baseline.model.outputs.values()]
+        found: dict[str, Any] = {"unit": self.unit}
         for part in ("train", "heldout"):
             run = self.runs.get(f"{when}_{part}")
             if run is None:
@@ -173,7 +175,7 @@ class Diagnosis:
         return found
 
     @staticmethod
-    def _half(s: Survival) -> dict:
+    def _half(s: Survival) -> dict[str, Any]:
         return {
             "name": s.name,
             "location": s.location,
@@ -189,7 +191,7 @@ class Diagnosis:
             ],
         }
 
-    def _recording(self) -> dict:
+    def _recording(self) -> dict[str, Any]:
         names = [y.channel for y in self.improved.outputs.values()]
         return {
             "sensor_noise": dict(zip(names, map(float, self.audit.noise), strict=True)),
@@ -199,7 +201,7 @@ class Diagnosis:
             },
         }
 
-    def _ranking(self) -> list[dict]:
+    def _ranking(self) -> list[dict[str, Any]]:
         """The effects that were found, then the other suspects by score."""
         found = [{"name": e.name, "location": e.location, "score": e.log_ratio} for e in self.effects]
         taken = {(e["name"], e["location"]) for e in found}
@@ -212,9 +214,8 @@ class Diagnosis:
     def report(self, path: str | Path) -> Path:
         """Write a self-contained HTML report with figures."""
         # Reports stand on the roof, and a diagnosis must not need them: fetched by name when asked for.
-        return import_module("symid.report").write_diagnosis_report(
-            self, path, f"Diagnosis of {self.baseline.model.name}"
-        )
+        write = import_module("symid.report").write_diagnosis_report
+        return Path(write(self, path, f"Diagnosis of {self.baseline.model.name}"))
 
     def to_json(self, path: str | Path) -> Path:
         """Write the answer; the file appears when it is whole."""
