@@ -1,5 +1,6 @@
 """What several tests share: small models, and the folder of reference material beside the checkout."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,8 @@ import symid.model as si
 from symid.recording import Recording
 
 SHARED = Path(__file__).resolve().parents[2] / "shared"
+if SHARED.is_dir():  # for the notebooks, too, which run in processes of their own
+    os.environ.setdefault("SYMID_STANDING", str(SHARED / "recordings" / "standing_subject05"))
 
 
 @pytest.fixture(scope="session")

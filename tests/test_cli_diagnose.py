@@ -5,10 +5,12 @@ import re
 import subprocess
 import sys
 from importlib import import_module
+from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
 import pytest
+from browser import assert_well_shown, needs_browser
 
 from symid import plots
 from symid.cases import diagnose_case, read_case
@@ -104,7 +106,7 @@ def test_the_report_says_it_all_without_a_file_beside_it(finding, tmp_path):
     assert html.index(finding.words.split(" ")[0]) < html.index("<table")
     for part in (
         "My rig",
-        "missing physics",
+        "Missing physics",
         "sensor offset",
         "held-out window",
         "torsional spring",
@@ -114,20 +116,35 @@ def test_the_report_says_it_all_without_a_file_beside_it(finding, tmp_path):
         assert part in html
     assert html.count("data:image/png;base64,") == 8  # four figures, each for a wide and a narrow screen
     assert not re.search(r'(src|href)="(?!data:)', html)
-    assert diagnosis_html(finding, "My rig", {"recording": "rig.csv"}) == html
+    assert f"symid {version('symid')}" in html and "command" in html and "doi:" in html
 
 
 def test_the_report_on_a_model_that_is_right_shows_no_improvement(tmp_path):
     write_case(draw_case("rig", [], (1, 0)), tmp_path, "r01")
     case = read_case(tmp_path / "cases" / "r01")
     html = diagnosis_html(diagnose_case(case, suspects=few(case)[:1], threads=1))
-    assert "Verdict: adequate" in html and "What is missing" not in html and "improved, RMS" not in html
+    assert "Adequate: nothing" in html and "What is missing" not in html and "improved, RMS" not in html
+
+
+@needs_browser
+def test_in_a_browser_the_report_is_whole(finding, tmp_path):
+    assert_well_shown(write_diagnosis_report(finding, tmp_path / "report.html"), figures=4)
+
+
+def test_forces_of_one_unit_have_one_scale(finding):
+    latent = latent_torques(finding.baseline, finding.runs["baseline_train"])
+    details = [axes for axes in plots.plot_latent(latent).axes if axes.get_ylim()[0] < 0]
+    assert len({axes.get_ylim() for axes in details}) == 1 and len(details) == len(latent)
+    assert len({axes.get_ylabel().split("[")[1] for axes in plots.plot_latent(latent).axes if axes.get_ylabel()}) == 1
 
 
 def test_figures_show_the_numbers_of_the_finding(finding):
-    scores = plots.plot_scores(finding)
-    widths = [bar.get_width() for bar in scores.axes[0].patches]
-    assert widths == [max(c.score, 0) for c in finding.ranking]
+    (scores,) = plots.plot_scores(finding).axes
+    dots = [line.get_xydata() for line in scores.lines if line.get_marker() == "o"]
+    behind = [x for x, _ in sorted(np.vstack(dots), key=lambda xy: xy[1])]
+    ranked = sorted((c.score for c in finding.ranking), reverse=True)[:12]
+    np.testing.assert_allclose(behind, ranked[0] - np.array(ranked))
+    assert "found" in [t.get_text() for t in scores.get_legend().get_texts()]
     panels = plots.plot_before_after(finding).axes
     recorded, before, after = panels[0].lines
     run = finding.runs["augmented_train"]

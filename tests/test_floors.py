@@ -11,7 +11,7 @@ ROOF = 8
 FLOOR = {
     "errors": -1,  # the ground: even units may raise
     "units": 0, "files": 0, "generated": 0, "threads": 0, "progress": 0, "deadline": 0,
-    "recording": 1, "model": 1, "nlp": 1,
+    "fetch": 1, "recording": 1, "model": 1, "nlp": 1,
     "mechanics": 2, "codegen": 2,
     "transcription": 3, "simulation": 3, "plausibility": 3, "kkt": 3,
     "estimation": 4, "ipopt_solver": 4,

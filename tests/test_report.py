@@ -1,8 +1,6 @@
 """Figures and reports: what they show, also where parameters sit at bounds or a solve failed."""
 
 import re
-import shutil
-import subprocess
 import sys
 from html.parser import HTMLParser
 from types import SimpleNamespace
@@ -10,13 +8,14 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+from browser import assert_well_shown, needs_browser, seen
 from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid import plots
 from symid.plots import solution as solution_figures
 from symid.plots import style
-from symid.report import page, report_html, write_report
+from symid.report import page, report_html, write_report, write_study_report
 from symid.report import solution as solution_report
 from symid.units import with_error
 
@@ -100,7 +99,7 @@ def test_every_value_lies_on_its_axis(value):
 def test_starts_show_every_start_and_which_failed(not_solved):
     assert not not_solved.solved
     left, right = plots.plot_starts(not_solved).axes
-    assert sum(len(line.get_xdata()) for line in left.lines) == 3
+    assert sorted(x for line in left.lines for x in line.get_xdata()) == [1, 2, 3]
     assert [t.get_text() for t in left.get_legend().get_texts()] == ["not solved"]
     assert len(right.lines) == 3
 
@@ -174,34 +173,53 @@ def test_estimates_that_move_together_are_named(solution):
     assert "stiffness and mass (-0.99)" in told
 
 
-@pytest.mark.skipif(shutil.which("chromium") is None, reason="no Chromium to open the report with")
-@pytest.mark.parametrize("width", [1280, 390])
-def test_in_a_browser_nothing_is_wider_than_the_page_and_no_figure_is_empty(solution, tmp_path, width):
-    write_report(solution, tmp_path / "report.html")
-    # A frame as wide as the screen: a window of Chromium itself is never as narrow as a phone.
-    (tmp_path / "frame.html").write_text(
-        f"""<iframe id="f" src="report.html" style="width:{width}px;height:3000px"></iframe><p id="out"></p><script>
-        window.onload = () => {{ const d = document.getElementById("f").contentDocument, e = d.documentElement;
-          const empty = [...d.images].filter(i => !i.naturalWidth).length;
-          document.getElementById("out").textContent =
-            `overflow ${{e.scrollWidth - e.clientWidth}} empty ${{empty}}`; }};
-        </script>"""
-    )
-    done = subprocess.run(
-        [
-            "chromium",
-            "--headless",
-            "--no-sandbox",
-            "--disable-gpu",
-            "--allow-file-access-from-files",
-            "--virtual-time-budget=5000",
-            "--dump-dom",
-            f"file://{tmp_path}/frame.html",
-        ],
-        capture_output=True,
-        text=True,
-    )
-    assert "overflow 0 empty 0" in done.stdout
+@needs_browser
+def test_the_look_in_a_browser_finds_what_is_wrong(tmp_path):
+    content = '<p style="width:600px">wide</p><img src="data:image/png;base64,AAAA">'
+    (tmp_path / "bad.html").write_text(f'<main>{content}</main><script>console.error("x")</script>')
+    desk, phone = seen(tmp_path / "bad.html")
+    assert desk["overflow"] == 0 < phone["overflow"] and phone["wide"] and desk["empty"] == 1 and desk["console"]
+
+
+@needs_browser
+def test_in_a_browser_a_report_is_whole_on_a_desk_and_on_a_phone(solution, tmp_path):
+    assert_well_shown(write_report(solution, tmp_path / "report.html", solution.free_run((3.0, 6.0))), figures=5)
+
+
+@pytest.fixture(scope="module")
+def study():
+    problems = {"free": pendulum(), "bounded": pendulum().with_bounds(damping=(0, 0.1))}
+    problems = {k: si.Identification(m, pendulum_recording(noise=0.01)) for k, m in problems.items()}
+    return si.Study.product(problems, starts=2, max_iterations=60).run_here(on_finished=None)
+
+
+def test_the_report_of_a_study_has_every_problem_and_solve(study, tmp_path):
+    text = write_study_report(study, tmp_path / "study.html", "Two models").read_text()
+    assert "4 of 4 solves of 2 problems" in text
+    for part in ("Two models", "free/0", "bounded/1", "2 of 2", "at the same optimum", "Provenance", "Please cite"):
+        assert part in text
+    assert len(plots.plot_study(study).axes[0].get_yticklabels()) == 2
+
+
+@needs_browser
+def test_in_a_browser_the_report_of_a_study_is_whole(study, tmp_path):
+    assert_well_shown(write_study_report(study, tmp_path / "study.html"), figures=1)
+
+
+def test_an_interval_beyond_a_bound_is_remarked(solution):
+    assert "reaches beyond a bound" not in report_html(solution)
+    p = solution.parameters.loc["damping"]
+    near = pendulum().with_bounds(damping=(p.value - p.std_error, 5))
+    told = report_html(si.Identification(near, pendulum_recording(noise=0.01)).solve())
+    assert "reaches beyond a bound: damping (lower bound" in told
+
+
+def test_starts_that_agree_are_drawn_at_one_place_with_the_numbers_of_the_table():
+    solution = si.Identification(pendulum(), pendulum_recording(noise=0.01)).solve(3, seed=1)
+    left, right = plots.plot_starts(solution).axes
+    drawn = {x: y for line in left.lines for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)}
+    assert drawn == {r.number + 1: pytest.approx(np.rad2deg(r.rms)) for r in solution.starts}
+    assert np.ptp(left.get_ylim()) > 0.01 * solution.fit["rms_deg"]["all"] and right.get_xlim()[1] >= 1
 
 
 def test_text_is_escaped():

@@ -6,10 +6,9 @@ import argparse
 from pathlib import Path
 
 from symid.cli.options import add_distribution_argument, add_executor_arguments, chosen_executor
-from symid.errors import RecordingError, SolveError
+from symid.errors import SolveError
 
 SUMMARY = "run the article's twelve identifications and print every number beside the article's"
-BESIDE = "shared/recordings/standing_subject05"
 EXAMPLES = ("symid reproduce --quick", "symid reproduce --starts 10 --jobs 2")
 
 
@@ -18,7 +17,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--only", nargs="+", metavar="NAME", help="cases (PD-3) or controllers (PD, FPD, NN); default: all"
     )
     parser.add_argument(
-        "--recordings", metavar="DIRECTORY", help=f"with recording_50hz.csv and body.json (default: ../{BESIDE})"
+        "--recordings",
+        metavar="DIRECTORY",
+        help="with recording_50hz.csv and body.json (default: where `symid fetch standing` puts them)",
     )
     parser.add_argument("--starts", type=int, default=10, metavar="K", help="starts of each case (default: 10)")
     parser.add_argument(
@@ -42,6 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from symid import mechanics
+    from symid.fetch import standing
     from symid.files import write_atomically
     from symid.identification.study import tell
     from symid.plots.article import plot_stable_share, plot_starts_spread
@@ -51,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     if arguments.starts < 1:
         raise SolveError(f"--starts {arguments.starts} is not possible; give at least 1")
-    cases, folder = chosen(arguments.only), _folder(arguments.recordings)
+    cases, folder = chosen(arguments.only), standing(arguments.recordings)
     recording = read_recording(folder / "recording_50hz.csv")
     body = mechanics.DoubleLinkPendulum.from_json(folder / "body.json")
     with chosen_executor(arguments.jobs, arguments.cluster) as executor:
@@ -80,15 +82,3 @@ def run(arguments: argparse.Namespace) -> int:
         write_atomically(Path(arguments.output) / name, content)
     print("\n\n".join([*lines, f"Written: {', '.join(files)} in {arguments.output}"]))
     return 1 if found.failed or not all(f.best.solved for f in found.findings) else 0
-
-
-def _folder(given: str | None) -> Path:
-    """The folder of the article's recording: as given, or beside this checkout or the working directory."""
-    places = [Path(given)] if given else [Path("..") / BESIDE, Path(__file__).resolve().parents[3] / BESIDE]
-    for place in places:
-        if (place / "recording_50hz.csv").is_file():
-            return place
-    raise RecordingError(
-        f"the article's recording (recording_50hz.csv and body.json) is not in {places[0]}; "
-        "name its folder with --recordings"
-    )

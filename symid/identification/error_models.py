@@ -87,11 +87,15 @@ def choose(errors: list[Errors], choice: str, episodes: int) -> tuple[str, str]:
     chance = whiteness(likeliest(likeliest(errors)))
     agreed = [r.believed for r in errors]
     if chance > REFUTED and np.all(agreed):
-        return "white", f"known, and the residual does not refute it (p = {chance:.2g})"
+        return "white", f"known, and the residual does not refute it (p {_chance(chance)})"
     if chance > REFUTED:
         source = "partly known" if np.any(agreed) else "estimated"
-        return "white", f"{source}; the residual's autocorrelation does not refute it (p = {chance:.2g})"
-    return "coloured", f"the residual is correlated in time (p = {chance:.2g})"
+        return "white", f"{source}; the residual's autocorrelation does not refute it (p {_chance(chance)})"
+    return "coloured", f"the residual is correlated in time (p {_chance(chance)})"
+
+
+def _chance(p: float) -> str:
+    return "below 0.001" if p < 1e-3 else f"= {p:.2g}"
 
 
 def covariance(model: str, errors: list[Errors], influences: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

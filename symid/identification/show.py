@@ -54,10 +54,12 @@ def headline(solution: Solution) -> str:
     word = "Solved" if solution.solved else "NOT SOLVED"
     if solution.solved and solution.result.status != 0:
         word = "ACCEPTABLE, not solved to the tolerance,"
-    units = {name: y.unit for name, y in solution.model.outputs.items()}
+    outputs, rms = solution.model.outputs, solution.fit["rms"]
+    said = {y.channel.replace("_", " "): rms[name] for name, y in outputs.items()} | {"all": rms["all"]}
+    units = {y.channel.replace("_", " "): y.unit for y in outputs.values()}
     return (
         f"{word} in {solution.result.iterations} iterations and {solution.seconds['total']:.2f} s. "
-        f"RMS error: {fit_text(solution.fit['rms'], units)}"
+        f"RMS error: {fit_text(said, units)}"
     )
 
 

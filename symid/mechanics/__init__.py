@@ -8,6 +8,7 @@ from symid.mechanics.feedback import PD, Feedback, FullStatePD
 from symid.mechanics.lagrange import lagrange_residuals
 from symid.mechanics.neural import NeuralNetwork
 from symid.mechanics.rig import rig_model
+from symid.mechanics.skeleton import Skeleton, skeleton
 from symid.mechanics.standing import DoubleLinkPendulum
 from symid.mechanics.terms import CANONICAL, LIBRARY, suspects
 from symid.mechanics.wrap import from_kane, from_lagrange, from_system
@@ -24,11 +25,13 @@ __all__ = [
     "Feedback",
     "FullStatePD",
     "NeuralNetwork",
+    "Skeleton",
     "from_kane",
     "from_lagrange",
     "from_system",
     "lagrange_residuals",
     "model_of",
     "rig_model",
+    "skeleton",
     "suspects",
 ]

@@ -167,12 +167,14 @@ class Chain:
         origin = "upward" if self.upright else "downward"
         for i, (c, s) in enumerate(zip(coordinates, letters, strict=True)):
             what = f"from the {origin} vertical" if self.absolute or i == 0 else "relative to the link before"
+            role = f"angle_from_{origin}_vertical" if self.absolute or i == 0 else "relative_angle"
             setattr(
                 model,
                 f"{c}_angle",
                 State(
                     unit="rad",
                     bounds=(-self.angle_bound, self.angle_bound),
+                    role=role,
                     at=c,
                     latex=rf"\theta_{s}",
                     meaning=f"angle {what}, positive forward",

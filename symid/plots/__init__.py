@@ -5,6 +5,7 @@ Each function returns a figure that shows itself in a notebook and has matplotli
 """
 
 from symid.plots.diagnosis import plot_before_after, plot_latent, plot_scores, plot_spectra
+from symid.plots.live import LivePlot
 from symid.plots.plan import plot_plan
 from symid.plots.solution import (
     plot_fit,
@@ -14,19 +15,26 @@ from symid.plots.solution import (
     plot_starts,
     typical_stretch,
 )
+from symid.plots.stick import Animation, animate, plot_poses
+from symid.plots.study import plot_study
 from symid.plots.style import Picture
 
 __all__ = [
+    "Animation",
+    "LivePlot",
     "Picture",
+    "animate",
     "plot_before_after",
     "plot_fit",
     "plot_inputs",
     "plot_latent",
     "plot_parameters",
     "plot_plan",
+    "plot_poses",
     "plot_residual_spectra",
     "plot_scores",
     "plot_spectra",
     "plot_starts",
+    "plot_study",
     "typical_stretch",
 ]

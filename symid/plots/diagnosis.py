@@ -8,19 +8,27 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.signal import welch
 
-from symid.discrepancy.say.names import law_name
-from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened
+from symid.discrepancy.policy import POLICY
+from symid.discrepancy.say.names import law_name, place_name
+from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, WARN_PALE, Picture, opened
 from symid.units import shown_unit, unit_symbol
 
 if TYPE_CHECKING:
     from symid.discrepancy import Diagnosis
     from symid.discrepancy.locate.latent import Latent
+    from symid.discrepancy.model.hypothesis import Hypothesis
     from symid.estimation.free_run import FreeRun
 
 ZOOM = 8.0
 """Seconds shown of each window: more and the curves cannot be told apart."""
 WINDOWS = (("train", "fit window"), ("heldout", "held-out window"))
 MOST_SUSPECTS = 12
+PIECES = 40
+"""Of a window, in each of which the size of a force is told."""
+UNTOLD = "two standard errors"
+CHOSEN, ALIKE, OTHER = "found", "explains the recording as well", "other suspects"
+STANDINGS = {CHOSEN: (MODEL, MODEL), ALIKE: ("white", MODEL), OTHER: ("#9a9a9a", "#9a9a9a")}
+"""How a suspect stands -> fill and edge of its mark."""
 
 
 def plot_before_after(diagnosis: Diagnosis) -> Picture:
@@ -92,78 +100,144 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
     length = min(len(before.time), int(10 * rate))
     for axes, output, i in zip(panels, outputs, range(len(outputs)), strict=True):
         unit, factor = shown_unit(output.unit)
-        shown = [(before, WARN, "model as given")] + ([(after, MODEL, "improved")] if diagnosis.effects else [])
-        for run, color, label in shown:
+        shown = [(before, WARN_PALE, 3.0, "model as given")]
+        shown += [(after, MODEL, 1.0, "improved")] if diagnosis.effects else []
+        for run, color, width, label in shown:  # where both agree the one shows below the other
             f, power = welch((run.recorded - run.simulated)[:, i] * factor, rate, nperseg=length, detrend=False)
-            axes.loglog(f[1:], power[1:], color=color, lw=1.1, label=label)
+            axes.loglog(f[1:], power[1:], color=color, lw=width, label=label)
         axes.set_title(output.channel.replace("_", " "), loc="left", fontsize=10)
         axes.set_xlabel("frequency [Hz]")
         if axes is panels[0] or not comparable:
             axes.set_ylabel(f"power of the error\n[{f'({unit})' if '/' in unit else unit}²/Hz]", fontsize=9)
         opened(axes)
-    panels[-1].legend(frameon=False, fontsize=8.5)
+    figure.legend(
+        *panels[-1].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=8.5
+    )
     return figure
 
 
 def plot_scores(diagnosis: Diagnosis) -> Picture:
-    """How much better the recording is explained with each single suspect, less the penalty of its parameters."""
-    shown = diagnosis.ranking[:MOST_SUSPECTS]
-    figure = Picture(figsize=(9.5, 0.28 * max(len(shown), 2) + 0.9), layout="constrained")
+    """How far each single suspect stays behind the best one; at the dashed line all is chance."""
+    shown = sorted(diagnosis.ranking, key=lambda c: -c.score)[:MOST_SUSPECTS]
+    figure = Picture(figsize=(9.5, 0.28 * max(len(shown), 2) + 1.2), layout="constrained")
     axes = figure.subplots()
-    chosen = {(e.name, e.location) for e in diagnosis.effects}
-    alike = {str(c.suspect.term) for c in diagnosis.equivalent}
-    scores = [c.score for c in shown]
-    colors = [
-        MODEL
-        if (c.suspect.term.name, c.suspect.term.location) in chosen
-        else "#8fb3d9"
-        if str(c.suspect.term) in alike
-        else QUIET
-        for c in shown
-    ]
-    places = np.arange(len(shown))
-    axes.barh(places, np.maximum(scores, 0), color=colors, height=0.7)
-    for y, s in zip(places, scores, strict=True):
+    best = shown[0].score
+    behind, places = np.array([best - c.score for c in shown]), np.arange(len(shown))
+    looks = np.array([_standing(diagnosis, c) for c in shown])
+    for look, (color, edge) in STANDINGS.items():
+        if (looks == look).any():  # a legend for what is drawn, and for nothing else
+            axes.plot(behind[looks == look], places[looks == look], "o", ms=7, color=color, mec=edge, label=look)
+    axes.set_xscale("symlog", linthresh=POLICY.equivalent, linscale=0.6)
+    axes.axvspan(-POLICY.equivalent / 4, POLICY.equivalent, color=QUIET, alpha=0.35, lw=0, zorder=0)
+    far = max(2.0 * behind.max(), 1.6 * best, 10 * POLICY.equivalent)
+    if best > 0:
+        axes.axvline(best, color=INK, lw=0.8, ls="--")
+    for y, x, c in zip(places, behind, shown, strict=True):
+        text = f"{c.score:,.0f}".replace("-", "\N{MINUS SIGN}")
+        left = 0 < best / 5 < x  # away from the dashed line
         axes.annotate(
-            f"{s:,.0f}".replace("-", "\N{MINUS SIGN}"),
-            (max(s, 0), y),
-            xytext=(4, 0),
+            text,
+            (x, y),
+            xytext=(-7 if left else 7, 0),
             textcoords="offset points",
+            ha="right" if left else "left",
             va="center",
-            fontsize=8.5,
+            fontsize=8,
             color=INK,
         )
     axes.set_yticks(places, [law_name(c.suspect.term.name, c.suspect.term.location) for c in shown], fontsize=8.5)
-    axes.invert_yaxis()
-    axes.set_xlim(0, 1.12 * max([*scores, 1.0]))
-    axes.set_xlabel(
-        "score of each suspect alone: growth of twice the log-likelihood less the penalty of its parameters", fontsize=9
+    axes.set(xlim=(-POLICY.equivalent / 4, far), ylim=(len(shown) - 0.4, -0.6))
+    axes.xaxis.set_major_formatter(lambda x, _: f"{x:,.0f}")
+    axes.set_xlabel("score behind that of the best single suspect", fontsize=9)
+    axes.legend(
+        *axes.get_legend_handles_labels(),
+        fontsize=8.5,
+        frameon=False,
+        ncols=3,
+        loc="lower right",
+        bbox_to_anchor=(1, 1),
+        borderaxespad=0.1,
     )
     opened(axes)
     return figure
 
 
+def _standing(diagnosis: Diagnosis, suspect: Hypothesis) -> str:
+    """Which of STANDINGS a suspect of the ranking has."""
+    term = suspect.suspect.term
+    if (term.name, term.location) in {(e.name, e.location) for e in diagnosis.effects}:
+        return CHOSEN
+    return ALIKE if str(term) in {str(c.suspect.term) for c in diagnosis.equivalent} else OTHER
+
+
 def plot_latent(before: Sequence[Latent], after: Sequence[Latent] = ()) -> Picture:
-    """The torque that a model lacks over time, with a band of two standard errors; before and after."""
-    figure = Picture(figsize=(9.5, 1.9 * len(before) + 0.4), layout="constrained")
-    panels = figure.subplots(len(before), 1, squeeze=False, sharex=True)[:, 0]
-    for i, (axes, latent) in enumerate(zip(panels, before, strict=True)):
-        # Where a run begins the estimate is free: its band must not set the scale.
-        margin = len(latent.time) // 50 + 1
-        top = 1.25 * np.abs(latent.torque[margin:-margin]).max() or 1.0
+    """The force that a model lacks at each place: its size over the window, and a stretch with two standard errors.
+
+    Places whose forces have one unit share unit and scale.
+    """
+    time = before[0].time
+    stretch = _loudest(before)
+    parted = time[-1] - time[0] > 2 * ZOOM
+    figure = Picture(figsize=(9.5, 1.9 * len(before) + 0.6), layout="constrained")
+    panels = figure.subplots(len(before), 1 + parted, squeeze=False, sharex="col", width_ratios=[1, 1.3][1 - parted :])
+    tops = [1.25 * np.abs(b.torque[stretch]).max() or 1.0 for b in before]
+    for i, (row, latent) in enumerate(zip(panels, before, strict=True)):
+        top = max(t for t, b in zip(tops, before, strict=True) if b.unit == latent.unit)
         prefix, factor = next((p, f) for p, f in (("", 1.0), ("m", 1e3), ("µ", 1e6)) if top * f > 0.5 or p == "µ")
-        axes.axhline(0, color=INK, lw=0.5)
-        for one, color, label in [
-            (latent, WARN, "model as given"),
-            *((a, MODEL, "improved") for a in after[i : i + 1]),
-        ]:
-            torque, error = one.torque * factor, one.error * factor
-            low, high = torque - 2 * error, torque + 2 * error
-            axes.fill_between(one.time, low, high, color=color, alpha=0.18, lw=0)
-            axes.plot(one.time, torque, color=color, lw=0.8, label=label)
-        axes.set(xlim=(latent.time[0], latent.time[-1]), ylim=(-top * factor, top * factor))
-        axes.set_ylabel(f"{latent.place}\n[{prefix}{unit_symbol(latent.unit)}]", fontsize=9)
-        opened(axes)
-    panels[0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncols=2, frameon=False, fontsize=8.5, borderaxespad=0.1)
-    panels[-1].set_xlabel("time [s]")
+        if parted:
+            centres, sizes = _sizes(latent.time, latent.error)
+            row[0].fill_between(centres, 0, 2 * sizes * factor, color=QUIET, alpha=0.6, lw=0, step="mid", label=UNTOLD)
+        shown = [(latent, WARN, "model as given"), *((a, MODEL, "improved") for a in after[i : i + 1])]
+        for one, color, label in shown:
+            _force(row[-1], one, stretch, factor, color, label)
+            if parted:
+                centres, sizes = _sizes(one.time, one.torque)
+                row[0].plot(centres, sizes * factor, color=color, lw=1.2, drawstyle="steps-mid")
+        row[-1].axhline(0, color=INK, lw=0.5)
+        row[-1].set(xlim=tuple(time[stretch][[0, -1]]), ylim=(-top * factor, top * factor))
+        row[0].set_ylabel(f"{place_name(latent.place)}\n[{prefix}{unit_symbol(latent.unit)}]", fontsize=9)
+        opened(*row)
+    if parted:
+        _share_scale(panels[:, 0], before)
+        panels[0, 0].set_title("size (RMS)", loc="left", fontsize=10)
+        panels[0, -1].set_title("in detail", loc="left", fontsize=10)
+    drawn = dict(zip(*reversed(panels[0, -1].get_legend_handles_labels()), strict=True))
+    drawn |= dict(zip(*reversed(panels[0, 0].get_legend_handles_labels()), strict=True))
+    figure.legend(drawn.values(), drawn, loc="outside upper right", ncols=3, frameon=False, fontsize=8.5)
+    for axes in panels[-1]:
+        axes.set_xlabel("time [s]")
+    figure.align_ylabels(panels[:, 0])
     return figure
+
+
+def _force(axes, latent: Latent, rows: slice, factor: float, color: str, label: str) -> None:
+    torque, error = latent.torque[rows] * factor, latent.error[rows] * factor
+    axes.fill_between(latent.time[rows], torque - 2 * error, torque + 2 * error, color=color, alpha=0.18, lw=0)
+    axes.plot(latent.time[rows], torque, color=color, lw=0.9, label=label)
+
+
+def _loudest(latents: Sequence[Latent]) -> slice:
+    """Samples of the stretch of `ZOOM` seconds with the largest forces; where a run begins and ends the estimate
+    is free.
+    """
+    time = latents[0].time
+    margin, count = len(time) // 50 + 1, int(ZOOM / np.median(np.diff(time)))
+    if count + 2 * margin >= len(time):
+        return slice(margin, len(time) - margin)
+    power = sum((b.torque / (np.std(b.torque[margin:-margin]) or 1.0)) ** 2 for b in latents)
+    total = np.convolve(power[margin:-margin], np.ones(count), "valid")
+    first = margin + int(np.argmax(total))
+    return slice(first, first + count)
+
+
+def _sizes(time: np.ndarray, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Middles [s] of `PIECES` pieces of the window, and the RMS of the values in each."""
+    pieces = np.array_split(np.arange(len(time)), PIECES)
+    return (np.array([time[p].mean() for p in pieces]), np.array([np.sqrt(np.mean(values[p] ** 2)) for p in pieces]))
+
+
+def _share_scale(panels, latents: Sequence[Latent]) -> None:
+    """From zero to the same top for all forces of one unit."""
+    tops = [axes.get_ylim()[1] for axes in panels]
+    for axes, latent in zip(panels, latents, strict=True):
+        axes.set_ylim(0, max(t for t, b in zip(tops, latents, strict=True) if b.unit == latent.unit))

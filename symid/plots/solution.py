@@ -12,6 +12,8 @@ from symid.units import shown_unit, unit_symbol, with_error
 
 TYPICAL = 10.0
 """Seconds of a stretch in which the single swings of a motion can be told apart."""
+SAME = 1.0
+"""Percent: starts that end nearer to each other are drawn as ending at one place."""
 
 
 def plot_fit(solution: Solution, episode: int = 0, window: tuple[float, float] | None = None) -> Picture:
@@ -156,7 +158,7 @@ def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
         )
     axes.set_yticks(places, table.index, fontsize=8.5)
     axes.set(xlim=(low, high), ylim=(-0.7, len(table) - 0.3))
-    legend = "   ( × true value )" if truth else ""
+    legend = "     × true value" if truth else ""
     axes.set_title(f"[{unit_symbol(unit) or '1'}]{legend}", loc="left", fontsize=9)
     opened(axes)
 
@@ -173,42 +175,49 @@ def _limits(value: np.ndarray, half: np.ndarray, others: list[float]) -> tuple[f
 
 
 def plot_starts(solution: Solution) -> Picture:
-    """How every start ended: its error in rank order, and how far its parameters are from the best's."""
-    rows, names = sorted(solution.starts, key=lambda r: r.rms), list(solution.values)
+    """How every start ended: its error by its number, and how far its parameters are from the best's."""
+    rows, names = solution.starts, list(solution.values)
     together = common_unit(y.unit for y in solution.model.outputs.values())
     unit, factor = shown_unit(together or "1")
     figure = Picture(figsize=(9, max(3.2, 0.24 * len(names) + 1.2)), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=[1, 1.3])
-    rank, error = np.arange(1, len(rows) + 1), np.array([r.rms for r in rows]) * factor
-    solved = np.array([r.solved for r in rows])
+    number, error = np.array([r.number + 1 for r in rows]), np.array([r.rms for r in rows]) * factor
+    solved, best = np.array([r.solved for r in rows]), np.arange(len(rows)) == solution.best
     for chosen, look, label in (
-        (solved, {"color": MODEL}, "solved"),
+        (solved & ~best, {"color": MODEL}, "solved"),
+        (solved & best, {"color": MODEL, "marker": "D"}, "best"),
         (~solved, {"mfc": "white", "mec": WARN}, "not solved"),
     ):
         if chosen.any():
-            left.plot(rank[chosen], error[chosen], "o", ms=6, label=label, ls="", **look)
-    left.legend(frameon=False, fontsize=8.5)
+            left.plot(number[chosen], error[chosen], **{"marker": "o", "ms": 6, "ls": "", "label": label} | look)
+    left.legend(frameon=False, fontsize=8.5, ncols=3, loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.1)
     left.set(
-        xlabel="start, best first",
+        xlabel="start",
         ylabel="RMS error" + (f" [{unit or '1'}]" if together else ", outputs of different units together"),
-        xlim=(0.3, len(rows) + 0.7),
+        xlim=(number.min() - 0.7, number.max() + 0.7),
+        ylim=_apart(error),
     )
     left.xaxis.get_major_locator().set_params(integer=True)
-    best = solution.starts[solution.best].parameters
-    largest = {k: max(abs(r.parameters[k]) for r in rows) or 1.0 for k in names}
-    for row in reversed(rows):
-        away = [(row.parameters[k] - best[k]) / largest[k] for k in names]
-        right.plot(
-            away,
-            np.arange(len(names)),
-            "o",
-            ms=5,
-            alpha=0.6,
-            mec="none" if row.solved else WARN,
-            color=MODEL if row.solved else "white",
-        )
+    found = solution.starts[solution.best].parameters
+    largest = {k: max(abs(r.parameters[k]) for r in rows if r.parameters) or 1.0 for k in names}
+    for row in [r for r in rows if r.parameters]:
+        away = [100 * (row.parameters[k] - found[k]) / largest[k] for k in names]
+        look = {"color": MODEL, "mec": "none"} if row.solved else {"color": "white", "mec": WARN}
+        right.plot(away, np.arange(len(names)), "o", ms=5, alpha=0.6, **look)
     right.set_yticks(np.arange(len(names)), names, fontsize=8)
     right.invert_yaxis()
-    right.set_xlabel("difference from the best start,\nas a share of the largest magnitude", fontsize=9)
+    low, high = right.get_xlim()
+    right.set_xlim(min(low, -SAME), max(high, SAME))
+    right.set_xlabel("from the best start\n[% of largest size]", fontsize=9)
     opened(left, right)
     return figure
+
+
+def _apart(values: np.ndarray) -> tuple[float, float]:
+    """Limits in which values that are the same to `SAME` percent look the same."""
+    known = values[np.isfinite(values)]
+    if not len(known):
+        return 0.0, 1.0
+    middle, half = (known.max() + known.min()) / 2, 0.6 * (known.max() - known.min())
+    half = max(half, SAME / 100 * abs(middle), 1e-12)
+    return middle - half, middle + half

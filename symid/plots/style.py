@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 INK, RECORDED, MODEL, WARN, QUIET = "#222222", "#9a9a9a", "#1f5fa8", "#c0392b", "#d9d9d9"
+WARN_PALE = "#e8aaa2"
 
 
 class Picture(Figure):

@@ -6,13 +6,18 @@ from pathlib import Path
 
 from symid.discrepancy import Diagnosis
 from symid.discrepancy.locate.latent import latent_torques
+from symid.discrepancy.policy import POLICY
 from symid.discrepancy.say.diagnosis import Effect
+from symid.discrepancy.say.names import place_name
+from symid.errors import RecordingError
 from symid.files import write_atomically
 from symid.identification.fit import common_unit, rms_text
 from symid.mechanics.laws import parameter_name
+from symid.model.show import latex_lines
 from symid.plots import plot_before_after, plot_latent, plot_scores, plot_spectra
-from symid.report.page import facts, figure, heading, number, page, paragraph, table
-from symid.units import quantity
+from symid.report.origin import CITATION, origin, written
+from symid.report.page import equations, facts, figure, folded, heading, page, paragraph, table
+from symid.units import quantity, split_column_name
 
 VERDICTS = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}
 MEANING = {
@@ -41,8 +46,11 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
     """The same as text."""
     d = diagnosis
     first, *more = d.words.split("\n")
-    verdict = paragraph(f"Verdict: {VERDICTS[d.verdict].lower()} ({MEANING[d.verdict]}).", "note")
-    parts = [paragraph(first, "lead"), *map(paragraph, more), verdict]
+    parts = [
+        paragraph(f"{VERDICTS[d.verdict]}: {MEANING[d.verdict]}.", "verdict"),
+        paragraph(first, "lead"),
+        *map(paragraph, more),
+    ]
     if d.effects:
         parts += [heading("What is missing"), effects_table(d)]
     if d.equivalent:
@@ -52,24 +60,22 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
         heading("Before and after" if d.effects else "The fit"),
         _fits(d),
         figure(plot_before_after(d), f"Free simulations, {where}; errors below each."),
-    ]
-    parts += [heading("Where and when"), *_where(d)]
-    parts += [figure(plot_spectra(d), "At which frequencies the free run is wrong.")]
-    parts += [
+        heading("Where and when"),
+        *_where(d),
+        figure(plot_spectra(d), "At which frequencies the free run is wrong."),
         heading("Suspects"),
-        paragraph(
-            "Every law was tried at every place where it could act, together with all unknowns of "
-            "the model. Listed are those that were fitted completely, each alone.",
-            "note",
-        ),
+        *_suspects(d),
+        heading("What is left"),
+        *_remainder(d),
+        heading("Parameters of the model"),
+        _parameters(d),
+        folded("Equations of the improved model" if d.effects else "Equations", equations(latex_lines(d.improved))),
+        heading("Provenance"),
+        facts((provenance or {}) | origin()),
+        heading("Please cite"),
+        *map(paragraph, CITATION),
     ]
-    if d.ranking and d.ranking[0].score > 0:
-        parts.append(figure(plot_scores(d), "Dark blue: chosen. Light blue: explains the recording as well."))
-    parts += [_ranking(d)]
-    parts += [heading("What is left"), _remainder(d), heading("Parameters of the model"), _parameters(d)]
-    if provenance:
-        parts += [heading("Provenance"), facts(provenance)]
-    return page(name, *parts)
+    return page(name, *parts, footer=written())
 
 
 def effects_table(d: Diagnosis) -> str:
@@ -77,10 +83,20 @@ def effects_table(d: Diagnosis) -> str:
     kept = {(s.name, s.location): "no" if s.reason else "yes" for s in d.halves}
     rows = []
     for e in d.effects:
-        values = "; ".join(f"{k} = {quantity(v, s, _unit(d, e, k))}" for k, (v, s) in e.parameters.items())
+        values = "; ".join(f"{_said(k)} {quantity(v, s, _unit(d, e, k))}" for k, (v, s) in e.parameters.items())
         when = "always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s"
-        rows.append([_plain(e.name), e.location, when, kept.get((e.name, e.location), ""), values or e.sentence])
+        rows.append(
+            [_plain(e.name), place_name(e.location), when, kept.get((e.name, e.location), ""), values or e.sentence]
+        )
     return table(["effect", "place", "when", "on both halves", "parameters"], rows)
+
+
+def _said(key: str) -> str:
+    """A parameter's name without its unit: ``time_constant_s`` as "time constant"."""
+    try:
+        return _plain(split_column_name(key)[0])
+    except RecordingError:  # one without a unit
+        return _plain(key)
 
 
 def _unit(d: Diagnosis, effect: Effect, key: str) -> str:
@@ -95,7 +111,12 @@ def _plain(name: str) -> str:
 
 def _equivalents(d: Diagnosis) -> str:
     rows = [
-        [_plain(c.suspect.term.name), c.suspect.term.location, float(c.score), experiment(c.suspect.term.name)]
+        [
+            _plain(c.suspect.term.name),
+            place_name(c.suspect.term.location),
+            f"{c.score:,.0f}",
+            experiment(c.suspect.term.name),
+        ]
         for c in d.equivalent
     ]
     return table(["instead", "place", "score", "experiment that would tell them apart"], rows)
@@ -161,35 +182,71 @@ def _where(d: Diagnosis) -> list[str]:
         ]
     after = latent_torques(d.final, d.runs["augmented_train"]) if d.effects else ()
     caption = (
-        "The force that would have to be added at each place to make the free run follow the recording, with two "
-        "standard errors; it holds what random forces contribute as well."
+        "The force that would have to be added at each place to make the free run follow the recording; forces of one "
+        "unit have one scale. The band is two standard errors wide to each side, and the grey floor as "
+        "high: a force that stays "
+        "within is not told from nothing. It holds what random forces contribute as well."
     )
     if d.baseline.kalman_gain is None:
         caption += " It rests on one mean linearisation, so where the motion is large it is a rough picture."
     return [figure(plot_latent(before, after), caption)]
 
 
-def _ranking(d: Diagnosis) -> str:
+def _suspects(d: Diagnosis) -> list[str]:
+    """Every suspect that was fitted completely: as a figure, and folded away all numbers."""
+    parts = [
+        paragraph(
+            "Every law was tried at every place where it could act, together with all unknowns of the model. Shown are "
+            "those that were fitted completely, each alone. The score is the growth of twice the "
+            "log-likelihood, counted "
+            "in independent samples, less a penalty for the unknowns of the suspect and for being one of many.",
+            "note",
+        )
+    ]
+    if not d.ranking:
+        return [*parts, paragraph("None was worth a complete fit.")]
+    if max(c.score for c in d.ranking) > 0:
+        caption = (
+            f"The number is the score. In the grey band, up to {POLICY.equivalent:g} behind the best, a "
+            f"recording hardly "
+            "tells one from another; at the dashed line a suspect explains no more than chance. Of effects that were "
+            "found together each stands here alone."
+        )
+        parts.append(figure(plot_scores(d), caption))
     rows = [
         [
             _plain(c.suspect.term.name),
-            c.suspect.term.location,
-            round(c.score, 1),
-            round(c.log_ratio, 1),
-            "" if c.suspect.established else "hypothesis",
+            place_name(c.suspect.term.location),
+            f"{c.score:,.1f}",
+            f"{c.log_ratio:,.1f}",
+            "a law" if c.suspect.established else "a description",
         ]
-        for c in d.ranking[:MOST]
+        for c in sorted(d.ranking, key=lambda c: -c.score)[:MOST]
     ]
-    return table(["suspect", "place", "score", "log-likelihood ratio", ""], rows)
-
-
-def _remainder(d: Diagnosis) -> str:
-    rows = [[t.place, t.what, float(t.log_ratio), t.size, _odds(t.minus_log10_p)] for t in d.remainder[:5]]
-    return (
-        table(["place", "test for", "statistic", "degrees of freedom", "by chance 1 in"], rows)
-        if rows
-        else paragraph("Not tested.")
+    numbers = table(["suspect", "place", "score", "log-likelihood ratio", "what it names"], rows)
+    note = paragraph(
+        "A law is an answer when it is found. A description only says what the rest looks like: several mechanisms "
+        "look like that.",
+        "note",
     )
+    return [*parts, folded("All numbers", numbers, note)]
+
+
+def _remainder(d: Diagnosis) -> list[str]:
+    if not d.remainder:
+        return [paragraph("Not tested.")]
+    rows = [[place_name(t.place), t.what, float(t.log_ratio), t.size, _odds(t.minus_log10_p)] for t in d.remainder[:5]]
+    systematic = max(t.minus_log10_p for t in d.remainder) > POLICY.remainder
+    return [
+        paragraph(
+            "After the finding something systematic is left: a test below reaches what chance would make once in more "
+            f"than {10**POLICY.remainder:,.0f} recordings."
+            if systematic
+            else "Nothing beyond what chance makes is left; these tests came nearest to it.",
+            "note",
+        ),
+        table(["place", "test for", "statistic", "degrees of freedom", "by chance 1 in"], rows),
+    ]
 
 
 def _odds(minus_log10_p: float) -> str:
@@ -199,16 +256,10 @@ def _odds(minus_log10_p: float) -> str:
 
 
 def _parameters(d: Diagnosis) -> str:
-    model, rows = d.improved, []
+    rows = []
     for name, value in d.values.items():
-        before = d.baseline.values.get(name)
-        rows.append(
-            [
-                name,
-                "" if before is None else number(float(before)),
-                float(value),
-                float(d.final.errors.get(name, float("nan"))),
-                model.parameters[name].unit,
-            ]
-        )
-    return table(["parameter", "model as given", "improved", "std. error", "unit (SI)"], rows)
+        part, before = d.improved.parameters[name], d.baseline.values.get(name)
+        error = float(d.final.errors.get(name, float("nan")))
+        given = "" if before is None else quantity(float(before), unit=part.unit, digits=4)
+        rows.append([(name, part.meaning), given, quantity(float(value), error, part.unit, digits=4)])
+    return table(["parameter", "model as given", "improved ± standard error"], rows)

@@ -6,13 +6,24 @@ from itertools import combinations
 from pathlib import Path
 
 import numpy as np
+from markupsafe import Markup
 
+from symid.errors import ModelError
 from symid.files import write_atomically
 from symid.identification import Solution
 from symid.identification.fit import common_unit, rms_text
 from symid.identification.show import error_notes, headline, problem_facts
 from symid.model.show import latex_lines
-from symid.plots import plot_fit, plot_inputs, plot_parameters, plot_residual_spectra, plot_starts, typical_stretch
+from symid.plots import (
+    plot_fit,
+    plot_inputs,
+    plot_parameters,
+    plot_poses,
+    plot_residual_spectra,
+    plot_starts,
+    typical_stretch,
+)
+from symid.report.origin import CITATION, command, written
 from symid.report.page import equations, facts, figure, folded, heading, number, page, paragraph, table
 from symid.units import unit_symbol, with_error
 
@@ -21,14 +32,6 @@ SHOWN_EPISODES = 3
 """Episodes that get figures of their own: more of them look alike."""
 TOGETHER = 0.9
 """Correlation from which estimates are said to move together: the ellipse's smaller axis is a quarter of the larger."""
-CITATION = (
-    "H. Wang and A. J. van den Bogert (2020). Identification of the human postural control system through stochastic "
-    "trajectory "
-    "optimization. Journal of Neuroscience Methods 334, 108580. doi:10.1016/j.jneumeth.2020.108580 (the method)",
-    "A. Wächter and L. T. Biegler (2006). On the implementation of an interior-point filter line-search algorithm for "
-    "large-scale nonlinear programming. Mathematical Programming 106, 25-57. doi:10.1007/s10107-004-0559-y "
-    "(Ipopt, the solver)",
-)
 
 
 def write_report(
@@ -52,6 +55,7 @@ def report_html(solution: Solution, held_out: Solution | None = None, truth: dic
         heading("Parameters"),
         _parameters(solution, truth),
         _errors_note(solution),
+        *_beyond_bounds(solution),
         *_together(solution),
         figure(plot_parameters(solution, truth), "Parameters with 95 % intervals, by unit."),
     ]
@@ -59,7 +63,7 @@ def report_html(solution: Solution, held_out: Solution | None = None, truth: dic
     parts += [figure(plot_residual_spectra(solution), "At which frequencies the residual is, beside the recording.")]
     if solution.model.inputs:
         parts.append(figure(plot_inputs(solution), "What drove the model: the recorded inputs."))
-    parts += [heading("Model"), folded("Equations", equations(latex_lines(solution.model)))]
+    parts += [heading("Model"), *_poses(solution), folded("Equations", equations(latex_lines(solution.model)))]
     parts += [heading("Starts"), _starts(solution)]
     if len(solution.starts) > 1:
         parts.append(figure(plot_starts(solution), "Where each start ended."))
@@ -71,11 +75,7 @@ def report_html(solution: Solution, held_out: Solution | None = None, truth: dic
         heading("Please cite"),
         *map(paragraph, CITATION),
     ]
-    return page(
-        solution.model.name,
-        *parts,
-        footer=f"Written by symid {solution.provenance['symid']} on {solution.created[:10]}.",
-    )
+    return page(solution.model.name, *parts, footer=written())
 
 
 def _fit_figures(solution: Solution) -> list[str]:
@@ -100,6 +100,35 @@ def _held_out_figures(held_out: Solution | None) -> list[str]:
     t0, t1 = held_out.trajectories[0].index[[0, -1]]
     caption = f"Held out, {t0:g} to {t1:g} s: the model runs freely from a fitted initial state, all parameters kept."
     return [figure(plot_fit(held_out), caption)]
+
+
+def _beyond_bounds(solution: Solution) -> list[str]:
+    """In words, whose 95 % interval reaches beyond a bound that the value itself does not touch."""
+    told = []
+    for name, p in solution.parameters.iterrows():
+        half = 1.96 * p.std_error
+        if np.isfinite(half) and not p.at_bound:
+            ends = [("lower", p.lower)] * (p.value - half < p.lower) + [("upper", p.upper)] * (p.value + half > p.upper)
+            told += [f"{name} ({side} bound {number(float(bound))} {unit_symbol(p.unit)})" for side, bound in ends]
+    if not told:
+        return []
+    return [
+        paragraph(
+            f"The 95 % interval reaches beyond a bound: {', '.join(told)}. Intervals are symmetric; only "
+            f"the part within "
+            "the bounds is meant, and `symid.profile` gives one that knows of bounds.",
+            "note",
+        )
+    ]
+
+
+def _poses(solution: Solution) -> list[str]:
+    """A stick figure, where the model is a planar chain of links."""
+    try:
+        picture = plot_poses(solution, window=typical_stretch(solution))
+    except ModelError:
+        return []
+    return [figure(picture, "The body at some instants, lengths to scale.")]
 
 
 def _together(solution: Solution) -> list[str]:
@@ -175,7 +204,7 @@ def _starts(solution: Solution) -> str:
         [
             r.number + 1,
             r.kind,
-            _in_words(r.status, r.solved),
+            in_words(r.status, r.solved),
             rms_text(r.rms, unit),
             r.iterations,
             round(r.seconds, 2),
@@ -191,7 +220,7 @@ def _starts(solution: Solution) -> str:
     )
 
 
-def _in_words(status: str, solved: bool) -> str:
+def in_words(status: str, solved: bool) -> str:
     """Ipopt's name of a status as words: Maximum_Iterations_Exceeded -> maximum iterations exceeded."""
     return "solved" if solved else status.replace("_", " ").lower()
 
@@ -199,27 +228,28 @@ def _in_words(status: str, solved: bool) -> str:
 def _solver(solution: Solution) -> str:
     linear = solution.result.linear_solver
     details = {
+        "interface to Ipopt": solution.result.interface,
+        "linear solver": f"{linear.name}: {linear.reason}",
         "factorisations": linear.factorisations,
         "numbers in the largest factor": linear.fill,
-        "delayed pivots": linear.delayed,
+        "pivots put off": linear.delayed,
     }
-    return facts(
-        {
-            "status": _in_words(solution.result.status_name, solution.solved),
-            "iterations": solution.result.iterations,
-            "interface to Ipopt": solution.result.interface,
-            "linear solver": f"{linear.name}: {linear.reason}",
-            **{k: v for k, v in details.items() if v is not None},
-            **{f"{k.replace('_', ' ')} [s]": round(v, 3) for k, v in solution.seconds.items()},
-        }
-    )
+    seconds = {f"{k.replace('_', ' ')} [s]": round(v, 3) for k, v in solution.seconds.items()}
+    said = {
+        "status": in_words(solution.result.status_name, solution.solved),
+        "iterations": solution.result.iterations,
+        "time [s]": seconds.pop("total [s]"),
+    }
+    details = {k: v for k, v in details.items() if v is not None} | seconds
+    return Markup("\n").join([facts(said), folded("Where the time went", facts(details))])
 
 
 def _provenance(solution: Solution) -> str:
     p = dict(solution.provenance)
     recordings = p.pop("recordings")
     constants = p.pop("constants")
-    plain = {k.replace("_", " "): " ".join(map(str, v)) if isinstance(v, list) else v for k, v in p.items()}
+    p["command"] = command(p["command"])
+    plain = {k.replace("_", " "): ", ".join(map(str, v)) if isinstance(v, list) else v for k, v in p.items()}
     plain["episodes"] = problem_facts(solution.problem)["episodes"]
     plain["weights"] = (
         ", ".join(f"{k} {v:g}" for k, v in (p["weights"] or {}).items()) or "by the noise, or 1 for every output"
@@ -229,7 +259,7 @@ def _provenance(solution: Solution) -> str:
     )
     plain["terms"] = plain["terms"] or "none added"
     for r in recordings:
-        plain[f"recording {r['name']}"] = (
+        plain[f"recording '{r['name']}'"] = (
             f"{r['window_s'][0]:g} to {r['window_s'][1]:g} s, {r['nodes']} nodes; " + "; ".join(r["history"])
         )
     units = {k: unit_symbol(c.unit) for k, c in solution.model.constants.items()}

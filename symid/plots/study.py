@@ -1,0 +1,41 @@
+"""Figure of a study: how every solve of every problem ended."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from symid.identification.fit import common_unit
+from symid.identification.study import StudyResult
+from symid.plots.style import MODEL, WARN, Picture, opened
+from symid.units import shown_unit
+
+
+def plot_study(result: StudyResult) -> Picture:
+    """RMS error of every solve, one line for each problem, and how long it took."""
+    groups = by_problem(result)
+    unit = common_unit(y.unit for s in result.solves.values() for y in s.problem.model.outputs.values())
+    text, factor = shown_unit(unit or "1")
+    figure = Picture(figsize=(9, 0.34 * len(groups) + 1.3), layout="constrained")
+    errors, times = figure.subplots(1, 2, sharey=True, width_ratios=[1.6, 1])
+    for y, names in enumerate(groups.values()):
+        for row in (result.rows[n] for n in names):
+            look = {"color": MODEL, "alpha": 0.6, "mec": "none"} if row.solved else {"mfc": "white", "mec": WARN}
+            errors.plot(row.rms * factor, y, "o", ms=6, **look)
+            times.plot(row.seconds, y, "o", ms=6, **look)
+    errors.set_yticks(range(len(groups)), list(groups), fontsize=8.5)
+    errors.set_ylim(len(groups) - 0.5, -0.5)
+    errors.set_xlabel(f"RMS error [{text or '1'}]" if unit else "RMS error, outputs of different units together")
+    times.set_xlabel("time of a solve [s]")
+    for axes in (errors, times):
+        opened(axes)
+        low, high = axes.get_xlim()
+        axes.set_xlim(min(0.0, low) if np.isfinite(low) else 0.0, high)
+    return figure
+
+
+def by_problem(result: StudyResult) -> dict[str, list[str]]:
+    """Names of the solves of each problem, under its labels as one text."""
+    groups: dict[str, list[str]] = {}
+    for name, solve in result.solves.items():
+        groups.setdefault(", ".join(map(str, dict(solve.labels).values())) or "all", []).append(name)
+    return groups
