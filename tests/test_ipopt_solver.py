@@ -300,6 +300,7 @@ def test_why_cyipopt_is_not_there_is_told(monkeypatch, error, kind, words):
 
     real = builtins.__import__
     ipopt_solver._runner.cache_clear()
+    monkeypatch.setattr(ipopt_solver, "_extensions", lambda: [])
     monkeypatch.setattr(builtins, "__import__", refuse)
     with pytest.raises(kind, match=words):
         solve_nlp(hs071())

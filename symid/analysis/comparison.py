@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
-from scipy.special import chdtrc
+import scipy
 
 from symid.errors import ModelError
 from symid.identification import Solution
@@ -81,7 +81,7 @@ def likelihood_ratio(smaller: str, larger: str, table: pd.DataFrame) -> dict[str
             f"{table['parameters'][smaller]}: the first must be the smaller model, nested in the second"
         )
     statistic = max(0.0, 2 * float(table["log_likelihood"][larger] - table["log_likelihood"][smaller]))
-    return {"statistic": statistic, "degrees": degrees, "p_value": float(chdtrc(degrees, statistic))}
+    return {"statistic": statistic, "degrees": degrees, "p_value": float(scipy.special.chdtrc(degrees, statistic))}
 
 
 def independent_samples(error: np.ndarray) -> np.ndarray:

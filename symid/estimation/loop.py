@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from symid.errors import SolveError
 from symid.estimation.bounds import parameter_bounds
@@ -106,7 +106,7 @@ class Loop:
         return np.concatenate([*blocks, self.ridge * np.eye(self.q, len(z))])
 
     def shoot(self, z: np.ndarray, evaluations: int) -> np.ndarray:
-        return least_squares(
+        return scipy.optimize.least_squares(
             self.residual,
             z,
             self.jacobian,

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.optimize import OptimizeResult, least_squares
+import scipy
 
 from symid.estimation.bounds import parameter_bounds
 from symid.simulation import Trajectory, simulator
@@ -96,7 +96,7 @@ class _Shooting:
     def hidden(self) -> bool:
         return any(self.unseen(m).any() for m in self.t.measured)
 
-    def led(self, starts: Sequence[np.ndarray]) -> list[OptimizeResult]:
+    def led(self, starts: Sequence[np.ndarray]) -> list[scipy.optimize.OptimizeResult]:
         """Output-error fits that begin where fits of led simulations end."""
         draws = [self.drawn(k) for k in range(DRAWS)] if self.hidden else []
         ends = sorted((self.fit(z, GAINS[0]) for z in (*starts, *draws)), key=lambda end: end.cost)[:BEST]
@@ -182,12 +182,14 @@ class _Shooting:
         ]
         return bool(np.sum(self.residual(z) ** 2) < np.sum(spread))
 
-    def fit(self, z: np.ndarray, gain: float = 0.0, evaluations: int = MAX_EVALUATIONS) -> OptimizeResult:
+    def fit(
+        self, z: np.ndarray, gain: float = 0.0, evaluations: int = MAX_EVALUATIONS
+    ) -> scipy.optimize.OptimizeResult:
         """Least squares from `z`, of simulations that are led back to the recording by `gain`."""
         self.gain = gain
         try:
             z = np.clip(z, np.nextafter(self.lower, np.inf), np.nextafter(self.upper, -np.inf))
-            return least_squares(
+            return scipy.optimize.least_squares(
                 self.residual,
                 z,
                 self.jacobian,

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import chdtrc
+import scipy
 
 from symid.errors import SolveError
 
@@ -63,7 +63,7 @@ class Errors:
         """(m,) whether a known standard deviation agrees with the residual (chi^2, two-sided)."""
         with np.errstate(invalid="ignore"):
             squares = np.sum(self.error**2, axis=0) / self.known**2
-            tail = chdtrc(self.freedom, squares)
+            tail = scipy.special.chdtrc(self.freedom, squares)
             return np.minimum(tail, 1 - tail) > REFUTED / 2
 
 
@@ -172,7 +172,7 @@ def whiteness(errors: list[Errors]) -> float:
             pairs = lag_products(there, there, lags)[lags + 1 :, 0, 0]
             statistic += np.sum(c**2 * (count + 2) / count / np.maximum(pairs, 1))
             degrees += lags
-    return float(chdtrc(degrees, statistic)) if degrees else 1.0
+    return float(scipy.special.chdtrc(degrees, statistic)) if degrees else 1.0
 
 
 def coloured(errors: list[Errors], influences: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

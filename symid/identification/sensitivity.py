@@ -6,8 +6,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import splu
+import scipy
 
 from symid.codegen import compile_program
 from symid.codegen.interval import output_program
@@ -42,7 +41,7 @@ def sample_counts(t: Transcription) -> list[int]:
     return [t.measured[r].intervals + 1 for r in t.recording_of]
 
 
-def output_jacobian(t: Transcription, z: np.ndarray) -> sparse.csr_matrix:
+def output_jacobian(t: Transcription, z: np.ndarray) -> scipy.sparse.csr_matrix:
     """Derivatives of all outputs to the free vector: rows by episode, sample and output."""
     kernel, layout = compile_program(output_program(t.model), backend="numpy"), t.layout
     rows, columns, values, first = [], [], [], 0
@@ -58,7 +57,7 @@ def output_jacobian(t: Transcription, z: np.ndarray) -> sparse.csr_matrix:
         values.append(kernel.jacobian(*output_arguments(t, z, e)).ravel())
         first += kernel.m * samples
     values, rows, columns = map(np.concatenate, (values, rows, columns))
-    return sparse.coo_matrix((values, (rows, columns)), shape=(first, layout.size)).tocsr()
+    return scipy.sparse.coo_matrix((values, (rows, columns)), shape=(first, layout.size)).tocsr()
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +85,7 @@ class Sensitivity:
         return keep[keep < first], keep[keep >= first]
 
     @cached_property
-    def outputs(self) -> sparse.csr_matrix:
+    def outputs(self) -> scipy.sparse.csr_matrix:
         return output_jacobian(self.t, self.z)
 
     @cached_property
@@ -121,28 +120,28 @@ class Sensitivity:
         return [e / np.sqrt(1 + (e / self.widths) ** 2) for e in self.errors]
 
     @cached_property
-    def constraints(self) -> sparse.csc_matrix:
+    def constraints(self) -> scipy.sparse.csc_matrix:
         """Derivatives of the rows that hold: equations, and inequalities that push."""
         p = self.t.program
         rows = (p.constraint_lower == p.constraint_upper) | (np.abs(self.multipliers) > ACTIVE)
-        jacobian = sparse.coo_matrix(
+        jacobian = scipy.sparse.coo_matrix(
             (p.jacobian(self.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, len(self.z))
         )
         return jacobian.tocsr()[rows].tocsc()
 
-    def symmetric(self, values: np.ndarray) -> sparse.csr_matrix:
+    def symmetric(self, values: np.ndarray) -> scipy.sparse.csr_matrix:
         """(n, n) the matrix of half these values of the program's lower triangle."""
         p, n = self.t.program, len(self.z)
-        lower = sparse.coo_matrix((0.5 * values, (p.hessian_rows, p.hessian_cols)), shape=(n, n))
-        return (lower + lower.T - sparse.diags(lower.diagonal())).tocsr()
+        lower = scipy.sparse.coo_matrix((0.5 * values, (p.hessian_rows, p.hessian_cols)), shape=(n, n))
+        return (lower + lower.T - scipy.sparse.diags(lower.diagonal())).tocsr()
 
     @cached_property
-    def beside(self) -> sparse.csr_matrix:
+    def beside(self) -> scipy.sparse.csr_matrix:
         """Half the curvature of what the objective holds beside output errors: priors, process noise, costs."""
         return self.symmetric(self.t.program.curvature_beside_errors(self.z))
 
     @cached_property
-    def prior(self) -> sparse.csr_matrix:
+    def prior(self) -> scipy.sparse.csr_matrix:
         """The part of `beside` that is a likelihood: it counts as data, of which a sample is worth `information`."""
         return self.symmetric(self.t.program.curvature_beside_errors(self.z, likelihood_only=True))
 
@@ -177,19 +176,25 @@ class Reduced:
     factorises quickly; they come back through their Schur complement.
     """
 
-    def __init__(self, s: Sensitivity, hessian: sparse.csr_matrix):
+    def __init__(self, s: Sensitivity, hessian: scipy.sparse.csr_matrix):
         self.s = s
         self.states, self.parameters = s.columns
         unit = s.t.program.objective_scale  # the factors do not depend on the units of the outputs
         hessian = hessian / unit
         inner = hessian[self.states][:, self.states]
-        inner = inner + DAMPING * (abs(inner.diagonal()).max(initial=0.0) or 1.0) * sparse.identity(len(self.states))
+        inner = inner + DAMPING * (abs(inner.diagonal()).max(initial=0.0) or 1.0) * scipy.sparse.identity(
+            len(self.states)
+        )
         a = s.constraints[:, self.states]
-        nothing = -1e-14 * sparse.identity(
+        nothing = -1e-14 * scipy.sparse.identity(
             a.shape[0]
         )  # where a bound cuts the motion off there are more rows than states
-        self.factor = splu(sparse.block_array([[inner, a.T], [a, nothing]], format="csc"), permc_spec="COLAMD")
-        border = sparse.vstack([hessian[self.states][:, self.parameters], s.constraints[:, self.parameters]]).toarray()
+        self.factor = scipy.sparse.linalg.splu(
+            scipy.sparse.block_array([[inner, a.T], [a, nothing]], format="csc"), permc_spec="COLAMD"
+        )
+        border = scipy.sparse.vstack(
+            [hessian[self.states][:, self.parameters], s.constraints[:, self.parameters]]
+        ).toarray()
         solved = self.factor.solve(border)
         follow = -solved[: len(self.states)]
         self.beside, self.prior = (self._reduced(m, follow) for m in (s.beside, s.prior))
@@ -197,7 +202,7 @@ class Reduced:
         self.curvature = hessian[self.parameters][:, self.parameters].toarray() - border.T @ solved
         self.curvature = 0.5 * unit * (self.curvature + self.curvature.T) + s.penalty * np.eye(len(self.parameters))
 
-    def _reduced(self, matrix: sparse.csr_matrix, follow: np.ndarray) -> np.ndarray:
+    def _reduced(self, matrix: scipy.sparse.csr_matrix, follow: np.ndarray) -> np.ndarray:
         """(q, q) a quadratic form of all unknowns, where the states follow the parameters."""
         if not matrix.nnz:
             return np.zeros((len(self.parameters),) * 2)

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 
 from symid.errors import SolveError
 from symid.identification.covariance import ParameterErrors, bound_active, parameter_errors
@@ -25,6 +24,8 @@ from symid.recording import Recording
 from symid.transcription import Transcription
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from symid.identification.verify import Verification
     from symid.identification.problem import Identification
 
@@ -103,6 +104,8 @@ class Solution:
     @cached_property
     def covariance(self) -> pd.DataFrame:
         """Covariance of the free parameters [SI]: NaN for those at a bound, infinite variance where undetermined."""
+        import pandas as pd
+
         names = list(self.values)
         matrix = np.full((len(names),) * 2, np.nan)
         if self.errors is not None:
@@ -124,6 +127,8 @@ class Solution:
     @cached_property
     def parameters(self) -> pd.DataFrame:
         """One row per free parameter: value, std_error, unit, lower, upper, at_bound, meaning."""
+        import pandas as pd
+
         t = self.transcription
         first, scale = t.layout.offsets[-1], t.layout.parameter_scale
         parts = [self.model.parameters[name.split("[")[0]] for name in self.values]
@@ -180,6 +185,8 @@ class Solution:
     @cached_property
     def trajectories(self) -> tuple[pd.DataFrame, ...]:
         """A table per episode: states, controls, algebraic variables, outputs, "<output> recorded" over time_s, SI."""
+        import pandas as pd
+
         t, frames = self.transcription, []
         for e, (y, d) in enumerate(outputs_and_targets(t, self.result.z)):
             m = t.measured[t.recording_of[e]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import nullcontext
@@ -11,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import pandas as pd
 
 from symid.deadline import START_LIMIT_S
 from symid.errors import SolveError
@@ -26,6 +26,8 @@ from symid.ipopt_solver import Iteration
 from symid.progress import say
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from symid.identification.problem import Identification
 
 
@@ -252,6 +254,8 @@ class StudyResult:
     def table(self) -> pd.DataFrame:
         """One row per solve: labels, number, kind, solved, status, objective, rms [SI], rms_deg (angles
         only), iterations, seconds, message, and every parameter [SI] in a column of its name."""
+        import pandas as pd  # here and not at the top: most runs never need it
+
         records = []
         for name, row in self.rows.items():
             solve = self.solves[name]
@@ -309,8 +313,10 @@ class StudyResult:
         return build_solution(self.solves[names[place]].problem, outcome.result, tuple(rows), place)
 
     def __repr__(self) -> str:
-        ended = pd.Series([row.status for row in self.rows.values()]).value_counts()
-        return f"<StudyResult of {len(self.rows)} solves: " + ", ".join(f"{n} {s}" for s, n in ended.items()) + ">"
+        ended = Counter(row.status for row in self.rows.values())
+        return (
+            f"<StudyResult of {len(self.rows)} solves: " + ", ".join(f"{n} {s}" for s, n in ended.most_common()) + ">"
+        )
 
     def _repr_html_(self) -> str:
         return str(self.table.to_html(float_format=lambda x: f"{x:.5g}", border=0))

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-import pandas as pd
 
 from symid.errors import SymidError
 from symid.nlp import OptimalityReport, check_optimality
@@ -15,6 +14,8 @@ from symid.threads import one_blas_thread
 from symid.transcription.known import input_at
 
 if TYPE_CHECKING:
+    import pandas as pd
+
     from symid.identification.solution import Solution
 
 COARSE = 0.5
@@ -83,6 +84,8 @@ def optimality_of(solution: Solution) -> OptimalityReport:
 
 def mesh_error(solution: Solution) -> pd.DataFrame | None:
     """See `Verification.mesh`."""
+    import pandas as pd
+
     finer = replace(solution.problem, refine=2 * solution.problem.refine)
     try:
         result = finer.solve_from(finer.start(solution), max_iterations=50)

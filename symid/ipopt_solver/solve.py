@@ -5,6 +5,8 @@ import functools
 import sys
 import time
 from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
 
 import numpy as np
 
@@ -202,6 +204,31 @@ def _runner(interface: str) -> tuple[str, Callable[..., int]]:
     """The way to Ipopt, by name, and the function that takes it."""
     if interface not in ("auto", "direct", "cyipopt"):
         raise SolveError(f"interface={interface!r} is unknown: choose 'auto', 'direct' or 'cyipopt'.")
+    if interface != "cyipopt":
+        for path in _extensions() or [_imported()]:
+            if library := ipopt_library.open_library(path):
+                return "direct", functools.partial(ipopt_library.solve, library)
+    _imported()
+    if interface == "direct":
+        raise SolveError("interface='direct' is not possible: this cyipopt hides Ipopt's C interface. Choose 'auto'.")
+    return "cyipopt", _run_cyipopt
+
+
+def _extensions() -> list[str]:
+    """cyipopt's compiled part, found without importing it, which would import scipy.optimize and a quarter of SciPy."""
+    spec = find_spec("cyipopt")
+    folders = [Path(f) for f in (spec and spec.submodule_search_locations) or ()]
+    return [
+        str(p)
+        for f in folders
+        for at in (f, f.parent)
+        for p in sorted(at.glob("ipopt_wrapper*.*"))
+        if p.suffix != ".py"
+    ]
+
+
+def _imported() -> str:
+    """Path of cyipopt's compiled part, imported, or why it is not there."""
     try:
         import cyipopt
     except ModuleNotFoundError as absent:
@@ -214,14 +241,7 @@ def _runner(interface: str) -> tuple[str, Callable[..., int]]:
             f"cyipopt is installed but cannot be loaded ({problem}). Does the machine, or its limit for a process, "
             "have memory enough? If it never loads, build it anew with `python -m symid.setup_ipopt`."
         ) from problem
-    library = None
-    if interface != "cyipopt":
-        library = ipopt_library.open_library(sys.modules[cyipopt.Problem.__module__].__file__)
-    if library is not None:
-        return "direct", functools.partial(ipopt_library.solve, library)
-    if interface == "direct":
-        raise SolveError("interface='direct' is not possible: this cyipopt hides Ipopt's C interface. Choose 'auto'.")
-    return "cyipopt", _run_cyipopt
+    return sys.modules[cyipopt.Problem.__module__].__file__
 
 
 class _CyipoptFunctions:

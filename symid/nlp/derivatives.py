@@ -1,10 +1,12 @@
 """Are the derivatives the derivatives of the functions? Central differences tell."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from symid.nlp.program import NonlinearProgram
 
@@ -83,10 +85,10 @@ def check_derivatives(
     step = np.maximum(np.abs(z), 1.0 if nlp.variable_scale is None else nlp.variable_scale)
     moved = _directions(nlp, step, columns, directions, rng)
 
-    def compare(function: Callable, matrix: sparse.csr_array) -> tuple[float, int, int | None]:
+    def compare(function: Callable, matrix: scipy.sparse.csr_array) -> tuple[float, int, int | None]:
         return _worst_entry(function, matrix, z, step, moved)
 
-    gradient = compare(lambda v: np.array([nlp.objective(v)]), sparse.csr_array(nlp.gradient(z)[None, :]))
+    gradient = compare(lambda v: np.array([nlp.objective(v)]), scipy.sparse.csr_array(nlp.gradient(z)[None, :]))
     jacobian = compare(nlp.constraints, nlp.jacobian_matrix(z)) if nlp.m else None
     hessian = None
     if nlp.hessian is not None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import cholesky, solve_continuous_lyapunov
+import scipy
 
 from symid.nlp.program import NonlinearProgram
 
@@ -101,8 +101,8 @@ class _Lyapunov:
         """L of the matrix at `p`, shifted to where it is Hurwitz."""
         matrix = self.matrix(p)
         shift = max(0.0, np.linalg.eigvals(matrix).real.max() + 0.1)
-        found = solve_continuous_lyapunov(matrix - shift * np.eye(len(matrix)), -np.eye(len(matrix)))
-        return cholesky(found, lower=True)[self.lower]
+        found = scipy.linalg.solve_continuous_lyapunov(matrix - shift * np.eye(len(matrix)), -np.eye(len(matrix)))
+        return scipy.linalg.cholesky(found, lower=True)[self.lower]
 
     def residual(self, p: np.ndarray, entries: np.ndarray) -> np.ndarray:
         half = self.matrix(p) @ self.factor(entries) @ self.factor(entries).T

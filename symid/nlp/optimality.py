@@ -1,10 +1,11 @@
 """Is a point optimal? The first-order conditions, measured without the solver."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import sparse
-from scipy.sparse.linalg import splu
+import scipy
 
 from symid.nlp.program import NonlinearProgram
 
@@ -137,9 +138,9 @@ def _estimate(nlp: NonlinearProgram, z: np.ndarray, tolerance: float):
     if active.size and free.size:
         # Normal equations as an augmented system keep the sparsity; the tiny shift makes
         # dependent constraints solvable.
-        shift = -1e-12 * sparse.eye_array(active.size)
-        system = sparse.block_array([[sparse.eye_array(free.size), inner.T], [inner, shift]])
-        solution = splu(system.tocsc()).solve(np.r_[-gradient[free], np.zeros(active.size)])
+        shift = -1e-12 * scipy.sparse.eye_array(active.size)
+        system = scipy.sparse.block_array([[scipy.sparse.eye_array(free.size), inner.T], [inner, shift]])
+        solution = scipy.sparse.linalg.splu(system.tocsc()).solve(np.r_[-gradient[free], np.zeros(active.size)])
         lam[active] = solution[free.size :]
     slope = gradient + jacobian.T @ lam
     return lam, np.where(at_lower, np.maximum(slope, 0), 0.0), np.where(at_upper, np.maximum(-slope, 0), 0.0)

@@ -1,10 +1,12 @@
 """The nonlinear program as plain arrays and functions of one vector."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from symid.errors import TranscriptionError
 
@@ -109,18 +111,18 @@ class NonlinearProgram:
         """Number of constraints."""
         return self.constraint_lower.size
 
-    def jacobian_matrix(self, z: Vector) -> sparse.csr_array:
+    def jacobian_matrix(self, z: Vector) -> scipy.sparse.csr_array:
         """Evaluate the Jacobian at `z` as a sparse matrix, shape (m, n)."""
         places = (self.jacobian_rows, self.jacobian_cols)
-        return sparse.csr_array((self.jacobian(z), places), shape=(self.m, self.n))
+        return scipy.sparse.csr_array((self.jacobian(z), places), shape=(self.m, self.n))
 
-    def hessian_matrix(self, z: Vector, multipliers: Vector, objective_factor: float = 1.0) -> sparse.csr_array:
+    def hessian_matrix(self, z: Vector, multipliers: Vector, objective_factor: float = 1.0) -> scipy.sparse.csr_array:
         """Evaluate the full symmetric Hessian of the Lagrangian at `z`, shape (n, n)."""
         if self.hessian is None:
             raise TranscriptionError("The nonlinear program has no Hessian: give `hessian` with its rows and columns.")
         values = self.hessian(z, multipliers, objective_factor)
-        triangle = sparse.csr_array((values, (self.hessian_rows, self.hessian_cols)), shape=(self.n, self.n))
-        return (triangle + sparse.tril(triangle, -1).T).tocsr()
+        triangle = scipy.sparse.csr_array((values, (self.hessian_rows, self.hessian_cols)), shape=(self.n, self.n))
+        return (triangle + scipy.sparse.tril(triangle, -1).T).tocsr()
 
     def __repr__(self) -> str:
         return (
@@ -158,11 +160,11 @@ class NonlinearProgram:
                 index = index.astype(np.intc)
                 index.setflags(write=False)
             object.__setattr__(self, name, index)
-        # Conversion to compressed rows sums doubles, so fewer entries remain where there are any.
-        merged = sparse.csr_array((np.ones(rows.size, np.int8), (rows, cols)), shape=shape)
-        if merged.nnz < rows.size:
+        places = np.sort(rows.astype(np.int64) * shape[1] + cols)
+        doubled = int(np.count_nonzero(places[1:] == places[:-1]))
+        if doubled:
             raise TranscriptionError(
-                f"NonlinearProgram.{names[0]}, {names[1]}: {rows.size - merged.nnz} positions occur "
+                f"NonlinearProgram.{names[0]}, {names[1]}: {doubled} positions occur "
                 "more than once; sum their values into one entry each."
             )
 

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.optimize import lsq_linear
+import scipy
 
 from symid.codegen import compile_program
 from symid.codegen.balance import balance_program
@@ -166,7 +166,9 @@ def _step(slopes: FloatArray, left: FloatArray, lower: FloatArray, upper: FloatA
     root = np.sqrt(np.maximum(power, 1e-12 * power[-1] + 1e-300))
     matrix, right = root[:, None] * directions.T, -(directions.T @ (slopes.T @ left)) / root
     room = np.maximum(1e-9, 1e-12 * scale)
-    return lsq_linear(matrix, right, (lower * scale - room, upper * scale + room), method="bvls").x / scale
+    return (
+        scipy.optimize.lsq_linear(matrix, right, (lower * scale - room, upper * scale + room), method="bvls").x / scale
+    )
 
 
 def unexplained(model: Model, motion: Motion, change: Change = Change()) -> float:

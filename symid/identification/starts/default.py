@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import least_squares, lsq_linear, minimize_scalar
+import scipy
 
 from symid.errors import SolveError
 from symid.estimation.bounds import guesses, parameter_bounds
@@ -92,7 +92,7 @@ def _equation_error_of_lags(t: Transcription) -> list[np.ndarray]:
     grid = np.array([lo, *LAGS[(LAGS > lo) & (LAGS < hi)], hi])
     best = int(np.argmin([regress(lag)[1] for lag in grid]))
     near = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
-    found = minimize_scalar(
+    found = scipy.optimize.minimize_scalar(
         lambda lag: regress(lag)[1], bounds=near, method="bounded", options={"xatol": 0.002, "maxiter": 12}
     )
     return [regress(lag)[0] for lag in (found.x, lo)]
@@ -138,7 +138,7 @@ def equation_error(
         return p * t.layout.parameter_scale, np.inf
     p, improved = _gauss_newton(residual, jacobian, p, lower, upper)
     if not improved:
-        p = least_squares(residual, p, jacobian, bounds=(lower, upper), x_scale="jac", max_nfev=30).x
+        p = scipy.optimize.least_squares(residual, p, jacobian, bounds=(lower, upper), x_scale="jac", max_nfev=30).x
     return p * t.layout.parameter_scale, float(np.sum(residual(p) ** 2))
 
 
@@ -151,7 +151,9 @@ def _gauss_newton(residual, jacobian, p: np.ndarray, lower: np.ndarray, upper: n
     squares, improved = np.sum(residual(p) ** 2), False
     for _ in range(10):
         triangle = np.linalg.qr(np.column_stack([jacobian(p), -residual(p)]), mode="r")
-        step = lsq_linear(triangle[:, :-1], triangle[:, -1], _around(lower - p, upper - p), method="bvls").x
+        step = scipy.optimize.lsq_linear(
+            triangle[:, :-1], triangle[:, -1], _around(lower - p, upper - p), method="bvls"
+        ).x
         end = np.clip(p + step, np.nextafter(lower, np.inf), np.nextafter(upper, -np.inf))
         now = np.sum(residual(end) ** 2)
         if not now < squares:

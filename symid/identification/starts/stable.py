@@ -19,7 +19,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from symid.estimation.loop import Loop
 from symid.identification.starts.search import evolve, one_relaxed
@@ -167,7 +167,7 @@ class DisplacedRuns(Loop):
 
     def shoot(self, z: np.ndarray, evaluations: int) -> np.ndarray:
         """In the variables' own scales and to a tenth of the tolerance: the valleys are long and bent."""
-        return least_squares(
+        return scipy.optimize.least_squares(
             self.residual, z, self.jacobian, bounds=(self.lower, self.upper), max_nfev=evaluations, ftol=1e-6
         ).x
 
