@@ -17,7 +17,7 @@ from symid.codegen import compile_program
 from symid.codegen.balance import balance_program
 from symid.codegen.rates import late_of
 from symid.model import Model
-from symid.plausibility.motion import Motion, shown_states
+from symid.plausibility.motion import Motion, shown_states, low_pass
 from symid.units import FloatArray
 
 EDGE = 5
@@ -53,11 +53,8 @@ class Witness:
     """The equations of one model, asked about one motion."""
 
     def __init__(self, model: Model, motion: Motion):
-        from scipy.signal import butter
-
         self.model, self.motion = model, motion
         self.kernel = compile_program(balance_program(model), backend="numpy")
-        self.filter = butter(2, motion.band, fs=1 / motion.step, output="sos")
         parameters = model.parameters.values()
         self.lower, self.upper = (np.array([p.bounds[i] for p in parameters], dtype=float) for i in (0, 1))
         self.shown, self.rates = shown_states(model), model.rates()
@@ -152,9 +149,8 @@ class Witness:
         return dense[:, :, which]
 
     def _filtered(self, x: FloatArray) -> FloatArray:
-        from scipy.signal import sosfiltfilt
-
-        return np.concatenate([sosfiltfilt(self.filter, x[p], axis=0)[EDGE:-EDGE] for p in self.motion.pieces])
+        m = self.motion
+        return np.concatenate([low_pass(x[p], m.band, m.step)[EDGE:-EDGE] for p in m.pieces])
 
 
 def _step(slopes: FloatArray, left: FloatArray, lower: FloatArray, upper: FloatArray) -> FloatArray:
