@@ -174,13 +174,14 @@ class Solution:
 
         factor : by default as many as leave a tenth of a standard error of the mesh's error, at most 16, at least 2.
         """
-        if factor is None:
-            from symid.identification.verify import FINE
+        from symid.identification.verify import BESIDE_OPTIMUM, FINE
 
+        if factor is None:
             mesh = self.verification.mesh
             worst = 0.0 if mesh is None else mesh["std_errors"].abs().max()
             factor = int(np.clip(np.ceil((worst / FINE) ** (1 / self.problem.scheme.order)), 2, 16))
-        return replace(self.problem, refine=factor * self.problem.refine).solve(start=self, check=False)
+        finer = replace(self.problem, refine=factor * self.problem.refine)
+        return finer.solve(start=self, check=False, options=BESIDE_OPTIMUM)
 
     @cached_property
     def trajectories(self) -> tuple[pd.DataFrame, ...]:

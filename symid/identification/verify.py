@@ -12,6 +12,7 @@ from symid.nlp import OptimalityReport, check_optimality
 from symid.simulation import simulator
 from symid.threads import one_blas_thread
 from symid.transcription.known import input_at
+from symid.units import unit_symbol
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -27,6 +28,8 @@ ROUNDED = 1e-6
 DEPARTS = 0.01
 """Part of the recorded outputs' standard deviation by which an integrated motion may depart from the fitted one, or by
 as much as the fit errs."""
+BESIDE_OPTIMUM = {"mu_strategy": "monotone", "mu_init": 1e-11, "bound_push": 1e-11, "bound_frac": 1e-11}
+"""Options of Ipopt for a start that is an optimum of another mesh: the adaptive barrier would drive it away first."""
 PIECES, HALVINGS, AGREES = 8, 6, 1e-4
 """Of a sample interval into pieces, of which the integrator halves its steps until the outputs agree to that part of
 their standard deviation."""
@@ -88,7 +91,7 @@ def mesh_error(solution: Solution) -> pd.DataFrame | None:
 
     finer = replace(solution.problem, refine=2 * solution.problem.refine)
     try:
-        result = finer.solve_from(finer.start(solution), max_iterations=50)
+        result = finer.solve_from(finer.start(solution), max_iterations=50, options=BESIDE_OPTIMUM)
     except SymidError:
         return None
     if not result.solved:
@@ -162,7 +165,7 @@ def _departs(solution: Solution, departures) -> bool:
 def _said_of_departure(solution: Solution, departures) -> str:
     worst = np.max(departures, axis=0)
     parts = [
-        f"{name} by up to {x:.3g} {y.unit or '1'}"
+        f"{name} by up to {x:.3g} {unit_symbol(y.unit)}".strip()
         for (name, y), x in zip(solution.model.outputs.items(), worst, strict=True)
     ]
     return (
