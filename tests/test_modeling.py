@@ -44,3 +44,17 @@ def test_parts_repeat_themselves_by_an_index():
     assert list(m.equations)[3:] == ["balance_0", "balance_1", "balance_2"] and m.check().copy().x[2] == m.x[2]
     with pytest.raises(ModelError, match="'x' is declared already"):
         m.x = si.State(unit="m")
+
+
+def test_the_unit_of_what_a_sensor_shows_is_told_from_its_expression():
+    m = si.Model("m")
+    m.a, m.b, m.v = si.State(unit="rad"), si.State(unit="rad"), si.State(unit="m/s")
+    m.k, m.mass = si.Parameter(unit="N*s/m"), si.Constant(2.0, unit="kg")
+    m.lean, m.force = si.Output(m.a + 2 * m.b), si.Output(m.k * m.v)
+    m.acceleration, m.ratio = si.Output(m.k * m.v / m.mass), si.Output(sm.sin(m.a))
+    assert {n: y.unit for n, y in m.outputs.items()} == {
+        "lean": "rad",
+        "force": "N",
+        "acceleration": "m/s^2",
+        "ratio": "",
+    }

@@ -202,6 +202,38 @@ def test_a_mistake_in_the_masses_of_a_cart_pole(pushed):
     assert any("all masses are 10 times too large" in text for text in remarks(heavy, pushed))
 
 
+def test_unknown_masses_do_not_pass_for_a_mistake(pushed):
+    """Inertias that no-one knows begin at their lower bounds, far from what weighs the equations rightly."""
+    unknown = cart_pole().free("cart", "pole")
+    assert remarks(unknown, pushed) == []
+    assert any("angle holds degrees" in text for text in remarks(unknown, only_one(pushed, "angle", 180 / np.pi)))
+
+
+def slow(tmp_path, unit: str, factor: float) -> tuple[si.Model, Recording]:
+    """A torsion pendulum that turns by a thousandth of a radian in half a minute, once a second, from a file."""
+    m = si.Model("torsion")
+    m.twist, m.rate = si.State(unit="rad"), si.State(unit="rad/s")
+    m.stiffness = si.Parameter(unit="N*m/rad", bounds=(0, 1))
+    m.inertia = si.Constant(1e-6, unit="kg*m^2")
+    m.turns = si.Equation(m.twist.dot - m.rate)
+    m.balance = si.Equation(m.inertia * m.rate.dot + m.stiffness * m.twist)
+    m.mirror = si.Output(m.twist)
+    time = np.arange(0.0, 300.0)
+    path = tmp_path / "mirror.csv"
+    rows = [f"{t:g},{x:.6g}" for t, x in zip(time, factor * 1e-3 * np.cos(0.2 * time), strict=True)]
+    path.write_text("\n".join([f"time_s,twist_{unit}", *rows]))
+    return m, read_recording(path)
+
+
+@pytest.mark.parametrize(("unit", "factor"), [("mrad", 1e3), ("rad", 1.0)])
+def test_slow_and_small_is_no_mistake(tmp_path, unit, factor):
+    assert remarks(*slow(tmp_path, unit, factor)) == []
+
+
+def test_small_numbers_of_degrees_may_be_radians(tmp_path):
+    assert "if the file holds radians" in remarks(*slow(tmp_path, "deg", 1.0))[0]
+
+
 RIG = {"m1_kg": 0.09, "a1_m": 0.11, "I1_kg_m2": 4.5e-4, "L1_m": 0.17, "m2_kg": 0.13, "a2_m": 0.12, "I2_kg_m2": 1.2e-3}
 
 

@@ -37,7 +37,7 @@ def completed(model: Model, part: Component, name: str) -> Component:
         changes["expr"] = _expression(model, part.expr, name)
     if isinstance(part, Output):
         shown = model.components.get(str(changes["expr"]))
-        changes["unit"] = part.unit or getattr(shown, "unit", "")
+        changes["unit"] = part.unit or getattr(shown, "unit", "") or _unit_of_sum(model, changes["expr"])
         changes["channel"] = part.channel or (shown.name if isinstance(shown, AlongTime) else name)
     if isinstance(getattr(part, "bounds", None), tuple):
         with suppress(TypeError, ValueError):  # what is no pair of numbers, check() says in words
@@ -97,6 +97,12 @@ def _expression(model: Model, expr, name: str) -> sm.Expr:
             "model's parts, for instance m.x.dot - m.v (a comparison belongs into a Constraint)"
         )
     return found
+
+
+def _unit_of_sum(model: Model, expr: sm.Expr) -> str:
+    from symid.model.dimensions import unit_of_sum
+
+    return "" if expr.is_number else unit_of_sum(model, expr)
 
 
 def _unit_of_force(model: Model, port: Port, position: sm.Expr) -> str:

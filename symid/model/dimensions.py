@@ -93,3 +93,24 @@ def unit_of(model: Model, expr: sm.Expr, about: sm.Expr) -> str:
     usual = _TORQUES if place == dimension("1") else _FORCES
     known = next((unit for unit in usual if dimension(unit) == found), None)
     return known or base_unit(found)
+
+
+_FAMILIAR = ("N", "N*m", "N/m", "m", "m/s", "m/s^2", "V", "A", "W", "Pa", "K")
+"""Unit texts that are preferred to products of base units; N*m stands for J, too."""
+
+
+def unit_of_sum(model: Model, expr: sm.Expr) -> str:
+    """Unit text of what a sensor shows: that of its terms where they are numbers times parts of one unit, such as a sum
+    of angles; else from the dimensions. "" for numbers, and where dimensions do not fit, which `check` says in words.
+    """
+    terms = [term.as_coeff_Mul()[1] for term in sm.Add.make_args(expr)]
+    units = {getattr(model.components.get(str(term)), "unit", None) for term in terms}
+    if len(units) == 1 and None not in units:
+        return units.pop()
+    try:
+        found = dimension_of(expr, dimensions_of_symbols(model))
+    except (Mismatch, KeyError, SymidError):
+        return ""
+    if found == dimension("1"):
+        return ""
+    return next((text for text in _FAMILIAR if found == dimension(text)), base_unit(found))

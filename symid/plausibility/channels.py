@@ -13,6 +13,8 @@ from symid.units import unit_symbol
 
 SLOWEST, FASTEST = 1.0, 2e-5
 """Steps [s] between samples outside which time is rather in another unit: motion is recorded at 5 Hz to 10 kHz."""
+MOVING = {"rad/s", "rad/s^2", "m/s", "m/s^2"}
+"""Units of channels that nobody records so seldom; a temperature, a level or a slow angle may be."""
 FARTHEST = 50.0
 """Positions of one recording [m] lie no farther apart; a hundred metres of an air track are millimetres."""
 STRONGEST = 50.0
@@ -41,7 +43,7 @@ def channel_remarks(recording: Recording) -> list[str]:
 
 def _time(recording: Recording) -> Iterator[str]:
     step = float(np.median(np.diff(recording.time[recording.runs[0]])))
-    if step >= SLOWEST:
+    if step >= SLOWEST and MOVING.intersection(recording.units.values()):
         yield f"samples are {step:.3g} s apart; if the time column holds milliseconds, call it time_ms"
     elif step < FASTEST:
         yield f"samples are {step:.3g} s apart; if the time column holds seconds, call it time_s"

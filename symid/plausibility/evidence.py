@@ -24,6 +24,8 @@ EDGE = 5
 """Samples at each end of a piece that are left out, where a filter has not settled."""
 STEPS = 4
 """Gauss-Newton steps for parameters that enter the equations nonlinearly; gains need one."""
+WEIGHTINGS, SETTLED = 8, 1e-3
+"""Times at most that the equations are weighted anew, by the masses just fitted, until the share settles by that."""
 LAGS = 5
 """Values within its bounds that are tried of a lag."""
 
@@ -90,18 +92,33 @@ class Witness:
         size = np.std(self._filtered(rates[:, columns]), axis=0)
         if not (size > 0).all():
             return np.inf
+        given, share = (local, data, constants, size), np.inf
+        for _ in range(WEIGHTINGS):
+            before, weight = share, self._weight(given, p)
+            p, share = self._fitted_with(weight, given, p)
+            if not share < (1 - SETTLED) * before:
+                break
+        return min(share, before)
+
+    def _weight(self, given, p: FloatArray) -> FloatArray:
+        """(N, accelerations, equations) what turns residuals into errors of accelerations, in their sizes."""
+        local, data, constants, size = given
         mass = self._slopes(local, p, data, constants, slice(0, len(self.order)))
-        inverse = np.linalg.inv(mass)[:, columns, :] / size[:, None]
+        return np.linalg.inv(mass)[:, self.explained, :] / size[:, None]
+
+    def _fitted_with(self, weight: FloatArray, given, p: FloatArray) -> tuple[FloatArray, float]:
+        """Parameters by Gauss-Newton steps, and the share of the variance that they leave."""
+        local, data, constants, _ = given
 
         def error(p):
             return self._filtered(
-                (inverse @ self.kernel.residual(local, p, data, constants)[:, :, None])[:, :, 0]
+                (weight @ self.kernel.residual(local, p, data, constants)[:, :, None])[:, :, 0]
             ).ravel()
 
         left = error(p)
         for _ in range(STEPS if p.size else 0):
             shared = slice(self.kernel.n_local, None)
-            slopes = self._filtered(inverse @ self._slopes(local, p, data, constants, shared)).reshape(left.size, -1)
+            slopes = self._filtered(weight @ self._slopes(local, p, data, constants, shared)).reshape(left.size, -1)
             new = np.clip(p + _step(slopes, left, self.lower - p, self.upper - p), self.lower, self.upper)
             later, linear = error(new), left + slopes @ (new - p)
             if not np.sum(later**2) < (1 - 1e-3) * np.sum(left**2):
@@ -109,7 +126,7 @@ class Witness:
             p, left = new, later
             if np.sum((later - linear) ** 2) < 1e-6 * np.sum(later**2):
                 break  # gains enter linearly: the first step was the last
-        return float(np.mean(left**2))
+        return p, float(np.mean(left**2))
 
     def _arguments(self, change: Change, p: FloatArray):
         """Local values, data and constants of the kernel, with the change made."""

@@ -54,8 +54,13 @@ def _ranges(model: Model, recording: Recording) -> Iterator[str]:
                 f"{100 * outside:.0f} % of the samples{hint}"
             )
         reach = float(np.ptp(values))
-        if unit == "rad" and 0 < reach < STILL[person]:
+        if unit == "rad" and 0 < reach < STILL[person] and _maybe_degrees(recording, channel):
             yield (
                 f"{recording.name}: {channel} varies by only {np.degrees(reach):.2g} deg; if the file holds radians, "
                 "end the column's name in _rad"
             )
+
+
+def _maybe_degrees(recording: Recording, channel: str) -> bool:
+    """Whether a file may have called the channel's numbers degrees: not where it said radians or milliradians."""
+    return recording.source is None or any(h.startswith(f"{channel} converted from deg") for h in recording.history)

@@ -22,7 +22,6 @@ from symid.units import FloatArray
 
 OTHER_FORMATS = (".tsv", ".xlsx", ".parquet", ".c3d", ".trc", ".mot", ".sto", ".mat", ".h5", ".hdf5")
 """Endings of files that are not comma-separated text; those have readers of their own."""
-_FULL_TURN = 2 * np.pi
 _CURES = {
     "gap": "read with allow_gaps=True (symid identify --allow-gaps), which gives what is missing no weight (or mark "
     "the parts in a 'segment' column)",
@@ -84,7 +83,7 @@ def read_recording(
     else:
         found, table = _read_other(path, columns, allow_gaps)
     recording = _assemble(path, found, table, allow_gaps)
-    remarks = [*_spike_remarks(path, found, recording), *_degree_remarks(path, recording)]
+    remarks = _spike_remarks(path, found, recording)
     for remark in remarks:
         warnings.warn(remark, RecordingWarning, stacklevel=2)
     return recording.noted(*(f"warning: {remark}" for remark in remarks))
@@ -318,17 +317,5 @@ def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> l
                 f"{values[worst]:.4g} {recording.units[name]} stands out between "
                 f"{values[worst - 1]:.4g} and {values[worst + 1]:.4g}, {ratio:.0f} times more "
                 f"than is usual there{more}; keep it out of the window, or correct it"
-            )
-    return remarks
-
-
-def _degree_remarks(path: Path, recording: Recording) -> list[str]:
-    remarks = []
-    for name, values in recording.channels.items():
-        reach = float(np.nanmax(np.abs(values), initial=0.0))
-        if recording.units[name] == "rad" and reach > 2 * _FULL_TURN:
-            remarks.append(
-                f"{path}: {name} reaches {reach:.4g} rad, more than two full turns; if the file "
-                f"holds degrees, name the column {name}_deg"
             )
     return remarks
