@@ -11,8 +11,21 @@ from contextlib import contextmanager
 SILENCE_S = 4.5
 """After this long without a line one is printed: at least one every five seconds."""
 
+QUIET, NORMAL, VERBOSE = 0, 1, 2
+_level = NORMAL
 _last = time.monotonic()
 _speakers: list[object] = []  # blocks inside each other: the innermost speaks
+_bars: list = []  # at most one, on a terminal
+
+
+def set_level(level: int) -> None:
+    """QUIET: no progress. VERBOSE: every iteration, and where an error comes from."""
+    global _level
+    _level = level
+
+
+def level() -> int:
+    return _level
 
 
 def said() -> None:
@@ -21,13 +34,30 @@ def said() -> None:
     _last = time.monotonic()
 
 
-_speakers: list[object] = []  # blocks inside each other: the innermost speaks
-
-
 def say(line: str) -> None:
-    """Print a line of progress on stderr."""
-    print(line, file=sys.stderr, flush=True)
+    """Print a line of progress on stderr, above a bar if there is one."""
+    if _level == QUIET:
+        return
+    if _bars:
+        _bars[0].write(line, file=sys.stderr)
+    else:
+        print(line, file=sys.stderr, flush=True)
     said()
+
+
+def step(done: int, total: int, line: str) -> None:
+    """One of `total` things is done: a line, and on a terminal a bar below all lines."""
+    if not _bars and done < total and _level != QUIET and sys.stderr.isatty():
+        from tqdm import tqdm
+
+        _bars.append(
+            tqdm(total=total, file=sys.stderr, leave=False, bar_format="{l_bar}{bar}| {n}/{total}, {remaining} left")
+        )
+    say(line)
+    if _bars:
+        _bars[0].update(done - _bars[0].n)
+        if done == total:
+            _bars.pop().close()
 
 
 @contextmanager

@@ -8,6 +8,7 @@ import pytest
 
 import symid
 from symid.cli.main import build_parser, command_names, main
+from symid.progress import NORMAL, set_level
 
 
 @pytest.mark.parametrize("name", command_names())
@@ -47,3 +48,29 @@ def test_the_package_tells_its_version():
     from importlib.metadata import version
 
     assert symid.__version__ == version("symid")
+
+
+def test_a_file_whose_folder_is_missing_is_refused_before_the_work(tmp_path, capsys):
+    missing = str(tmp_path / "nowhere" / "report.html")
+    body, recording = "data/standing_synthetic/body.json", "data/standing_synthetic/recording.csv"
+    for words in (
+        ["identify", recording, "--body", body, "--report", missing],
+        ["diagnose", recording, "--body", body, "--controller", "pd", "--window", "0", "9", "--report", missing],
+        ["simulate", missing, "--body", body, "--parameters", "none.json"],
+        ["demo", "--report", missing],
+        ["bench", "--json", missing],
+    ):
+        assert main(words) == 2
+        assert "nowhere does not exist" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+def test_quiet_says_nothing_but_errors_and_verbose_says_where_they_come_from(tmp_path, capsys):
+    assert main(["conceal", str(tmp_path), "--system", "rig", "--quiet"]) == 0
+    assert capsys.readouterr().err == ""
+    assert main(["conceal", str(tmp_path), "--system", "rig"]) == 0
+    assert "case 1 of 1 is made" in capsys.readouterr().err
+    assert main(["conceal", str(tmp_path), "--system", "nothing", "--verbose"]) == 2
+    told = capsys.readouterr().err
+    assert "Traceback" in told and told.splitlines()[-1].startswith("symid: error: ")
+    set_level(NORMAL)

@@ -1,5 +1,6 @@
 """Signs of life: nothing is silent for long, the innermost block speaks, and nobody speaks twice."""
 
+import io
 import time
 
 from symid import progress
@@ -29,3 +30,20 @@ def test_who_is_heard_anyway_gets_no_line(monkeypatch, capsys):
             say(str(k))
             time.sleep(0.01)
     assert capsys.readouterr().err.splitlines() == list("01234")
+
+
+class Terminal(io.StringIO):
+    def isatty(self):
+        return True
+
+
+def test_on_a_terminal_steps_have_a_bar_and_lines_else(monkeypatch, capsys):
+    terminal = Terminal()
+    monkeypatch.setattr("sys.stderr", terminal)
+    for k in (1, 2, 3):
+        progress.step(k, 3, f"solve {k}")
+    told = terminal.getvalue()
+    assert "solve 1" in told and "solve 3" in told and "2/3" in told and not progress._bars
+    monkeypatch.undo()
+    progress.step(1, 2, "solve 1")
+    assert capsys.readouterr().err == "solve 1\n"

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
+from symid.cli.options import refuse_missing_folders
 from symid.errors import SymidError
+from symid.progress import say
 
 SUMMARY = "measure symid on this machine, beside its peers where they are installed"
 EXAMPLES = ("symid bench --quick", "symid bench --recording walk.csv --body body.json --window 0 60 --json bench.json")
@@ -43,6 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from symid.bench.task import Task
 
+    refuse_missing_folders(arguments.json, arguments.growth)
     chosen = [name for name in ("load", "growth", "formulations") if getattr(arguments, name)]
     if len(chosen) > 1:
         raise SymidError(f"bench: --{chosen[0]} and --{chosen[1]} are measurements of their own; give one")
@@ -115,4 +117,4 @@ def _files(arguments: argparse.Namespace) -> tuple[str, str]:
 
 
 def _say(text: str) -> None:
-    print(f"measured {text}", file=sys.stderr, flush=True)
+    say(f"measured {text}")

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from pathlib import Path
+
+from symid.progress import say
 
 SUMMARY = "write recordings with concealed physics, and sealed answers, to test a diagnosis"
 EXAMPLES = ("symid conceal practice --system standing --random --count 4",)
@@ -59,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
         name = next_name(arguments.folder, case.setup.system)
         directory = write_case(case, arguments.folder, name)
         print(f"{directory}: {len(case.recording)} samples", flush=True)
-        print(f"case {number + 1} of {arguments.count} is made", file=sys.stderr, flush=True)
+        say(f"case {number + 1} of {arguments.count} is made")
     return 0
 
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from pathlib import Path
 
-from symid.cli.options import build_model, show_iteration
+from symid.cli.options import build_model, refuse_missing_folders, show_iteration
 from symid.errors import RecordingError
+from symid.progress import say
 
 SUMMARY = "identify the synthetic recording in data/ and compare with what it was made with"
 FIT, HELD_OUT = (0.0, 100.0), (100.0, 120.0)
@@ -31,10 +31,11 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.recording import read_recording
     from symid.report import write_report
 
+    refuse_missing_folders(arguments.report)
     folder = data_folder()
     truth = json.loads((folder / "truth.json").read_text())["parameters"]
     problem = Identification(build_model(folder / "body.json", "fpd"), read_recording(folder / "recording.csv"), FIT)
-    print(f"Identifying 10 parameters from {FIT[1] - FIT[0]:g} s of {folder / 'recording.csv'} ...", file=sys.stderr)
+    say(f"Identifying 10 parameters from {FIT[1] - FIT[0]:g} s of {folder / 'recording.csv'} ...")
     solution = problem.solve(on_iteration=show_iteration)
     if not solution.solved:
         print(solution)

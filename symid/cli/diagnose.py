@@ -6,6 +6,7 @@ import argparse
 import warnings
 from pathlib import Path
 
+from symid.cli.options import refuse_missing_folders, tell_files
 from symid.progress import say
 
 SUMMARY = "find the physics that a model leaves out: where, what, how much, and the proof"
@@ -88,6 +89,7 @@ def run(arguments: argparse.Namespace) -> int:
         from symid.report import write_diagnosis_report
 
         write_diagnosis_report(finding, arguments.report, f"Diagnosis of {source.name}", _provenance(source, finding))
+    tell_files(report=arguments.report, json=arguments.json, held_out_csv=arguments.held_out_csv)
     print(finding)  # after the files: a reader that has enough closes the pipe
     return 0
 
@@ -200,9 +202,7 @@ def _refuse_missing_folders(arguments: argparse.Namespace) -> None:
     """Before the work, not after it."""
     from symid.errors import DiagnosisError
 
-    for path in (arguments.json, arguments.report, arguments.held_out_csv):
-        if path and not Path(path).parent.is_dir():
-            raise DiagnosisError(f"{path} cannot be written: the folder {Path(path).parent} does not exist")
+    refuse_missing_folders(arguments.json, arguments.report, arguments.held_out_csv)
     if arguments.held_out_csv and not (arguments.held_out or arguments.rig or Path(arguments.source).is_dir()):
         raise DiagnosisError("--held-out-csv needs a held-out window; give --held-out T0 T1")
 

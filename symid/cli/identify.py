@@ -11,7 +11,9 @@ from symid.cli.options import (
     add_recording_arguments,
     build_model,
     chosen_executor,
+    refuse_missing_folders,
     show_iteration,
+    tell_files,
 )
 from symid.deadline import START_LIMIT_S
 from symid.progress import say
@@ -72,6 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.recording import read_recording
     from symid.transcription import Episodes, measure, scheme_by_name
 
+    refuse_missing_folders(arguments.json, arguments.report)
     scheme = scheme_by_name(arguments.scheme)
     model = build_model(arguments.body, arguments.controller)
     recording = read_recording(arguments.recording, allow_gaps=arguments.allow_gaps, columns=arguments.columns)
@@ -110,6 +113,7 @@ def run(arguments: argparse.Namespace) -> int:
         from symid.report import write_report
 
         write_report(solution, arguments.report, held_out)
+    tell_files(report=arguments.report, json=arguments.json)
     print("\n".join(lines))  # after the files: a reader that has enough closes the pipe
     return 0 if solution.solved else 1
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+import traceback
 import warnings
 from collections.abc import Sequence
 from importlib import import_module
@@ -12,9 +13,9 @@ from importlib.metadata import version
 from pkgutil import iter_modules
 
 import symid.cli as cli
-from symid.cli.options import refuse_absurd
+from symid.cli.options import add_level_arguments, refuse_absurd
 from symid.errors import SymidError
-from symid.progress import alive
+from symid.progress import NORMAL, QUIET, VERBOSE, alive, set_level
 
 # Every module of this package but these is a command: SUMMARY, EXAMPLES, add_arguments(parser), run(arguments) -> code.
 NOT_COMMANDS = ("__main__", "main", "options")
@@ -24,6 +25,7 @@ SOLVED, NOT_SOLVED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command: exit code 0 done or solved, 1 not solved, 2 bad input."""
     parsed = build_parser().parse_args(arguments)
+    set_level(QUIET if parsed.quiet else VERBOSE if parsed.verbose else NORMAL)
     warnings.showwarning = _show_warning
     try:
         refuse_absurd(parsed)
@@ -32,6 +34,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         sys.stdout.flush()
         return code
     except SymidError as error:
+        if parsed.verbose:
+            traceback.print_exc()
         print(f"symid: error: {error}", file=sys.stderr)
         return BAD_INPUT
     except BrokenPipeError:  # `| head` has read enough; the files are written
@@ -70,6 +74,7 @@ def build_parser() -> argparse.ArgumentParser:
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         module.add_arguments(command)
+        add_level_arguments(command)
         command.set_defaults(run=module.run, command=name)
     return parser
 

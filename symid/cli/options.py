@@ -7,9 +7,10 @@ import math
 import sys
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
 
 from symid.errors import ModelError, SolveError
-from symid.progress import said
+from symid.progress import NORMAL, QUIET, VERBOSE, level, said, say
 
 LARGEST = {
     "episodes": 1000,
@@ -138,9 +139,11 @@ def chosen_executor(jobs: int, cluster: str | None) -> AbstractContextManager[Ex
 
 
 def show_iteration(iteration) -> None:
-    """Progress on stderr: in place on a terminal, every tenth iteration otherwise."""
-    end = "\r" if sys.stderr.isatty() else ""
-    if end or iteration.number % 10 == 0:
+    """Progress on stderr: in place on a terminal, every tenth iteration otherwise, all of them where asked for."""
+    if level() == QUIET:
+        return
+    end = "\r" if sys.stderr.isatty() and level() == NORMAL else ""
+    if end or level() == VERBOSE or iteration.number % 10 == 0:
         print(
             f"iteration {iteration.number:4d}  objective {iteration.objective:.6g}  infeasibility "
             f"{iteration.infeasibility:.1e} ",
@@ -149,3 +152,25 @@ def show_iteration(iteration) -> None:
             flush=True,
         )
         said()
+
+
+def add_level_arguments(parser: argparse.ArgumentParser) -> None:
+    choice = parser.add_mutually_exclusive_group()
+    choice.add_argument("-q", "--quiet", action="store_true", help="no progress on stderr, only results and errors")
+    choice.add_argument(
+        "-v", "--verbose", action="store_true", help="every iteration, and where in symid an error comes from"
+    )
+
+
+def refuse_missing_folders(*paths: str | None) -> None:
+    """SolveError for a file whose folder does not exist: before the work, not after it."""
+    for path in paths:
+        if path and not Path(path).parent.is_dir():
+            raise SolveError(f"{path} cannot be written: the folder {Path(path).parent} does not exist; make it first")
+
+
+def tell_files(**written: str | None) -> None:
+    """Where the files went, on stderr: what is on stdout is for programs, too."""
+    for what, path in written.items():
+        if path:
+            say(f"{what.replace('_', ' ')}: {path}")

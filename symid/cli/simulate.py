@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 
-from symid.cli.options import add_model_arguments, build_model
+from symid.cli.options import add_model_arguments, build_model, refuse_missing_folders
 from symid.errors import RecordingError
 from symid.files import read_json
 
@@ -53,6 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.files import write_atomically
     from symid.synthetic import csv_text, standing_recording
 
+    refuse_missing_folders(arguments.output)
     model = build_model(arguments.body, arguments.controller)
     parameters = read_parameters(arguments.parameters, model)
     platform, duration, rate = _platform(arguments.platform)

@@ -23,7 +23,7 @@ from symid.identification.start_row import StartRow
 from symid.identification.starts.search import can_search
 from symid.identification.store import Store, StudyDirectory
 from symid.ipopt_solver import Iteration
-from symid.progress import say
+from symid.progress import step
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -96,7 +96,7 @@ def tell(finished: Finished) -> None:
         else (f"objective {row.objective:.6g}  {row.iterations} iterations  {row.seconds:.1f} s")
     )
     count = f"{finished.done:{width}d}/{finished.total}"
-    say(f"{count}  {finished.name}  {row.status}  {how}")
+    step(finished.done, finished.total, f"{count}  {finished.name}  {row.status}  {how}")
 
 
 class Study:
