@@ -8,7 +8,6 @@ import math
 
 from symid.cli.options import add_model_arguments, build_model, refuse_missing_folders
 from symid.errors import RecordingError
-from symid.files import read_json
 
 SUMMARY = "simulate a standing person under a known controller and write a recording"
 EXAMPLES = ("symid simulate made.csv --body body.json --controller fpd --parameters gains.json",)
@@ -104,6 +103,8 @@ def read_parameters(path: str, model) -> dict[str, float]:
     ------
     RecordingError : the file is no such JSON, or a parameter is missing, unknown or no finite number.
     """
+    from symid.files import read_json
+
     content = read_json(path)
     content = content.get("parameters", content) if isinstance(content, dict) else content
     if not isinstance(content, dict):

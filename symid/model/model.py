@@ -368,6 +368,11 @@ class Model:
         ]
         return f"<Model '{self.name}': " + ", ".join(f"{n} {k}{'s' * (n != 1)}" for n, k in counts if n) + ">"
 
+    def __str__(self) -> str:
+        from symid.model.show import text
+
+        return text(self)
+
     def _repr_html_(self) -> str:
         from symid.model.show import html
 

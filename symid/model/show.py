@@ -77,29 +77,30 @@ def _broken(left: str, expr: sm.Expr, tex) -> str:
     return rf"{left} &={lines[0]}" + "".join(rf" \\ &\qquad{line}" for line in lines[1:])
 
 
-def html(model: Model) -> str:
-    """Name, equations and tables of all parts, for a notebook."""
-    rows = []
-    for kind, parts in (
-        ("state", model.states),
-        ("algebraic", model.algebraics),
-        ("control", model.controls),
-        ("input", model.inputs),
-        ("parameter", model.parameters),
-        ("constant", model.constants),
-        ("noise", model.noises),
-        ("output", model.outputs),
-    ):
+KINDS = ("state", "algebraic", "control", "input", "parameter", "constant", "noise", "output")
+"""Kinds of parts that are listed, in this order."""
+
+
+def _parts(model: Model):
+    """Kind, part, and its value or bounds as text."""
+    lists = (model.states, model.algebraics, model.controls, model.inputs)
+    lists += (model.parameters, model.constants, model.noises, model.outputs)
+    for kind, parts in zip(KINDS, lists, strict=True):
         for c in parts.values():
-            value = (
-                f"{c.value:g}"
-                if kind == "constant"
-                else ("[{:g}, {:g}]".format(*c.bounds) if hasattr(c, "bounds") else "")
-            )
-            cells = (kind, f"<code>{escape(c.name)}</code>", value, escape(c.unit), escape(c.meaning))
-            rows.append("".join(f'<td style="text-align:left">{cell}</td>' for cell in cells))
+            bounds = "[{:g}, {:g}]".format(*c.bounds) if hasattr(c, "bounds") else ""
+            yield kind, c, f"{c.value:g}" if kind == "constant" else bounds
+
+
+def html(model: Model) -> str:
+    """Name, equations and a table of all parts with their letters in the equations, for a notebook."""
+    names, rows = _names(model), []
+    for kind, c, value in _parts(model):
+        letter = f"${names[c.symbol]}$" if kind != "output" else ""
+        cells = (kind, letter, f"<code>{escape(c.name)}</code>", value, escape(c.unit), escape(c.meaning))
+        rows.append("".join(f'<td style="text-align:left">{cell}</td>' for cell in cells))
     head = "".join(
-        f'<th style="text-align:left">{h}</th>' for h in ("part", "name", "value or bounds", "unit", "meaning")
+        f'<th style="text-align:left">{h}</th>'
+        for h in ("part", "letter", "name", "value or bounds", "unit", "meaning")
     )
     table = f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>"
     terms = f"<p>terms added: {escape(', '.join(map(str, model.terms)))}</p>" if model.terms else ""
@@ -107,3 +108,15 @@ def html(model: Model) -> str:
         f"<h4>{escape(model.name)}</h4><p>{escape(model.description)}</p>{terms}"
         f'<div style="overflow-x:auto">{escape(latex(model), quote=False)}</div>{table}'
     )
+
+
+def text(model: Model) -> str:
+    """The same for a terminal: equations with the names of the parts, ' for a time derivative, and the parts below."""
+    lines = [repr(model)[1:-1], *([model.description] if model.description else [])]
+    lines += [f"  0 = {e.expr}    [{name}]" for name, e in model.equations.items()]
+    lines += [f"  {e.name} = {e.expr}" for e in model.expressions.values()]
+    lines += [f"  {y.name} = {y.expr}, compared with {y.channel}" for y in model.outputs.values()]
+    rows = [(kind, c.name, value, c.unit, c.meaning) for kind, c, value in _parts(model) if kind != "output"]
+    widths = [max(len(row[i]) for row in rows) for i in range(4)] if rows else []
+    cells = ["  ".join([*(x.ljust(w) for x, w in zip(row, widths, strict=False)), row[4]]) for row in rows]
+    return "\n".join([*lines, *(f"  {line}".rstrip() for line in cells)])
