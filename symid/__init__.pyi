@@ -55,6 +55,7 @@ from .model import (
     Term as Term,
 )
 from .optimization import Free as Free, Optimization as Optimization, Plan as Plan
+from .plots import LivePlot as LivePlot
 from .recording import Recording as Recording, read_recording as read_recording
 from .transcription import (
     BackwardEuler as BackwardEuler,

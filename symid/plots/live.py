@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import time
+from importlib import import_module
+from typing import Any
 
 import numpy as np
 
@@ -23,9 +25,10 @@ class LivePlot:
         problem.solve(on_iteration=si.LivePlot())
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.iterations: list[Iteration] = []
-        self._shown, self._handle = -np.inf, None
+        self._shown = -np.inf
+        self._handle: Any = None
 
     def __call__(self, iteration: Iteration) -> None:
         """Take note of one iteration, and draw when the last drawing is old."""
@@ -52,8 +55,7 @@ class LivePlot:
         return figure
 
     def _show(self) -> None:
-        from IPython.display import display
-
+        display = import_module("IPython.display").display
         if self._handle is None:
             self._handle = display(self.figure(), display_id=True)
         else:
