@@ -8,7 +8,7 @@ READY := .venv/.ready
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: demo test test-slow coverage lint bench docs clean
+.PHONY: demo test test-slow faults coverage lint bench docs clean
 
 demo: $(READY)
 	$(PY) -m symid.cli demo
@@ -18,6 +18,10 @@ test: $(READY)
 
 test-slow: $(READY)
 	$(PY) -m pytest -n 2 -m slow
+
+# Faults on purpose, a list of them with what was not survived; half an hour.
+faults: $(READY)
+	$(PY) -m pytest -n 2 -m fault
 
 # Of lines and branches, by the normal test run; processes that tests start are counted, too.
 coverage: $(READY)

@@ -70,3 +70,18 @@ def pendulum_recording(
         {"angle": angle, "rate": x[1], "drive": drive(time)},
         {"angle": "rad", "rate": "rad/s", "drive": "rad/s^2"},
     )
+
+
+def pytest_terminal_summary(terminalreporter) -> None:
+    """Faults on purpose, counted by what was done."""
+    counted: dict[str, list[int]] = {}
+    for column, outcome in enumerate(("passed", "failed")):
+        for report in terminalreporter.getreports(outcome):
+            if report.when == "call" and "fault" in report.keywords:
+                counted.setdefault(report.nodeid.split("::")[1].split("[")[0], [0, 0])[column] += 1
+    if counted:
+        terminalreporter.section("faults on purpose")
+        for name, (good, bad) in counted.items():
+            terminalreporter.line(f"{good + bad:5d} {name.removeprefix('test_').replace('_', ' ')}: {bad} not survived")
+        total, lost = (sum(column) for column in zip(*counted.values(), strict=True))
+        terminalreporter.line(f"{total + lost:5d} faults, {lost} not survived")

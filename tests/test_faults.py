@@ -24,7 +24,7 @@ from symid.codegen.cache import CodegenWarning
 from symid.errors import SolveError
 from symid.identification.store import StudyDirectory
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.fault]
 HERE = Path(__file__).parent
 STARTS = 2
 
@@ -89,9 +89,7 @@ def test_the_cache_of_kernels(tmp_path, monkeypatch, seed):
     libraries = [build.compiled(source(k)) for k in (1, 2)]
     done = hurt(libraries[0], libraries[1:], rng)
     with warnings.catch_warnings():
-        warnings.simplefilter(
-            "ignore", CodegenWarning
-        )  # a folder in the way: the library goes elsewhere, as is said once
+        warnings.simplefilter("ignore", CodegenWarning)  # a folder in the way: it goes elsewhere, as is said once
         assert build.load_library(source(1)).answer() == 1, done
     assert build.load_library(source(2)).answer() == 2
 

@@ -194,6 +194,7 @@ def test_kill_9_of_a_worker_loses_nothing(undisturbed):
 
 
 @pytest.mark.slow
+@pytest.mark.fault
 @pytest.mark.parametrize("seed", range(1, 6))
 def test_kill_9_of_a_worker_five_times(seed, undisturbed):
     run_and_kill_a_worker(seed, undisturbed)
@@ -230,6 +231,7 @@ def test_kill_9_of_the_study_and_resume(tmp_path, undisturbed, solved):
 
 
 @pytest.mark.slow
+@pytest.mark.fault
 @pytest.mark.parametrize("seed", range(1, 6))
 def test_kill_9_of_the_study_five_times(seed, tmp_path, undisturbed, solved):
     kill_and_resume(tmp_path / "study", random.Random(seed), undisturbed, solved)

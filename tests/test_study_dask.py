@@ -1,17 +1,21 @@
 """Studies on a real dask scheduler with two workers, each a process of its own."""
 
+import errno
 import os
 import random
 import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
 import pytest
 from study_problems import STARTS, kept, numbers, problem, study
 
+import symid.identification.store as store_module
+from symid import files
 from symid.errors import SolveError
 from symid.identification import Cluster
 
@@ -123,6 +127,7 @@ def test_kill_9_of_a_dask_worker_loses_nothing(cluster, client, undisturbed):
 
 
 @pytest.mark.slow
+@pytest.mark.fault
 @pytest.mark.parametrize("seed", range(1, 6))
 def test_kill_9_of_a_dask_worker_five_times(cluster, client, seed, undisturbed):
     run_and_kill_a_worker(cluster, client, seed, undisturbed)
@@ -150,23 +155,74 @@ def test_kill_9_of_the_client_and_resume(cluster, client, tmp_path, undisturbed)
 
 
 @pytest.mark.slow
+@pytest.mark.fault
 @pytest.mark.parametrize("seed", range(1, 6))
 def test_kill_9_of_the_client_five_times(cluster, client, tmp_path, seed, undisturbed):
     kill_the_client_and_resume(cluster, client, tmp_path / "study", seed, undisturbed)
 
 
-def test_a_lost_scheduler_ends_in_rows_and_the_study_resumes(tmp_path, undisturbed):
-    processes = Processes(tmp_path)
+def lose_the_scheduler(folder, moment: int, undisturbed) -> None:
+    processes = Processes(folder)
     try:
         with distributed.Client(processes.address, timeout=60, set_as_default=False) as own:
-            result = study(tmp_path / "study").run(
-                own, on_finished=lambda f: f.done == 3 and processes.scheduler.send_signal(signal.SIGKILL)
+            result = study(folder / "study").run(
+                own, on_finished=lambda f: f.done == moment and processes.scheduler.send_signal(signal.SIGKILL)
             )
     finally:
         processes.end()
     lost = [row for row in result.rows.values() if row.status == "lost"]
-    assert 0 < len(lost) <= 2 * STARTS - 3 and all("Run the study again" in row.message for row in lost)
-    assert numbers(study(tmp_path / "study").run_here(on_finished=None)) == undisturbed
+    assert 0 < len(lost) <= 2 * STARTS - moment and all("Run the study again" in row.message for row in lost)
+    assert numbers(study(folder / "study").run_here(on_finished=None)) == undisturbed
+
+
+def test_a_lost_scheduler_ends_in_rows_and_the_study_resumes(tmp_path, undisturbed):
+    lose_the_scheduler(tmp_path, 3, undisturbed)
+
+
+@pytest.mark.slow
+@pytest.mark.fault
+@pytest.mark.parametrize("moment", [1, 2, 5, 8, 11])
+def test_kill_9_of_the_scheduler_five_times(tmp_path, moment, undisturbed):
+    lose_the_scheduler(tmp_path, moment, undisturbed)
+
+
+@pytest.mark.slow
+@pytest.mark.fault
+@pytest.mark.parametrize("seed", range(5))
+def test_a_worker_that_stands_still_for_a_while(cluster, client, seed, undisturbed):
+    """As a machine that is suspended: its solves are only late."""
+    chance = random.Random(seed)
+    moment, victim = chance.randrange(1, STARTS), cluster.workers[chance.randrange(2)]
+
+    def on_finished(finished):
+        if finished.done == moment:
+            victim.send_signal(signal.SIGSTOP)
+            threading.Timer(chance.uniform(0.5, 4), victim.send_signal, (signal.SIGCONT,)).start()
+
+    result = study().run(client, on_finished=on_finished)
+    assert result.complete and numbers(result) == undisturbed
+
+
+@pytest.mark.slow
+@pytest.mark.fault
+@pytest.mark.parametrize("seed", range(5))
+def test_a_store_that_fills_up_ends_the_study_and_leaves_the_cluster_usable(
+    cluster, client, tmp_path, seed, undisturbed, monkeypatch
+):
+    write, count = files.write_atomically, iter(range(100))
+
+    def full(path, content):
+        if next(count) == 3 + 4 * seed:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return write(path, content)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(store_module, "write_atomically", full)
+        with pytest.raises(SolveError, match="No space left on device.*make room"):
+            study(tmp_path / "study").run(client, on_finished=None)
+    before = kept(tmp_path / "study")
+    assert numbers(study(tmp_path / "study").run(client, on_finished=None)) == undisturbed
+    assert before.items() <= kept(tmp_path / "study").items()
 
 
 def test_no_scheduler_is_said_in_a_sentence():

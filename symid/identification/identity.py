@@ -16,6 +16,9 @@ from symid.recording import Recording
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
 
+VERSION = "version of symid"
+"""The part of an identity that says who made a result; it alone makes no other problem."""
+
 
 def digest(*things) -> str:
     """16 hexadecimal digits that change with any value in `things`, and are the same in every process."""
@@ -64,7 +67,7 @@ def problem_identity(problem: Identification) -> dict[str, str]:
         "ridge": digest(problem.ridge if problem.ridge_about == "zero" else (problem.ridge, problem.ridge_about)),
         "backend": problem.backend,
         "refine": str(problem.refine),
-        "version of symid": version("symid"),
+        VERSION: version("symid"),
     }
 
 

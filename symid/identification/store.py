@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
+import warnings
 import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, fields
@@ -20,6 +21,7 @@ import numpy as np
 
 from symid.errors import SolveError
 from symid.files import plain, write_atomically, write_json
+from symid.identification.identity import VERSION, digest
 from symid.identification.start_row import StartRow
 from symid.identification.worker import Outcome
 from symid.ipopt_solver import LinearSolver, SolverResult, WorstConstraint
@@ -55,11 +57,10 @@ class StudyDirectory:
     def __init__(self, path: str | Path, identities: Mapping[str, Mapping[str, str]]):
         self.path = Path(path)
         known = self._read_register()
-        _refuse_other_study(self.path, known, identities)
+        self._keys = _keys_on_disk(self.path, known, identities)
         if not known.keys() >= identities.keys():
-            self._write(
-                lambda: write_json(self.path / "study.json", {"format": FORMAT, "solves": known | dict(identities)})
-            )
+            solves = dict(identities) | known
+            self._write(lambda: write_json(self.path / "study.json", {"format": FORMAT, "solves": solves}))
 
     def _read_register(self) -> dict:
         file = self.path / "study.json"
@@ -87,7 +88,7 @@ class StudyDirectory:
             )
         if not (
             isinstance(solves, dict)
-            and all(isinstance(parts, dict) and isinstance(parts.get("key"), str) for parts in solves.values())
+            and all(isinstance(parts, dict) and str(parts.get("key", "/")).isalnum() for parts in solves.values())
         ):
             raise SolveError(
                 f"{file} is damaged (its 'solves' are no names with their keys): give another directory for the study"
@@ -104,7 +105,9 @@ class StudyDirectory:
             ) from problem
 
     def __setitem__(self, key: str, outcome: Outcome) -> None:
+        key = self._keys.get(key, key)
         content, arrays = _taken_apart(outcome)
+        content["key"] = key  # files that changed their names are another solve's
         content["sha256"] = {"content": _sha256(_text(content)), "arrays": _sha256(arrays)}
 
         def both():
@@ -115,11 +118,13 @@ class StudyDirectory:
 
     def get(self, key: str) -> Outcome | None:
         """The outcome as it was put in; None where there is none or a file of it is damaged."""
+        key = self._keys.get(key, key)
         try:
             content = json.loads((self.path / f"{key}.json").read_text(encoding="utf-8"))
             arrays = (self.path / f"{key}.npz").read_bytes()
             sums = content.pop("sha256")
             whole = sums == {"content": _sha256(_text(content)), "arrays": _sha256(arrays)}
+            whole = whole and content.get("key", key) == key  # earlier versions did not write it
             return _put_together(content, arrays) if whole else None
         except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError, EOFError, zipfile.BadZipFile):
             return None
@@ -128,20 +133,33 @@ class StudyDirectory:
         outcome = self.get(key)
         if outcome is None:
             raise SolveError(
-                f"{self.path / key}.json or .npz was removed or damaged: run the study again, which "
-                "repeats this solve alone"
+                f"{self.path / self._keys.get(key, key)}.json or .npz was removed or damaged: "
+                "run the study again, which repeats this solve alone"
             )
         return outcome
 
 
-def _refuse_other_study(path: Path, known: Mapping, wanted: Mapping) -> None:
+def _keys_on_disk(path: Path, known: Mapping, wanted: Mapping) -> dict[str, str]:
+    """Key of each solve -> that of its files, which another version of symid may have written."""
+    keys, versions = {}, set()
     for name, parts in wanted.items():
-        if name in known and known[name]["key"] != parts["key"]:
-            parts = [p for p in parts if p != "key" and known[name].get(p) != parts[p]]
+        old = known.get(name, parts)
+        differs = [p for p in parts if p not in ("key", VERSION) and old.get(p) != parts[p]]
+        if differs:
             raise SolveError(
-                f"{path} belongs to another study: its solve '{name}' differs in {' and '.join(parts)}. "
+                f"{path} belongs to another study: its solve '{name}' differs in {' and '.join(differs)}. "
                 "Give another directory, or the problem as it was"
             )
+        if old["key"] not in (parts["key"], digest({p: v for p, v in old.items() if p != "key"})):
+            raise SolveError(f"{path / 'study.json'} is damaged (solve '{name}'): give another directory for the study")
+        keys[parts["key"]] = old["key"]
+        versions |= {str(old.get(VERSION))} - {parts.get(VERSION, "None")}
+    if versions:
+        warnings.warn(
+            f"{path} was begun by symid {' and '.join(sorted(versions))}; what is finished there is taken as it is",
+            stacklevel=4,
+        )
+    return keys
 
 
 def _taken_apart(outcome: Outcome) -> tuple[dict, bytes]:

@@ -1,0 +1,50 @@
+"""Programs that tests of faults stop, starve and mislead: `python fault_programs.py KIND FOLDER`, each some seconds.
+
+What they do is what the command line does, on small problems: the folder gets their inputs, outputs and store.
+"""
+
+import sys
+from importlib import import_module
+from pathlib import Path
+
+from conftest import pendulum_recording
+
+from symid.cli import main
+from symid.recording import read_recording
+
+STANDING = Path(__file__).parents[1] / "data" / "standing_synthetic"
+RIG = '{"m1_kg": 1.0, "a1_m": 0.5, "I1_kg_m2": 0.97625, "g_m_s2": 9.81}'
+OUTPUTS = {
+    "diagnose": ("found.json", "report.html", "prediction.csv"),
+    "reproduce": ("comparison.csv", "figure_2.png", "starts.png"),
+}
+
+
+def diagnose(folder: Path) -> int:
+    """A free swing with damping, of a rig that is said to have none; one suspect."""
+    from symid.discrepancy import suspects
+
+    few = lambda model: [s for s in suspects(model) if s.term.name == "viscous_friction"]  # noqa: E731
+    import_module("symid.discrepancy.diagnose").suspects_of = few
+    swing = pendulum_recording(damping=0.05, duration=12.0, noise=1e-3, strength=0.0)
+    swing.select("angle").rename({"angle": "link1_angle"}).to_csv(folder / "swing.csv")
+    (folder / "rig.json").write_text(RIG)
+    outputs = [str(folder / name) for name in OUTPUTS["diagnose"]]
+    options = zip(("--json", "--report", "--held-out-csv"), outputs, strict=True)
+    source = [str(folder / "swing.csv"), "--rig", str(folder / "rig.json")]
+    windows = ["--window", "0", "8", "--held-out", "8", "12", "--threads", "1"]
+    return main(["diagnose", *source, *windows, *(word for option in options for word in option)])
+
+
+def reproduce(folder: Path) -> int:
+    """Two starts of the article's first case, on a made-up person and a few seconds."""
+    run = import_module("symid.reproduce.run")
+    run.WINDOW, run.RANGE, run.HELD_OUT = dict.fromkeys(run.WINDOW, (0.0, 5.0)), (0.0, 8.0), (5.0, 8.0)
+    read_recording(STANDING / "recording.csv").window(0, 8).to_csv(folder / "recording_50hz.csv")
+    (folder / "body.json").write_text((STANDING / "body.json").read_text())
+    places = [f"--{name}={folder / name}" for name in ("store", "output")]
+    return main(["reproduce", "--only", "PD-1", "--starts", "2", f"--recordings={folder}", *places])
+
+
+if __name__ == "__main__":
+    sys.exit({"diagnose": diagnose, "reproduce": reproduce}[sys.argv[1]](Path(sys.argv[2])))
