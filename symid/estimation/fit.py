@@ -171,8 +171,12 @@ class Fitter:
         return (-self.data.samples * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), whitening
 
     def evaluate(self, p, x0, gain, process=()) -> float:
-        runs = self.run(p, x0, gain, sensitivities=False, process=process)
-        return -np.inf if runs is None else self.score(self.innovations(runs, process), process)[0]
+        return self._followed(p, x0, gain, process, keep="outputs")[0]
+
+    def _followed(self, p, x0, gain, process, keep: str):
+        """Twice the log-likelihood, -inf where a run diverges, and the runs."""
+        runs = self.run(p, x0, gain, sensitivities=False, process=process, keep=keep)
+        return (-np.inf if runs is None else self.score(self.innovations(runs, process), process)[0]), runs
 
     def kalman_gain(self, p, process, path):
         """Kalman gain at these values, linearised along a path of states; None without random forces."""
@@ -224,12 +228,29 @@ class Fitter:
                 converged = float(step @ system[1]) < 1.0
                 break
             change = new.value - at.value
-            at.p, at.x0, at.process, at.kalman_gain, at.value = new.p, new.x0, new.process, new.kalman_gain, new.value
-            at.path = self.path(at.p, at.x0, at.kalman_gain)
+            at.p, at.x0, at.process, at.kalman_gain = new.p, new.x0, new.process, new.kalman_gain
+            at.value, at.path = new.value, new.path
             if change < tolerance:
                 converged = True
                 break
         return k, converged
+
+    def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
+        """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).
+
+        As everywhere the size of the errors is concentrated out, so that the part R^2 of them that the step explains
+        is worth -log(1 - R^2) a sample.
+        """
+        try:
+            at = self._begin(start, initial, process, None)
+            system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path)
+        except SymidError:
+            return -np.inf
+        if system is None:
+            return -np.inf
+        samples = self.data.samples * len(self.data.sensor_noise)
+        explained = damped_step(system, 0.0, self.bounds[self.index], at.p[self.index]) @ system[1] / samples
+        return at.value - samples * np.log1p(-min(float(explained), 0.999))
 
     def again(self, fit: Fit, iterations: int = 40) -> Fit:
         """A fit that goes on from where `fit` of the same model ended, perhaps with another error model."""
@@ -258,19 +279,21 @@ class Fitter:
         for _ in range(PATIENCE):
             step = damped_step(system, damping, self.bounds[self.index], at.p[self.index])
             p, x0, process = self._moved(at.p, at.x0, at.process, step)
-            gain, value = self._tried(p, x0, process, at.path)
+            gain, value, path = self._tried(p, x0, process, at.path)
             if value > at.value - 1e-9:
-                return _Point(p, x0, process, gain, at.path, value), step, 0.1 * damping
+                return _Point(p, x0, process, gain, path, value), step, 0.1 * damping
             damping = max(damping * 10, 1e-6)
         return None, step, damping
 
     def _tried(self, p, x0, process, path):
-        """The gain and twice the log-likelihood at a trial point, -inf where it cannot be simulated."""
+        """The gain, twice the log-likelihood at a trial point, -inf where it cannot be simulated, and its path."""
         try:
             gain = self.kalman_gain(p, process, path)
-            return gain, self.evaluate(p, x0, gain, process) - self._growth_penalty(p, path)
+            value, runs = self._followed(p, x0, gain, process, keep="states" if self.driven else "outputs")
+            value -= self._growth_penalty(p, path)
         except SymidError:
-            return None, -np.inf
+            return None, -np.inf, path
+        return gain, value, np.vstack([t.x for t in runs]) if self.driven and runs else x0
 
     def _growth_penalty(self, p, path) -> float:
         """What growth costs of twice the log-likelihood."""

@@ -20,6 +20,8 @@ HIGHEST = 2.0
 """Up to here a change of stiffness or damping is looked for [Hz]."""
 SPACING = 0.5
 """Spacing of the frequencies, in parts of one over the recording."""
+RATE = 12.0
+"""Slow forces are scored by means over so many parts of a second, some five for the fastest swing [Hz]."""
 LASTS = 10.0
 """So long the answer to a push is followed [s]."""
 PARTS = 4
@@ -32,27 +34,58 @@ def modulated(projection: Projection) -> list[tuple[str, float, int]]:
     Nothing where random forces do not act, pieces of the recording have each a start of their own, or it is too short.
     """
     data, model, found = projection.data, projection.fit.model, []
-    time = data.segments[0].time - data.segments[0].time[0]
+    every = max(1, int(1 / (RATE * data.segments[0].step)))
+    time = _coarse(data.segments[0].time - data.segments[0].time[0], every)
     frequencies = np.arange(1.5, HIGHEST * time[-1], SPACING) / time[-1]
     if not data.driven or len(data.segments) > 1 or not len(frequencies):
         return found
-    path = fitted_path(projection.fit, data)
+    path, slow = _coarse(fitted_path(projection.fit, data), every), _Slow(projection, every)
     for port in (p for p in model.ports.values() if p.role == "joint"):
         answer = _answer(projection, port)
         if answer is None:
             continue
+        answer = _coarse(answer, every) * every
         motion = [along(path, expr, model) for expr in (port.position, port.rate)]
         motion = [(x - x.mean()) / (x.std() or 1.0) for x in motion]
         gains = [
-            projection.score(
+            slow.gain(
                 np.column_stack(
                     [_to_force(answer, x * wave(2 * np.pi * f * time)) for x in motion for wave in (np.sin, np.cos)]
                 )
-            )[0]
+            )
             for f in frequencies
         ]
         found.append((port.at, max(gains), len(frequencies)))
     return found
+
+
+def _coarse(a: np.ndarray, every: int) -> np.ndarray:
+    """Means of so many rows each; what is left over at the end is dropped."""
+    n = len(a) // every
+    return a[: n * every].reshape(n, every, *a.shape[1:]).mean(axis=1)
+
+
+class _Slow:
+    """A projection that sees means of so many samples: slow forces lose nothing by it, and are scored sooner."""
+
+    def __init__(self, projection: Projection, every: int):
+        self.root = np.sqrt(every)
+        own, rest = (
+            _coarse(a.reshape(-1, projection.outputs, *a.shape[1:]), every) * self.root
+            for a in (projection.own, projection.rest)
+        )
+        self.own, _ = np.linalg.qr(own.reshape(-1, own.shape[-1]))
+        self.rest = self._project(rest.reshape(-1))
+
+    def _project(self, a: np.ndarray) -> np.ndarray:
+        return a - self.own @ (self.own.T @ a)
+
+    def gain(self, columns: np.ndarray) -> float:
+        """Gain of twice the log-likelihood forecast for (N m, q) columns."""
+        a = self._project(columns * self.root)
+        a /= np.sqrt((a**2).sum(0)) + 1e-300
+        along = a.T @ self.rest
+        return float(along @ np.linalg.lstsq(a.T @ a, along, rcond=1e-8)[0])
 
 
 def _answer(projection: Projection, port: Port) -> np.ndarray | None:

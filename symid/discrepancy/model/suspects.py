@@ -65,9 +65,9 @@ class Suspect:
 
     @property
     def bypasses(self) -> bool:
-        """Whether a forecast at zero strength misses the law, then always refitted: delays, lags, integrals."""
+        """Whether a forecast at zero strength sees only part of what the law explains: delays, lags and integrals."""
         q = self.strength
-        return self.established and q is not None and q.null == 0 and bool(q.starts) and self.scanned is None
+        return self.established and (q is None or q.null == 0 and bool(q.starts)) and self.scanned is None
 
     @property
     def size(self) -> int:

@@ -18,6 +18,12 @@ from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 
 FIRST_ITERATIONS, CONVERGING_ITERATIONS = 6, 20
+SMALL = 0.15
+"""A law that no value switches off nearly does nothing at this part of its usual sizes."""
+BEYOND = 3.0
+"""A slope at zero may see but a third of what a delay, a lag or an integral explains."""
+KEPT = 0.5
+"""A fit that explains less than this part of its forecast may have gone astray: the next start is tried."""
 MOMENTS = 0.3
 """Spacing [s] of the moments at which a lasting change is tried."""
 
@@ -46,23 +52,16 @@ def explore(
     )
     with ThreadPoolExecutor(threads) as pool:
         starts = [s for s in pool.map(lambda s: _starts(fit, data, projection, s), suspects) if s]
-        starts.sort(key=lambda s: -s[0].forecast)
-        chosen = [
-            s for i, s in enumerate(starts) if s[0].forecast > POLICY.worth_refitting or i < POLICY.always_refitted
-        ]
+        starts.sort(key=lambda s: -_reach(s))
+        chosen = [s for i, s in enumerate(starts) if _reach(s) > POLICY.worth_refitting or i < POLICY.always_refitted]
         chosen = chosen[:refitted]
-        chosen += [s for s in starts if s not in chosen and s[0].suspect.bypasses]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
         first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen[: POLICY.always_refitted]) if c is not None]
         best = max((c.log_ratio for c in first), default=0.0)
-        worth = [
-            s
-            for s in chosen[POLICY.always_refitted :]
-            if s[0].forecast > POLICY.beam_share * best or s[0].suspect.bypasses
-        ]
+        worth = [s for s in chosen[POLICY.always_refitted :] if _reach(s) > POLICY.beam_share * best]
         first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
         first.sort(key=lambda c: -c.log_ratio)
-        others = {s[0].suspect: s[1:3] for s in chosen}
+        others = {s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast] for s in chosen}
         good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
         found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), good))
         rest = first[len(good) :]
@@ -70,6 +69,11 @@ def explore(
         close = [c for c in rest if c.log_ratio > max(near, 0.0) and not c.fit.converged]
         found += list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), close))
     return by_score(found + [c for c in rest if c not in close])
+
+
+def _reach(starts: list[Start]) -> float:
+    """What the best of these starts may come to explain."""
+    return starts[0].forecast * (BEYOND if starts[0].suspect.bypasses else 1.0)
 
 
 def by_score(found: Sequence[Hypothesis]) -> list[Hypothesis]:
@@ -99,17 +103,20 @@ def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> l
     # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
     finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
     finite = [v for here, v in finite if np.isfinite(here)][:2]
-    if found:
-        return found[:1] + [Start(found[0].forecast, suspect, v) for v in finite]
-    tried = [_refit(fit, data, Start(0.0, suspect, v), 4) for v in finite[:1]]
-    forecasts = [c.log_ratio for c in tried if c is not None]
-    return [Start(forecasts[0] if forecasts else 0.0, suspect, v) for v in finite]
+    forecast = found[0].forecast if found else max((_promise(fitter, fit, suspect, v) for v in finite), default=0.0)
+    return found[:1] + [Start(forecast, suspect, v) for v in finite]
 
 
 def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
     """Twice the log-likelihood with the suspect at these values and nothing refitted."""
     p = np.array([(fit.values | suspect.named(values))[k] for k in fitter.sim.parameters])
     return fitter.evaluate(p, extended(fit.initial, fitter.sim), padded(fit.kalman_gain, fitter.sim))
+
+
+def _promise(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
+    """Growth of twice the log-likelihood that one step promises from a small part of these values."""
+    small = fit.values | suspect.named({k: SMALL * v for k, v in values.items()})
+    return fitter.promise(small, extended(fit.initial, fitter.sim), fit.process) - fit.loglik2
 
 
 def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothesis | None:
@@ -131,14 +138,14 @@ def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothes
 def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
     """A few iterations from the best start, and from the others where it does not keep its promise.
 
-    A law that a slope at zero does not see also begins at one finite size.
+    A law of which a slope at zero sees little also begins at one finite size.
     """
     best, least = None, 2 if starts[0].suspect.bypasses else 1
     for tried, start in enumerate(starts, 1):
         new = _refit(fit, data, start, FIRST_ITERATIONS)
         if new is not None and (best is None or new.log_ratio > best.log_ratio):
             best = new
-        if best is not None and best.log_ratio > 0.5 * start.forecast and tried >= least:
+        if best is not None and best.log_ratio > KEPT * start.forecast and tried >= least:
             break
     return best
 

@@ -67,6 +67,11 @@ class Search:
                 break
         return best, single
 
+    def settled(self, found: Hypothesis) -> Hypothesis:
+        """What is found, or the flexible law at one place where several laws together explain less than that."""
+        doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
+        return self.flexible() if doubtful and self.beaten(found) else found
+
     # ---- judging -----------------------------------------------------------------------------
     def value(self, found: Hypothesis, share: float, belief: bool = True) -> float:
         """Evidence less the price of each suspect for being one of many, and less prior belief."""
@@ -95,6 +100,10 @@ class Search:
     def quiet(self, found: Hypothesis) -> bool:
         """Whether nothing is left that more suspects could explain."""
         return self.remainder(found)[0].minus_log10_p <= POLICY.quiet
+
+    def explained(self, found: Hypothesis) -> bool:
+        """Whether nothing systematic is left."""
+        return self.remainder(found)[0].minus_log10_p <= POLICY.remainder
 
     def equivalents(self, found: Hypothesis) -> list[Hypothesis]:
         """What was tried with one suspect exchanged and explains almost as well, that suspect last."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.halves import survivals
+from symid.discrepancy.prove.nulls import false_alarm_probability
 from symid.estimation.bias import unbiased
 from symid.estimation.fit import Fit
 from symid.estimation.robust_errors import with_robust_errors
@@ -46,12 +48,40 @@ def sure(found: Hypothesis) -> Hypothesis:
         doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
         if _certainty(doubtful, found.fit) > POLICY.sure:
             break
-        less = hypothesis([s for s in found.suspects if s is not doubtful], found.fit, found.base, found.data)
-        if less is None:
+        less = _without([s for s in found.suspects if s is not doubtful], found, white=False)
+        if not less.suspects:
             break
-        less = polished(less)
-        found = replace(less, fit=with_robust_errors(less.fit, less.data))
+        found = less
     return found
+
+
+def beyond_chance(
+    found: Hypothesis, maxima: np.ndarray, ranking: Sequence[Hypothesis], white: bool
+) -> tuple[Hypothesis, float | None]:
+    """The hypothesis without effects that chance alone makes, the weakest dropped first; and the probability of that.
+
+    Parameters
+    ----------
+    maxima : of the log-likelihood ratios that chance makes. ranking : each suspect alone: where nothing is
+        found the probability is that of the best of them.
+    """
+    while found.suspects:
+        chance = false_alarm_probability(weakest(found), maxima)
+        if chance is None or chance <= POLICY.chance:
+            return found, chance
+        doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
+        less = [s for s in found.suspects if s is not doubtful]
+        found = _without(less, found, white)
+    return found, false_alarm_probability(max((h.log_ratio for h in ranking), default=0.0), maxima)
+
+
+def _without(kept: Sequence[Suspect], found: Hypothesis, white: bool) -> Hypothesis:
+    """The hypothesis of these suspects alone, with honest errors; of none where it cannot be fitted."""
+    less = hypothesis(kept, found.fit, found.base, found.data) if kept else None
+    if less is None:
+        return Hypothesis((), found.base, found.base, found.data)
+    less = polished(less)
+    return less if white else replace(less, fit=with_robust_errors(less.fit, less.data))
 
 
 def weakest(found: Hypothesis) -> float:

@@ -9,12 +9,10 @@ import numpy as np
 
 from symid.errors import SymidError
 from symid.estimation.data import Data
-from symid.estimation.fit import Fit
+from symid.estimation.fit import Fit, Fitter
 from symid.estimation.free_run import FreeRun, free_run
-from symid.identification import Identification
-from symid.recording import Recording
 
-MOST_ITERATIONS = 100
+MOST_ITERATIONS = 30
 
 
 def with_values(fit: Fit, values: dict[str, float]) -> Fit:
@@ -22,20 +20,22 @@ def with_values(fit: Fit, values: dict[str, float]) -> Fit:
     return replace(fit, values={k: float(values.get(k, v)) for k, v in fit.values.items()}, innovations=())
 
 
-def collocated(fit: Fit, recording: Recording, window: tuple[float, float] | str) -> list[Fit]:
-    """The model with the values of a collocation of the same window, from those of `fit`; None where it does not end.
+def output_error_fit(fit: Fit, data: Data) -> list[Fit]:
+    """The model fitted by free simulation of the same data, from the values of `fit`; nothing where that diverges.
 
-    Where random forces act, a collocation follows the recording by other means than predictions do.
+    It is what a collocation without process noise finds. Where random forces act, a model that predicts well
+    need not be the one whose free simulation comes nearest to the recording.
     """
-    if fit.kalman_gain is None or isinstance(window, str) or len(recording.runs) > 1:
+    if fit.kalman_gain is None:
         return []
+    free = replace(data, driven=False, memory=0, filter=None)
     try:
-        solution = Identification(fit.model, recording, window).solve(
-            start=dict(fit.values), max_iterations=MOST_ITERATIONS
-        )
+        # Prediction corrects the state: a free run begins where a fit of its state alone ends.
+        begin = Fitter(fit.model, free, fixed=tuple(fit.values)).fit(fit.values, fit.initial, fit.process, errors=False)
+        found = Fitter(fit.model, free).fit(fit.values, begin.initial, fit.process, MOST_ITERATIONS, errors=False)
     except SymidError:
         return []
-    return [with_values(fit, solution.values)] if solution.solved else []
+    return [with_values(fit, found.values)]
 
 
 def free_runs(

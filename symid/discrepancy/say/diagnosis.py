@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib import import_module
@@ -15,6 +16,7 @@ import numpy as np
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.prove.evidence import Evidence
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.held_out import Proof
 from symid.estimation.fit import Fit
@@ -267,3 +269,33 @@ class Diagnosis:
 
 def _value(value: float, error: float) -> dict[str, float | None]:
     return {"value": value, "std_error": error if isfinite(error) else None}
+
+
+def finding(
+    verdict: str,
+    effects: tuple[Effect, ...],
+    equivalent: tuple[Hypothesis, ...],
+    ranking: Sequence[Hypothesis],
+    base: Fit,
+    evidence: Evidence,
+    audit: Audit,
+    text: str,
+) -> Diagnosis:
+    """The finding, from what was judged and the evidence on which it rests."""
+    e = evidence
+    return Diagnosis(
+        verdict,
+        effects,
+        tuple(ranking),
+        equivalent,
+        base,
+        e.found.fit,
+        e.runs,
+        tuple(e.left),
+        text,
+        audit,
+        e.survived,
+        e.halves,
+        e.proof,
+        e.chance,
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -10,18 +10,18 @@ from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.explore import moment_profile
+from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
+from symid.discrepancy.prove.evidence import Evidence
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import sentence
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
 
-RIVALS = 3
-"""So many suspects are compared with the finding on each half."""
 
-
-def judge(found: Hypothesis, likes: list[Hypothesis], left: list[Test], flexible: Callable[[], Hypothesis]):
+def judge(evidence: Evidence, search: Search):
     """Verdict, effects and equivalent hypotheses."""
+    found, left, flexible, likes = evidence.found, evidence.left, search.flexible, search.equivalents(evidence.found)
     effects = tuple(_effect(s, found) for s in found.suspects)
     rest = _located(left) if left and left[0].minus_log10_p > POLICY.remainder else None
     equivalent = tuple(likes)
@@ -54,20 +54,13 @@ def _voted(flexible: Hypothesis, effect: Effect, rest: Test | None) -> str:
     return max(votes, key=votes.count)
 
 
-def _unknown(place: str, left: list[Test], rest: Test | None, found: Hypothesis) -> Effect:
+def _unknown(place: str, left: Sequence[Test], rest: Test | None, found: Hypothesis) -> Effect:
     seen = next((t for t in left if t.locates and t.place == place), rest)
     what = seen.what if rest else "something that only several of the known effects together imitate"
     return Effect("unknown", place, {}, None, rest.log_ratio if rest else found.score, what, established=False)
 
 
-def rivals(found: Hypothesis, ranking: list[Hypothesis]) -> list[Suspect]:
-    """The best named suspects that were not chosen."""
-    return [
-        c.suspect for c in ranking if c.suspect.established and c.suspect.term not in {s.term for s in found.suspects}
-    ][:RIVALS]
-
-
-def _located(left: list[Test]) -> Test:
+def _located(left: Sequence[Test]) -> Test:
     """The test that tells where a remainder acts: whiteness is a good alarm and a poor locator."""
     places = [t for t in left if t.locates and t.minus_log10_p > POLICY.located]
     return places[0] if places else left[0]

@@ -10,10 +10,13 @@ import numpy as np
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.prove.evidence import Evidence
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import law_name, place_name
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
 from symid.estimation.zero_phase import ZeroPhase
 from symid.identification.fit import common_unit, rms_text
@@ -49,17 +52,50 @@ class Story:
     effects: tuple[Effect, ...]
     equivalent: tuple[Hypothesis, ...]
     ranking: Sequence[Hypothesis]
-    left: Sequence[Test]
-    runs: Mapping[str, FreeRun]
+    evidence: Evidence
     audit: Audit
-    survived: tuple[Survival, ...]
-    halves: tuple[HalfVerdict, ...]
-    white: bool
-    driven: bool
-    filter: ZeroPhase | None
-    model: Model
-    proof: Proof | None
-    chance: float | None
+    base: Fit
+    data: Data
+
+    @property
+    def left(self) -> Sequence[Test]:
+        return self.evidence.left
+
+    @property
+    def runs(self) -> Mapping[str, FreeRun]:
+        return self.evidence.runs
+
+    @property
+    def survived(self) -> tuple[Survival, ...]:
+        return self.evidence.survived
+
+    @property
+    def halves(self) -> tuple[HalfVerdict, ...]:
+        return self.evidence.halves
+
+    @property
+    def white(self) -> bool:
+        return self.evidence.white
+
+    @property
+    def proof(self) -> Proof | None:
+        return self.evidence.proof
+
+    @property
+    def chance(self) -> float | None:
+        return self.evidence.chance
+
+    @property
+    def driven(self) -> bool:
+        return self.base.kalman_gain is not None
+
+    @property
+    def filter(self) -> ZeroPhase | None:
+        return self.data.filter
+
+    @property
+    def model(self) -> Model:
+        return self.base.model
 
     def error(self, value: float) -> str:
         """An error of the outputs with their unit, where they share one."""

@@ -1,0 +1,100 @@
+"""What speaks for a finding and against it: its errors, chance, either half of the recording, held-out data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from symid.discrepancy.locate.remainder import Test
+from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.name.search import Search
+from symid.discrepancy.policy import POLICY
+from symid.discrepancy.prove.certain import beyond_chance, honest
+from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
+from symid.discrepancy.prove.held_out import Proof, compare
+from symid.discrepancy.prove.nulls import null_maxima
+from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_values
+from symid.discrepancy.task import Task
+from symid.estimation.data import Data, segments_of
+from symid.estimation.free_run import FreeRun
+
+RIVALS = 3
+"""So many suspects are compared with the finding on each half."""
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What became of a finding when it was put to the test.
+
+    Attributes
+    ----------
+    found : what the tests left of it. left : tests for something left over, the least probable first.
+    white : whether what is left is random. chance : probability that chance makes as much, None where unknown.
+    survived : each lasting effect on two halves. halves : what either half alone says, if what is left is not random.
+    runs : free simulations by ``baseline_train``, ``augmented_heldout`` and so on. proof : of the held-out data.
+    """
+
+    found: Hypothesis
+    left: Sequence[Test]
+    white: bool
+    chance: float | None
+    survived: tuple[Survival, ...]
+    halves: tuple[HalfVerdict, ...]
+    runs: dict[str, FreeRun]
+    proof: Proof | None
+
+
+def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], task: Task, plain: Data) -> Evidence:
+    """Put a finding to every test; effects that do not stand them are left out.
+
+    Parameters
+    ----------
+    ranking : each suspect alone, best first. plain : the recording as it is, of which errors are told.
+    """
+    base, data = search.base, search.data
+    left = search.remainder(found)
+    white = all(t.locates or t.minus_log10_p <= POLICY.remainder for t in left)
+    before, found = found.suspects, honest(found, white, search.threads)
+    found, chance = beyond_chance(found, null_maxima(search.projection, found.fit), ranking, white)
+    if found.suspects != before:
+        left = search.remainder(found)
+    runs = _runs(found, base, task, plain)
+    return Evidence(
+        found,
+        left,
+        white,
+        chance,
+        survivals(found.suspects, found.fit, base, data, white),
+        () if white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking)),
+        runs,
+        compare(runs["baseline_heldout"], runs["augmented_heldout"]) if _can_prove(found, runs) else None,
+    )
+
+
+def rivals(found: Hypothesis, ranking: Sequence[Hypothesis]) -> list:
+    """The best named suspects that were not chosen."""
+    taken = {s.term for s in found.suspects}
+    return [c.suspect for c in ranking if c.suspect.established and c.suspect.term not in taken][:RIVALS]
+
+
+def _can_prove(found: Hypothesis, runs: dict[str, FreeRun]) -> bool:
+    return "augmented_heldout" in runs and bool(found.suspects)
+
+
+def _runs(found: Hypothesis, base, task: Task, plain: Data) -> dict[str, FreeRun]:
+    """Free runs of the strongest fits of the model as given and of the improved one."""
+    given, better = [base], [found.fit]
+    if task.values:
+        given.append(with_values(base, task.values))
+    # Segments that were set apart are judged whole, and so are those that were fitted.
+    windows = {
+        key: plain.with_segments(
+            segments_of(task.model, task.recording, w, None if isinstance(w, str) else task.segment_length)
+        )
+        for key, w in (("train", task.fit_window), ("heldout", task.held_out))
+        if w is not None
+    }
+    if found.suspects and task.held_out is not None:
+        given += output_error_fit(base, windows["train"])
+        better += output_error_fit(found.fit, windows["train"])
+    return free_runs(given, better, windows, task.settling)
