@@ -1,11 +1,32 @@
 """Systems whose 95 % intervals are counted: name -> a function of a seed that gives (identification, truth by name)."""
 
 import numpy as np
-from error_systems import free_motion, integrator, oscillator, spring, spring_with_sensor
+from error_systems import NOISE, free_motion, integrator, oscillator, spring, spring_with_sensor
 
 import symid as si
 from symid.mechanics import FullStatePD
+from symid.simulation import simulator
+from symid.simulation import simulator
+from symid.simulation import simulator
 from symid.synthetic import BODY, GAINS, standing_recording
+
+
+ALGEBRAIC = np.array([[1e6, 3.0], [3.0, 1e-4]])
+"""Covariance of the noise of the two channels of `algebraic`."""
+SENSOR = 3e-3
+"""Noise of the angles of the standing person [rad]."""
+
+
+ALGEBRAIC = np.array([[1e6, 3.0], [3.0, 1e-4]])
+"""Covariance of the noise of the two channels of `algebraic`."""
+SENSOR = 3e-3
+"""Noise of the angles of the standing person [rad]."""
+
+
+ALGEBRAIC = np.array([[1e6, 3.0], [3.0, 1e-4]])
+"""Covariance of the noise of the two channels of `algebraic`."""
+SENSOR = 3e-3
+"""Noise of the angles of the standing person [rad]."""
 
 
 def of(make, **options):
@@ -57,7 +78,7 @@ def algebraic(seed):
     m.y = si.Output(m.a * m.u + m.c, unit="1", channel="y")
     m.z = si.Output(m.b * m.u**2 + m.c + m.rest, unit="1", channel="z")
     u = np.sin(time)
-    both = rng.multivariate_normal([0, 0], [[1e6, 3.0], [3.0, 1e-4]], len(time))
+    both = rng.multivariate_normal([0, 0], ALGEBRAIC, len(time))
     recording = si.Recording(
         "static",
         time,
@@ -111,7 +132,59 @@ SYSTEMS = {
     "two rates and noises": two_rates,
     "algebraic, channels together": algebraic,
     "segments, coloured noise": segments,
-    "standing, sensor noise": standing(30, torque_noise=0.0, sensor_noise=3e-3),
+    "standing, sensor noise": standing(30, torque_noise=0.0, sensor_noise=SENSOR),
     "standing, process noise": standing(60),
 }
-WHITE = tuple(SYSTEMS)[:8]
+WHITE = {
+    "integrator": [NOISE],
+    "integrator, 5001 samples": [NOISE],
+    "oscillator": [NOISE],
+    "oscillator, 5001 samples": [NOISE],
+    "Vyasarayani": [NOISE],
+    "offset and gain of sensors": [[NOISE, 4 * NOISE]],
+    "two rates and noises": [0.0125, NOISE],
+    "algebraic, channels together": [ALGEBRAIC],
+    "standing, sensor noise": [SENSOR],
+}
+"""Systems with white noise -> for each recording its standard deviation (one, or of each output) or its covariance."""
+
+
+def expected_errors(solution: si.Solution, noise: list) -> dict[str, float]:
+    """Standard errors of least squares weighted by the variances of white noise, from the simulator's sensitivities.
+
+    The simulator shares no formula with the collocation whose standard errors are judged by it. Its
+    motion begins at the solution, whose distance from the truth is of second order here.
+    """
+    p, names = solution.problem, list(solution.values)
+    loop, slopes, covariances = simulator(p.model), [], []
+    for r, (recording, frame, given) in enumerate(zip(p.recordings, solution.trajectories, noise, strict=True)):
+        run = loop.simulate(
+            solution.values,
+            frame[list(p.model.states)].iloc[0].to_numpy(),
+            recording.time,
+            {u: recording[x.channel] for u, x in p.model.inputs.items()},
+            sensitivity=names,
+            initial_sensitivity=list(p.model.states),
+            substeps=4,
+        )
+        own = run.dy[..., len(names) :]
+        block = np.zeros((*run.dy.shape[:2], len(names) + own.shape[2] * len(noise)))
+        block[..., : len(names)], first = run.dy[..., : len(names)], len(names) + own.shape[2] * r
+        block[..., first : first + own.shape[2]] = own
+        slopes.append(block)
+        m = block.shape[1]
+        covariances.append(given if np.ndim(given) == 2 else np.diag(np.broadcast_to(given, m) ** 2.0))
+    return dict(zip(names, sandwich_errors(slopes, covariances), strict=False))
+
+
+def sandwich_errors(slopes: list[np.ndarray], covariances: list[np.ndarray]) -> np.ndarray:
+    """Of an estimate weighted by the variances alone: by recording, slopes (samples, m, unknowns), covariance (m, m)."""
+    size = np.sqrt(sum(np.sum(x**2, axis=(0, 1)) for x in slopes))
+    curvature = spread = 0.0
+    for x, c in zip(slopes, covariances, strict=True):
+        x = x / size / np.sqrt(np.diag(c))[:, None]
+        curvature = curvature + np.einsum("kiq,kip->qp", x, x)
+        alike = c / np.sqrt(np.outer(np.diag(c), np.diag(c)))
+        spread = spread + np.einsum("kiq,ij,kjp->qp", x, alike, x)
+    inverse = np.linalg.inv(curvature)
+    return np.sqrt(np.diag(inverse @ spread @ inverse)) / size
