@@ -6,21 +6,7 @@ from error_systems import NOISE, free_motion, integrator, oscillator, spring, sp
 import symid as si
 from symid.mechanics import FullStatePD
 from symid.simulation import simulator
-from symid.simulation import simulator
-from symid.simulation import simulator
 from symid.synthetic import BODY, GAINS, standing_recording
-
-
-ALGEBRAIC = np.array([[1e6, 3.0], [3.0, 1e-4]])
-"""Covariance of the noise of the two channels of `algebraic`."""
-SENSOR = 3e-3
-"""Noise of the angles of the standing person [rad]."""
-
-
-ALGEBRAIC = np.array([[1e6, 3.0], [3.0, 1e-4]])
-"""Covariance of the noise of the two channels of `algebraic`."""
-SENSOR = 3e-3
-"""Noise of the angles of the standing person [rad]."""
 
 
 ALGEBRAIC = np.array([[1e6, 3.0], [3.0, 1e-4]])
@@ -178,7 +164,7 @@ def expected_errors(solution: si.Solution, noise: list) -> dict[str, float]:
 
 
 def sandwich_errors(slopes: list[np.ndarray], covariances: list[np.ndarray]) -> np.ndarray:
-    """Of an estimate weighted by the variances alone: by recording, slopes (samples, m, unknowns), covariance (m, m)."""
+    """Of an estimate weighted by variances alone: by recording, slopes (samples, m, unknowns), covariance (m, m)."""
     size = np.sqrt(sum(np.sum(x**2, axis=(0, 1)) for x in slopes))
     curvature = spread = 0.0
     for x, c in zip(slopes, covariances, strict=True):

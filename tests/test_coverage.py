@@ -11,28 +11,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from coverage_systems import SYSTEMS, WHITE, expected_errors, expected_errors
+from coverage_systems import SYSTEMS, WHITE, expected_errors
 
 NORMAL = 1.96
-
-
-def repeat(name: str, seed: int) -> dict:
-    """One identification: error and standard error of each parameter, what the latter should be, the error model."""
-    problem, truth = SYSTEMS[name](seed)
-    begin = truth | {n: 1.0 for n in problem.model.parameters if n not in truth}  # no study of starts
-    solution = problem.solve(start=begin, check=False)
-    assert solution.solved, solution.message
-    table = solution.parameters.loc[[n for n in solution.values if n in truth]]
-    expected = expected_errors(solution, WHITE[name]) if name in WHITE else {}
-    return {
-        "name": name,
-        "seed": seed,
-        "parameters": list(table.index),
-        "error": list(table["value"] - [truth[n] for n in table.index]),
-        "std_error": list(table["std_error"]),
-        "expected": [expected.get(n, np.nan) for n in table.index],
-        "coloured": solution.errors.model == "coloured",
-    }
 
 
 def repeat(name: str, seed: int) -> dict:

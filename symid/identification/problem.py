@@ -29,6 +29,9 @@ from symid.model import Model
 from symid.nlp import NonlinearProgram, with_ridge
 from symid.transcription import Episodes, Midpoint, Scheme, Transcription, measure, transcribe
 
+NEAR = {"mu_strategy": "monotone", "mu_init": 1e-4, "bound_push": 1e-6, "bound_frac": 1e-6}
+"""Options of Ipopt for a start close to an optimum: no barrier drives it from bounds that are near, such as a level of
+zero, or into another optimum."""
 DELAY_OPTIONS = {"mumps_pivot_order": 2}
 """Late signals are tied to a window of nodes: an eighth of the time with MUMPS's ordering AMF."""
 
@@ -212,6 +215,7 @@ class Identification:
         warm_start: SolverResult | None = None,
         dual_limit: float = np.inf,
         kept: Mapping[str, float] | None = None,
+        near: bool = False,
         **solver: Any,
     ) -> SolverResult:
         """Run Ipopt from one free vector; `solver` goes to `symid.ipopt_solver.solve_nlp`.
@@ -220,9 +224,10 @@ class Identification:
             lead to an unstable loop the multipliers grow without end, and each factorisation takes
             longer than all before it.
         kept : free parameters that stay at a value [SI], by name.
+        near : whether an optimum is close to the start, and meant: the solver goes there by small steps.
         """
-        if self.model.delays:
-            solver["options"] = DELAY_OPTIONS | (solver.get("options") or {})
+        usual = (DELAY_OPTIONS if self.model.delays else {}) | (NEAR if near else {})
+        solver["options"] = usual | (solver.get("options") or {})
 
         def watch(iteration: Iteration) -> bool | None:
             told = None if on_iteration is None else on_iteration(iteration)

@@ -91,7 +91,7 @@ def mesh_error(solution: Solution) -> pd.DataFrame | None:
 
     finer = replace(solution.problem, refine=2 * solution.problem.refine)
     try:
-        result = finer.solve_from(finer.start(solution), max_iterations=50, options=BESIDE_OPTIMUM)
+        result = finer.solve_from(finer.start(solution), near=True, max_iterations=50)
     except SymidError:
         return None
     if not result.solved:

@@ -30,6 +30,8 @@ RESOLUTION = 1e-6
 SETTLED = 1e-4
 """Relative change of the estimated noise at which the turns end: of no weight beside a standard error."""
 TURNS = 20
+LOST = 1.0 + 1e-6
+"""Objective of a turn's end over that of its start above which it has left the optimum; the rest is tolerance."""
 TIGHT = 1e-9
 """Ipopt's tolerance: a channel of much noise has a small share of an objective that a clear one makes steep."""
 UNKNOWN = 0.01
@@ -159,8 +161,9 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
         tables = [dict(zip(p.model.outputs, map(float, row), strict=True)) for row in noise]
         problem = replace(p, noise=tables)
         options = {"tol": TIGHT} | (solver.get("options") or {})
-        result = problem.solve_from(problem.start(solution.result.z), **solver | {"options": options})
-        if not result.solved:
+        z = problem.start(solution.result.z)
+        result = problem.solve_from(z, near=True, **solver | {"options": options})
+        if not result.solved or result.objective > LOST * problem.transcription.program.objective(z):
             break
         solution, old = replace(solution, problem=problem, result=result), noise
     return solution

@@ -45,8 +45,6 @@ class Outcome:
         return self.finished and not out_of_time
 
 
-NEAR = {"mu_strategy": "monotone", "mu_init": 1e-4, "bound_push": 1e-6, "bound_frac": 1e-6}
-"""Options of Ipopt for a start close to an optimum: no barrier drives it from near bounds, such as a level of zero."""
 LOST, TRACE = 1.2, 1e-9
 """An end whose objective is so much larger than that of a start by simulation has lost it; a start with no more than
 that part of the objective's scale is the recorded motion itself, whose objective says nothing."""
@@ -58,8 +56,7 @@ def _kept_near(solve: Solve, z: np.ndarray, result: SolverResult, on_iteration) 
     before = nlp.objective(z) if isinstance(solve.start, str) and solve.start == "default" else 0.0
     if before <= TRACE * nlp.objective_scale or (result.solved and result.objective <= LOST * before):
         return result
-    options = dict(solve.options) | {"options": NEAR | (solve.options.get("options") or {})}
-    again = solve.problem.solve_from(z, on_iteration=on_iteration, **options)
+    again = solve.problem.solve_from(z, on_iteration=on_iteration, near=True, **solve.options)
     return again if again.solved and (not result.solved or again.objective < result.objective) else result
 
 
