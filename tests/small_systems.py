@@ -407,7 +407,7 @@ def michaelis_menten(rng) -> System:
     m = si.Model("Michaelis-Menten reactor")
     m.substrate = si.State(unit="1", bounds=(0, 1e3))
     m.product = si.State(unit="1", bounds=(0, 1e3))
-    m.feed = si.Input(unit="1/s")
+    m.feed = si.Input(unit="1/s", hold="linear")
     m.fastest = si.Parameter(unit="1/s", bounds=(0, 50))
     m.half = si.Parameter(unit="1", bounds=(1e-3, 100))
     m.decay = si.Parameter(unit="1/s", bounds=(0, 10))

@@ -48,16 +48,20 @@ class Outcome:
 LOST, TRACE = 1.2, 1e-9
 """An end whose objective is so much larger than that of a start by simulation has lost it; a start with no more than
 that part of the objective's scale is the recorded motion itself, whose objective says nothing."""
+FEW = 40
+"""Iterations in which a start by simulation leads to the optimum that it is close to, or to none."""
 
 
-def _kept_near(solve: Solve, z: np.ndarray, result: SolverResult, on_iteration) -> SolverResult:
-    """`result`, or a better one by small steps from `z` where the solver left a default start that was better."""
-    nlp = solve.problem.nonlinear_program(z)
+def _solved(solve: Solve, z: np.ndarray, on_iteration) -> SolverResult:
+    """From `z`: by small steps where it is a default start found by simulation, and as usual where these lose it."""
+    nlp, options, ends = solve.problem.nonlinear_program(z), dict(solve.options), []
     before = nlp.objective(z) if isinstance(solve.start, str) and solve.start == "default" else 0.0
-    if before <= TRACE * nlp.objective_scale or (result.solved and result.objective <= LOST * before):
-        return result
-    again = solve.problem.solve_from(z, on_iteration=on_iteration, near=True, **solve.options)
-    return again if again.solved and (not result.solved or again.objective < result.objective) else result
+    if before > TRACE * nlp.objective_scale:
+        few = options | {"max_iterations": min(FEW, options.get("max_iterations", FEW))}
+        ends.append(solve.problem.solve_from(z, on_iteration=on_iteration, near=True, **few))
+    if not ends or not ends[0].solved or ends[0].objective > LOST * before:
+        ends.append(solve.problem.solve_from(z, on_iteration=on_iteration, **options))
+    return min(reversed(ends), key=lambda end: (not end.solved, end.objective if end.solved else 0.0))
 
 
 def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | None = None) -> Outcome:
@@ -72,9 +76,7 @@ def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | 
         with deadline(limit):
             z = solve.problem.start(solve.start, solve.seed, solve.number)
             at_start = time.perf_counter() - began
-            result = _kept_near(
-                solve, z, solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options), on_iteration
-            )
+            result = _solved(solve, z, on_iteration)
     except TimeUp as late:
         made = _without_result(OUT_OF_TIME, solve, f"no start was found within {limit:g} s: {late}")
         return replace(made, row=replace(made.row, seconds=limit))
