@@ -22,6 +22,11 @@ GAINS = (0.7, 0.3, 0.1, 0.03)
 """Shares of the output error by which a simulation is led back to the recording at each sample, one fit after the other
 (homotopy: Vyasarayani, Uchida & McPhee 2012). Led strongly, no model runs away from the recording, and what is fitted
 is nearly the equation error, which has one optimum; led by nothing it is the output error."""
+FINE_GAINS = (0.7, 0.3, 0.1, 0.06, 0.03, 0.02, 0.01, 0.006, 0.003, 0.002, 0.001, 0.0)
+"""The same in smaller steps: the optimum moves less from one to the next. From 0.03 to nothing at once, a pendulum that
+turns over, a Lorenz and a Duffing system lose it."""
+RUNAWAY = 4.0
+"""Cost over the least of the gains before, at which the optimum has been lost."""
 DRAWS, BEST, PATIENCE = 24, 4, 60
 """Random parameters tried where states are hidden, how many of all fits with the strongest gain go on, and the
 evaluations that each may take from there."""
@@ -37,14 +42,9 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarra
     single recordings or the model has no states, or controls or algebraic variables, where from every candidate the
     first simulation errs by more than the recorded outputs vary, or where an episode cannot be simulated.
     """
-    if (
-        len(t.layout.parameter_names) != len(t.model.parameters)
-        or not t.layout.n
-        or t.layout.beside_names
-        or t.layout.own_names
-    ):
+    if not can_shoot(t):
         return None
-    shooting = _Shooting(t)
+    shooting = Shooting(t)
     starts = [shooting.unknowns(c) for c in candidates]
     ends = [shooting.fit(z) for z in starts if shooting.follows(z)]
     if not agree([end.cost for end in ends], len(starts)) or shooting.hidden:
@@ -58,12 +58,18 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarra
     return (found * shooting.scale)[: len(t.layout.parameter_names)], [run.x for run in runs]
 
 
+def can_shoot(t: Transcription) -> bool:
+    """Whether all parameters are shared, and states are all that is unknown over time."""
+    shared = len(t.layout.parameter_names) == len(t.model.parameters)
+    return bool(shared and t.layout.n and not t.layout.beside_names and not t.layout.own_names)
+
+
 def agree(costs: Sequence[float], count: int) -> bool:
     """Whether all of `count` fits ended, with like costs."""
     return len(costs) == count and max(costs) <= ALIKE * min(costs)
 
 
-class _Shooting:
+class Shooting:
     """Output error as a function of z: scaled parameters, then the initial state of each recording."""
 
     def __init__(self, t: Transcription):
@@ -103,6 +109,49 @@ class _Shooting:
         for gain in (*GAINS[1:], 0.0):
             ends = [self.fit(end.x, gain, PATIENCE) for end in ends]
         return [end for end in ends if self.follows(end.x)]
+
+    def tracked(self, starts: Sequence[np.ndarray]) -> list[tuple[np.ndarray, list[np.ndarray]]]:
+        """Parameters and states of every episode, led as weakly as the optimum is not lost; nothing where it is never.
+
+        States that jump a little at the samples are a start of a collocation where simulations alone lose the
+        recording, as those of chaotic systems do.
+        """
+        draws = [self.drawn(k) for k in range(DRAWS)] if self.hidden else []
+        ends = sorted((self.fit(z, FINE_GAINS[0], PATIENCE) for z in (*starts, *draws)), key=lambda end: end.cost)
+        found = []
+        for end in ends[: BEST if self.hidden else 1]:
+            least, gain = end.cost, FINE_GAINS[0]
+            for weaker in FINE_GAINS[1:]:
+                further = self.fit(end.x, weaker, PATIENCE)
+                if further.cost > RUNAWAY * least:
+                    break
+                end, gain, least = further, weaker, min(least, further.cost)
+            found.append(self._ended(end.x, gain))
+        return [f for f in found if f is not None]
+
+    def _ended(self, z: np.ndarray, gain: float) -> tuple[np.ndarray, list[np.ndarray]] | None:
+        self.gain = gain
+        try:
+            runs = [self.run(z, r) for r in self.t.recording_of]
+        finally:
+            self.gain = 0.0
+        if any(run.diverged for run in runs):
+            return None
+        return (z * self.scale)[: self.q], [run.x for run in runs]
+
+    def led_error(self, z: np.ndarray, gain: float) -> float:
+        """Root of the sum of squared errors of simulations that are led by `gain`."""
+        self.gain = gain
+        try:
+            return float(np.linalg.norm(self.residual(z)))
+        finally:
+            self.gain = 0.0
+
+    def of_solution(self, free: np.ndarray) -> np.ndarray:
+        """z of a free vector's parameters and initial states."""
+        layout = self.t.layout
+        first = [layout.states(free, self.t.recording_of.index(r))[0] for r in range(len(self.t.measured))]
+        return np.concatenate([layout.parameters(free), *first]) / self.scale
 
     def drawn(self, number: int) -> np.ndarray:
         """z of random parameters within their bounds, over four decades where these do not change sign."""

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from symid.deadline import TimeUp, deadline
 from symid.errors import MachineError, SymidError
 from symid.identification.start_row import StartRow
+from symid.identification.starts.further import far, further_starts
 from symid.ipopt_solver import Iteration, SolverResult
 from symid.ipopt_solver.bounded import LEAVE
 from symid.ipopt_solver.status import STATUS, WALL_TIME
@@ -48,20 +49,49 @@ class Outcome:
 LOST, TRACE = 1.2, 1e-9
 """An end whose objective is so much larger than that of a start by simulation has lost it; a start with no more than
 that part of the objective's scale is the recorded motion itself, whose objective says nothing."""
-FEW = 40
-"""Iterations in which a start by simulation leads to the optimum that it is close to, or to none."""
+FEW, MANY = 40, 200
+"""Iterations in which a start by simulation leads to the optimum that it is close to, or to none; and a further one."""
 
 
 def _solved(solve: Solve, z: np.ndarray, on_iteration) -> SolverResult:
-    """From `z`: by small steps where it is a default start found by simulation, and as usual where these lose it."""
-    nlp, options, ends = solve.problem.nonlinear_program(z), dict(solve.options), []
-    before = nlp.objective(z) if isinstance(solve.start, str) and solve.start == "default" else 0.0
-    if before > TRACE * nlp.objective_scale:
-        few = options | {"max_iterations": min(FEW, options.get("max_iterations", FEW))}
-        ends.append(solve.problem.solve_from(z, on_iteration=on_iteration, near=True, **few))
-    if not ends or not ends[0].solved or ends[0].objective > LOST * before:
-        ends.append(solve.problem.solve_from(z, on_iteration=on_iteration, **options))
-    return min(reversed(ends), key=lambda end: (not end.solved, end.objective if end.solved else 0.0))
+    """From `z`, and where that is a default start that ends far above a smoother, from further ones: the best end."""
+    problem, t = solve.problem, solve.problem.transcription
+    if not isinstance(solve.start, str) or solve.start != "default":
+        return problem.solve_from(z, on_iteration=on_iteration, **solve.options)
+    best = _from_simulation(problem, z, on_iteration, solve.options)
+    if problem.episodes.count > 1 or (best.solved and not far(t, best.z)):
+        return best
+    options = dict(solve.options) | {"max_iterations": min(MANY, solve.options.get("max_iterations", MANY))}
+    try:
+        for further, simulated in further_starts(t, best.z):
+            run = _from_simulation if simulated else _as_usual
+            best = _better(best, run(problem, further, on_iteration, options))
+            if best.solved and not far(t, best.z):
+                break
+    except SymidError:  # also that time is up
+        pass
+    return best
+
+
+def _as_usual(problem: Identification, z: np.ndarray, on_iteration, options: dict) -> SolverResult:
+    return problem.solve_from(z, on_iteration=on_iteration, **options)
+
+
+def _from_simulation(problem: Identification, z: np.ndarray, on_iteration, options: dict) -> SolverResult:
+    """By small steps from a start found by simulation, and as usual where these lose it."""
+    nlp = problem.nonlinear_program(z)
+    before = nlp.objective(z)
+    if before <= TRACE * nlp.objective_scale:
+        return _as_usual(problem, z, on_iteration, options)
+    few = options | {"max_iterations": min(FEW, options.get("max_iterations", FEW))}
+    end = problem.solve_from(z, on_iteration=on_iteration, near=True, **few)
+    if end.solved and end.objective <= LOST * before:
+        return end
+    return _better(_as_usual(problem, z, on_iteration, options), end)
+
+
+def _better(one: SolverResult, other: SolverResult) -> SolverResult:
+    return other if other.solved and (not one.solved or other.objective < one.objective) else one
 
 
 def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | None = None) -> Outcome:

@@ -53,6 +53,24 @@ def smooth_curves(values: FloatArray, step: float) -> FloatArray:
     return size * _spline(values / size, _smoothing_weight([values / size], None), step)
 
 
+def left_by_smoother(values: FloatArray) -> FloatArray:
+    """Standard deviation of the white noise in each column of values, shape(N, m), that cross-validation sees.
+
+    The residual's sum of squares over the trace of one minus the smoother (Wahba 1990, section 4.7). Noise with a
+    memory is taken for motion: what is left of it is less.
+    """
+    return np.array([_noise_of(column) for column in values.T])
+
+
+def _noise_of(values: FloatArray) -> float:
+    if values.size < 5 or not np.ptp(values) > 0:
+        return 0.0
+    size = float(np.std(values))
+    bend, power = _spectrum([values / size])
+    gain = 1 / (1 + _smoothing_weight([values / size], None) * bend)
+    return size * float(np.sqrt(np.sum((1 - gain) ** 2 * power) / np.sum(1 - gain)))
+
+
 def _smoothed(recording: Recording, channel: str, noise: float | None) -> Recording:
     values = recording[channel]
     step = recording.even_step("smooth_states")
@@ -90,16 +108,9 @@ def _smoothing_weight(pieces: list[FloatArray], noise: float | None) -> float:
     Chosen in the frequency domain, where a smoothing spline is a low-pass with the gain
     1 / (1 + weight w^4) (Garcia 2010): milliseconds where the exact trace takes seconds.
     """
-    from scipy.fft import dct
     from scipy.optimize import minimize_scalar
 
-    bends, powers = [], []
-    for piece in pieces:
-        # A straight line from end to end is free of bending; without it, what is left mirrors well.
-        rest = piece - np.linspace(piece[0], piece[-1], piece.size)
-        powers.append(dct(rest, type=2, norm="ortho") ** 2)
-        bends.append((2 - 2 * np.cos(np.pi * np.arange(piece.size) / piece.size)) ** 2)
-    bend, power = np.concatenate(bends), np.concatenate(powers)
+    bend, power = _spectrum(pieces)
 
     def risk(log_weight: float) -> float:
         gain = 1 / (1 + 10**log_weight * bend)
@@ -112,6 +123,19 @@ def _smoothing_weight(pieces: list[FloatArray], noise: float | None) -> float:
     start = grid[int(np.argmin([risk(point) for point in grid]))]
     best = minimize_scalar(risk, bounds=(start - 0.5, start + 0.5), method="bounded")
     return 10.0 ** float(best.x)
+
+
+def _spectrum(pieces: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """w^4 and power of each component of the pieces in the basis of cosines."""
+    from scipy.fft import dct
+
+    bends, powers = [], []
+    for piece in pieces:
+        # A straight line from end to end is free of bending; without it, what is left mirrors well.
+        rest = piece - np.linspace(piece[0], piece[-1], piece.size)
+        powers.append(dct(rest, type=2, norm="ortho") ** 2)
+        bends.append((2 - 2 * np.cos(np.pi * np.arange(piece.size) / piece.size)) ** 2)
+    return np.concatenate(bends), np.concatenate(powers)
 
 
 def _spline(values: FloatArray, weight: float, step: float) -> FloatArray:

@@ -1,0 +1,66 @@
+"""Further starts, where the solve from the usual one ends far above what a smoother leaves of the recording.
+
+Then another optimum may be better, or the motion has process noise, or the model lacks something. Where the problem is
+large, a look at simulations that are led along the recording tells the first from the others before more is solved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from symid.estimation.bounds import guesses
+from symid.estimation.shooting import Shooting, can_shoot
+from symid.identification.sensitivity import outputs_and_targets
+from symid.identification.starts.default import equation_error, smooth_motion
+from symid.recording.smooth import left_by_smoother
+from symid.threads import one_blas_thread
+from symid.transcription import Transcription
+
+FAR = 1.5
+"""Residual over what a smoother leaves, from which on other optima are looked for. The best fits of white noise have
+0.9 to 1.3; what a needless look costs is time."""
+NOTHING = 1e-3
+"""Residual, as a share of the channel's standard deviation, that is never far: without noise the mesh leaves it."""
+SMALL = 2000
+"""Samples up to which all further starts are tried at once: they take a second or less."""
+LED, PULLED = (0.3, 0.1), 1.2
+"""Gains with which simulations are led, and the ratio of their errors, with the solution's parameters to those with the
+regressed ones, from which on the solution is doubted. With process noise of standing it is 0.9 to 1.15 for the
+optimum of a right model, and 1.6 to 6 for wrong optima of the Lorenz and Duffing systems."""
+
+
+def excess(t: Transcription, z: np.ndarray) -> np.ndarray:
+    """(recordings, m) root mean square error of each output over what a free smoother leaves of its recording."""
+    left = np.array([left_by_smoother(m.targets[m.nodes]) for m in t.measured])
+    size = np.array([m.targets[m.nodes].std(axis=0) for m in t.measured])
+    pairs = dict(zip(t.recording_of, outputs_and_targets(t, z), strict=True))
+    rms = np.array([np.sqrt(np.nanmean((pairs[r][0] - pairs[r][1]) ** 2, axis=0)) for r in range(len(t.measured))])
+    return rms / np.maximum(np.maximum(left, NOTHING * size), np.finfo(float).tiny)
+
+
+def far(t: Transcription, z: np.ndarray) -> bool:
+    """Whether an output errs so much more than a smoother that another optimum may be better."""
+    return bool(np.any(excess(t, z) > FAR))
+
+
+@one_blas_thread
+def further_starts(t: Transcription, z: np.ndarray) -> Iterator[tuple[np.ndarray, bool]]:
+    """Free vectors from which a better end than `z` may be found, and whether they are simulations (led ones)."""
+    motion = smooth_motion(t)
+    regressed = equation_error(t, guesses(t), motion)[0]
+    shooting = Shooting(t) if can_shoot(t) else None
+    large = sum(m.intervals for m in t.measured) > SMALL and shooting is not None and not shooting.hidden
+    if large and not _doubted(shooting, z, regressed):
+        return
+    yield t.start(regressed, motion), False
+    if shooting is not None:
+        for found in shooting.tracked([shooting.unknowns(regressed)]):
+            yield t.start(*found), True
+
+
+def _doubted(shooting: Shooting, z: np.ndarray, regressed: np.ndarray) -> bool:
+    """Whether simulations that are led along the recording follow it better with the regressed parameters."""
+    here, there = shooting.of_solution(z), shooting.unknowns(regressed)
+    return any(shooting.led_error(here, g) > PULLED * shooting.led_error(there, g) for g in LED)
