@@ -29,7 +29,7 @@ from symid.model import Model
 from symid.nlp import NonlinearProgram, with_ridge
 from symid.transcription import Episodes, Midpoint, Scheme, Transcription, measure, transcribe
 
-NEAR = {"mu_strategy": "monotone", "mu_init": 1e-8, "bound_push": 1e-9, "bound_frac": 1e-9}
+NEAR = {"mu_strategy": "monotone", "mu_init": 1e-11, "bound_push": 1e-11, "bound_frac": 1e-11}
 """Options of Ipopt for a start close to an optimum: no barrier drives it from bounds that are near, such as a level of
 zero, or into another optimum: of clear data the scaled objective is 1e-5 or less, which the barrier must not exceed."""
 DELAY_OPTIONS = {"mumps_pivot_order": 2}

@@ -174,14 +174,14 @@ class Solution:
 
         factor : by default as many as leave a tenth of a standard error of the mesh's error, at most 16, at least 2.
         """
-        from symid.identification.verify import BESIDE_OPTIMUM, FINE
-
         if factor is None:
+            from symid.identification.verify import FINE
+
             mesh = self.verification.mesh
             worst = 0.0 if mesh is None else mesh["std_errors"].abs().max()
             factor = int(np.clip(np.ceil((worst / FINE) ** (1 / self.problem.scheme.order)), 2, 16))
         finer = replace(self.problem, refine=factor * self.problem.refine)
-        return finer.solve(start=self, check=False, options=BESIDE_OPTIMUM)
+        return finer.solve(start=self, check=False, near=True)
 
     @cached_property
     def trajectories(self) -> tuple[pd.DataFrame, ...]:

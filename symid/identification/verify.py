@@ -28,8 +28,6 @@ ROUNDED = 1e-6
 DEPARTS = 0.01
 """Part of the recorded outputs' standard deviation by which an integrated motion may depart from the fitted one, or by
 as much as the fit errs."""
-BESIDE_OPTIMUM = {"mu_strategy": "monotone", "mu_init": 1e-11, "bound_push": 1e-11, "bound_frac": 1e-11}
-"""Options of Ipopt for a start that is an optimum of another mesh: the adaptive barrier would drive it away first."""
 PIECES, HALVINGS, AGREES = 8, 6, 1e-4
 """Of a sample interval into pieces, of which the integrator halves its steps until the outputs agree to that part of
 their standard deviation."""

@@ -162,7 +162,7 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
         problem = replace(p, noise=tables)
         options = {"tol": TIGHT} | (solver.get("options") or {})
         z = problem.start(solution.result.z)
-        result = problem.solve_from(z, near=True, **solver | {"options": options})
+        result = problem.solve_from(z, **solver | {"options": options, "near": True})
         if not result.solved or result.objective > LOST * problem.transcription.program.objective(z):
             break
         solution, old = replace(solution, problem=problem, result=result), noise
