@@ -7,6 +7,7 @@ Each function returns a figure that shows itself in a notebook and has matplotli
 from symid.plots.diagnosis import plot_before_after, plot_latent, plot_scores, plot_spectra
 from symid.plots.live import LivePlot
 from symid.plots.plan import plot_plan
+from symid.plots.rest import plot_rest
 from symid.plots.solution import (
     plot_fit,
     plot_inputs,
@@ -32,6 +33,7 @@ __all__ = [
     "plot_plan",
     "plot_poses",
     "plot_residual_spectra",
+    "plot_rest",
     "plot_scores",
     "plot_spectra",
     "plot_starts",

@@ -9,12 +9,13 @@ from symid.discrepancy.locate.latent import latent_torques
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import place_name
+from symid.discrepancy.say.rest import rest_words
 from symid.errors import RecordingError
 from symid.files import write_atomically
 from symid.identification.fit import common_unit, rms_text
 from symid.mechanics.laws import parameter_name
 from symid.model.show import latex_lines
-from symid.plots import plot_before_after, plot_latent, plot_scores, plot_spectra
+from symid.plots import plot_before_after, plot_latent, plot_rest, plot_scores, plot_spectra
 from symid.report.origin import CITATION, origin, written
 from symid.report.page import equations, facts, figure, folded, heading, page, paragraph, table
 from symid.units import quantity, split_column_name
@@ -25,6 +26,10 @@ MEANING = {
     "adequate": "nothing that this recording could show is missing",
     "unexplained": "something systematic is missing that no established effect explains",
 }
+REST = (
+    "The force that the model lacks, over what it follows and coloured by time, and the energy that it puts into the "
+    "motion (red) or takes out (blue), with two standard errors."
+)
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 MOST = 15
 """Suspects listed."""
@@ -62,6 +67,7 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
         figure(plot_before_after(d), f"Free simulations, {where}; errors below each."),
         heading("Where and when"),
         *_where(d),
+        *_rest(d),
         figure(plot_spectra(d), "At which frequencies the free run is wrong."),
         heading("Suspects"),
         *_suspects(d),
@@ -76,6 +82,11 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
         *map(paragraph, CITATION),
     ]
     return page(name, *parts, footer=written())
+
+
+def _rest(d: Diagnosis) -> list[str]:
+    """What has no name, in words and as a picture."""
+    return [] if d.rest is None else [*map(paragraph, rest_words(d.rest)), figure(plot_rest(d.rest), REST)]
 
 
 def effects_table(d: Diagnosis) -> str:

@@ -14,11 +14,16 @@ from symid.simulation import Simulator
 
 
 class Projection:
-    """The innovations of one fit with everything that its own unknowns could explain taken out."""
+    """The innovations of one fit with everything that its own unknowns could explain taken out.
 
-    def __init__(self, fit: Fit, data: Data):
+    Parameters
+    ----------
+    known : parameters that keep their values and explain nothing.
+    """
+
+    def __init__(self, fit: Fit, data: Data, known: Sequence[str] = ()):
         self.fit, self.data, self.bases = fit, data, []
-        fitter = Fitter(fit.model, data)
+        fitter = Fitter(fit.model, data, known)
         self.substeps = fitter.substeps
         runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.kalman_gain, sensitivities=True)
         self.outputs = len(data.sensor_noise)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from symid.discrepancy.locate.nameless import Nameless, improved, nameless
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.search import Search
@@ -16,6 +17,7 @@ from symid.discrepancy.prove.nulls import null_maxima
 from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_values
 from symid.discrepancy.task import Task
 from symid.estimation.data import Data, segments_of
+from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
 
 RIVALS = 3
@@ -31,6 +33,7 @@ class Evidence:
     found : what the tests left of it. left : tests for something left over, the least probable first.
     white : whether what is left is random. chance : probability that chance makes as much, None where unknown.
     survived : each lasting effect on two halves. halves : what either half alone says, if what is left is not random.
+    unnamed : what acts and has no name. final : the improved model, with the names or with a flexible law.
     runs : free simulations by ``baseline_train``, ``augmented_heldout`` and so on. proof : of the held-out data.
     """
 
@@ -42,6 +45,8 @@ class Evidence:
     halves: tuple[HalfVerdict, ...]
     runs: dict[str, FreeRun]
     proof: Proof | None
+    unnamed: Nameless
+    final: Fit
 
 
 def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], task: Task, plain: Data) -> Evidence:
@@ -58,7 +63,10 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
     found, chance = beyond_chance(found, null_maxima(search.projection, found.fit), ranking, white)
     if found.suspects != before:
         left = search.remainder(found)
-    runs = _runs(found, base, task, plain)
+    nameless_too = bool(left and left[0].minus_log10_p > POLICY.remainder) or not found.established
+    unnamed = nameless(found, data, search.progress) if nameless_too else Nameless()
+    final = improved(found, unnamed.flexible)
+    runs = _runs(final, base, task, plain)
     return Evidence(
         found,
         left,
@@ -67,7 +75,11 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
         survivals(found.suspects, found.fit, base, data, white),
         () if white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking)),
         runs,
-        compare(runs["baseline_heldout"], runs["augmented_heldout"]) if _can_prove(found, runs) else None,
+        compare(runs["baseline_heldout"], runs["augmented_heldout"])
+        if "augmented_heldout" in runs and final is not base
+        else None,
+        unnamed,
+        final,
     )
 
 
@@ -77,13 +89,9 @@ def rivals(found: Hypothesis, ranking: Sequence[Hypothesis]) -> list:
     return [c.suspect for c in ranking if c.suspect.established and c.suspect.term not in taken][:RIVALS]
 
 
-def _can_prove(found: Hypothesis, runs: dict[str, FreeRun]) -> bool:
-    return "augmented_heldout" in runs and bool(found.suspects)
-
-
-def _runs(found: Hypothesis, base, task: Task, plain: Data) -> dict[str, FreeRun]:
+def _runs(final: Fit, base: Fit, task: Task, plain: Data) -> dict[str, FreeRun]:
     """Free runs of the strongest fits of the model as given and of the improved one."""
-    given, better = [base], [found.fit]
+    given, better = [base], [final]
     if task.values:
         given.append(with_values(base, task.values))
     # Segments that were set apart are judged whole, and so are those that were fitted.
@@ -94,7 +102,7 @@ def _runs(found: Hypothesis, base, task: Task, plain: Data) -> dict[str, FreeRun
         for key, w in (("train", task.fit_window), ("heldout", task.held_out))
         if w is not None
     }
-    if found.suspects and task.held_out is not None:
+    if final is not base and task.held_out is not None:
         given += output_error_fit(base, windows["train"])
-        better += output_error_fit(found.fit, windows["train"])
+        better += output_error_fit(final, windows["train"])
     return free_runs(given, better, windows, task.settling)

@@ -14,7 +14,10 @@ from typing import Any
 import numpy as np
 
 from symid.discrepancy.locate.audit import Audit
+from symid.discrepancy.locate.flexible_law import FlexibleLaw
+from symid.discrepancy.locate.nameless import Nameless
 from symid.discrepancy.locate.remainder import Test
+from symid.discrepancy.locate.rest import Rest
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.prove.evidence import Evidence
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
@@ -65,6 +68,7 @@ class Diagnosis:
     audit : noise of the sensors, and whether the recording was filtered. halves : each effect on two halves;
     verdicts_of_halves : what either half alone says, where what is left is not random.
     proof : held-out errors before and after, compared; None without held-out data or effects.
+    unnamed : what acts and has no name: `rest`, `flexible`.
     false_alarm_probability : that chance alone makes the best suspect look as good as the weakest effect that was found
         (of an adequate model: as the best suspect); None where that cannot be told.
     """
@@ -83,6 +87,17 @@ class Diagnosis:
     verdicts_of_halves: tuple[HalfVerdict, ...] = ()
     proof: Proof | None = None
     false_alarm_probability: float | None = None
+    unnamed: Nameless = Nameless()
+
+    @property
+    def rest(self) -> Rest | None:
+        """What an unexplained recording lacks, as a force along its motion; None for any other verdict."""
+        return self.unnamed.rest
+
+    @property
+    def flexible(self) -> FlexibleLaw | None:
+        """The flexible law that stands for it, a fit of its own: ``flexible.model``, ``flexible.fit.values``."""
+        return self.unnamed.flexible
 
     @property
     def improved(self) -> Model:
@@ -142,6 +157,8 @@ class Diagnosis:
                 }
                 for t in self.remainder[:3]
             ],
+            "rest": None if self.rest is None else self.rest.table(),
+            "flexible_law": None if self.flexible is None else self.flexible.table(),
             "words": self.words,
         }
 
@@ -289,7 +306,7 @@ def finding(
         tuple(ranking),
         equivalent,
         base,
-        e.found.fit,
+        e.final,
         e.runs,
         tuple(e.left),
         text,
@@ -298,4 +315,5 @@ def finding(
         e.halves,
         e.proof,
         e.chance,
+        e.unnamed,
     )

@@ -15,6 +15,7 @@ from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import law_name, place_name
+from symid.discrepancy.say.rest import nameless_words
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
@@ -114,6 +115,7 @@ def words(story: Story) -> str:
     first = (losses, _finding(story)) if len(losses) and " not enough" in losses[0] else (_finding(story) + losses,)
     parts = (
         *first,
+        nameless_words(story.evidence.unnamed),
         _alike(story),
         _proof(story) + _rest(story),
         _halves(story) + _verdicts_of_halves(story),

@@ -1,0 +1,309 @@
+"""A law without a formula: a force given by splines over the states that matter, which the data choose."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from math import log
+
+import numpy as np
+
+from symid.discrepancy.locate.flexible import along, fitted_path
+from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.locate.probe import force_responses
+from symid.discrepancy.model.hypothesis import extended
+from symid.errors import SymidError
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit, Fitter
+from symid.estimation.independence import independent_share
+from symid.mechanics.places import other_signals, places, with_places
+from symid.mechanics.spline_law import Block, knots_of, spline_law
+from symid.model import Model, Port, Term
+
+KNOTS = 7
+"""Of one spline where parts are chosen."""
+FINER = (11, 16)
+"""Then finer ones are tried, as long as the evidence grows: precise sensors see more of a law than noisy ones."""
+TRIED = 2
+"""Places that are fitted completely."""
+MOST_PARTS = 3
+"""Of one flexible law."""
+DEPENDENT = 1e-9
+"""Directions of the unknowns along which the outputs' squares change so much less than along others do not count."""
+ITERATIONS = 30
+ROUNDS = 2
+"""So often parts are chosen anew, each time around the last fit: forecasts err where much is missing."""
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleLaw:
+    """A force that no formula describes, as a part of a fitted model.
+
+    Attributes
+    ----------
+    port : where it acts. blocks : its parts. term : the law at its place.
+    fit : of the model with it; base : of the model without. data : what both were fitted to.
+    """
+
+    port: Port
+    blocks: tuple[Block, ...]
+    term: Term
+    fit: Fit
+    base: Fit
+    data: Data
+
+    @property
+    def model(self) -> Model:
+        return self.fit.model
+
+    @property
+    def log_ratio(self) -> float:
+        """Growth of twice the log-likelihood."""
+        return self.fit.loglik2 - self.base.loglik2
+
+    @property
+    def evidence(self) -> float:
+        """The same of independent samples, less log N for each unknown."""
+        share = independent_share(self.fit.remaining)
+        return share * self.log_ratio - log(max(share * self.data.samples, 2.0)) * self.size
+
+    @property
+    def size(self) -> int:
+        return len(self.term.law.parameters)
+
+    @property
+    def signals(self) -> tuple:
+        """What the force follows: expressions of the states."""
+        return tuple(dict.fromkeys(s for b in self.blocks for s in b.signals))
+
+    def table(self) -> dict:
+        """The splines for a file: what each follows, its knots and its values there [SI]."""
+        values = dict(zip(names_of(self.term), self.coefficients(), strict=True))
+        parts = []
+        for b, block in enumerate(self.blocks):
+            own = [values.get(self.term.parameter_name(f"b{b}_{i}"), 0.0) for i in range(len(block.knots))]
+            parts.append(
+                {
+                    "along": str(block.along),
+                    "times": str(block.times),
+                    "knots": list(block.knots),
+                    "values": list(map(float, own)),
+                }
+            )
+        return {
+            "location": self.port.at,
+            "unit": self.port.unit,
+            "parts": parts,
+            "log_likelihood_ratio": self.log_ratio,
+        }
+
+    def shapes(self, path: np.ndarray) -> np.ndarray:
+        """(N, unknowns) what each unknown is multiplied by along states (N, n) of the model."""
+        return np.hstack([numbers(b, path, self.model) for b in self.blocks])
+
+    def coefficients(self) -> np.ndarray:
+        """(unknowns,) [SI]."""
+        return np.array([self.fit.values[k] for k in names_of(self.term)])
+
+    def force(self, path: np.ndarray) -> np.ndarray:
+        """(N,) the force [SI] at these states (N, n)."""
+        return self.shapes(path) @ self.coefficients()
+
+
+def flexible_law(
+    fits: Sequence[Fit], data: Data, progress: Callable[[str], None] = lambda text: None
+) -> FlexibleLaw | None:
+    """The best flexible law on top of any of these fits of nested models; None where none is worth its unknowns.
+
+    Places and parts are chosen by forecasts, the few best are fitted completely, and chosen anew around that fit.
+    """
+    found, fits = [], [placed(fit) for fit in fits]
+    for fit in fits:
+        projection = Projection(fit, data)
+        ranked = sorted((chosen_blocks(fit, data, p, projection) for p in places(fit.model)), key=lambda c: -c[0])
+        for worth, port, blocks in ranked[:TRIED]:
+            law = fitted(fit, data, port, blocks) if worth > 0 else None
+            found += [law] if law is not None else []
+    found.sort(key=lambda law: -_comparable(law, fits[0]))
+    if not found or _comparable(found[0], fits[0]) <= 0:
+        return None
+    progress(f"a flexible law at {found[0].port.at} is fitted")
+    return _refined(found[0], data)
+
+
+def placed(fit: Fit) -> Fit:
+    """The same fit, of the model with a place in every balance."""
+    model = with_places(fit.model)
+    return fit if len(model.ports) == len(fit.model.ports) else replace(fit, model=model)
+
+
+def _comparable(law: FlexibleLaw, first: Fit) -> float:
+    """Evidence beyond the first fit, whatever the law's own base has more unknowns than that."""
+    share = independent_share(law.fit.remaining)
+    more = law.size + len(law.base.values) - len(first.values)
+    return share * (law.fit.loglik2 - first.loglik2) - log(max(share * law.data.samples, 2.0)) * more
+
+
+def _refined(law: FlexibleLaw, data: Data) -> FlexibleLaw:
+    """The law with parts chosen anew around its own fit until none is better, then with more knots and fewer parts."""
+    for _ in range(ROUNDS):
+        _, _, blocks = chosen_blocks(law.base, data, law.port, around=law)
+        if len(blocks) == len(law.blocks) and all(_same(b, law.blocks) for b in blocks):
+            break
+        new = fitted(law.base, data, law.port, blocks)
+        if new is None or new.evidence <= law.evidence:
+            break
+        law = new
+    for count in FINER:
+        finer = [b for b in candidate_blocks(law.base, data, law.port, count) if _same(b, law.blocks)]
+        new = fitted(law.base, data, law.port, finer)
+        if new is None or new.evidence <= law.evidence:
+            break
+        law = new
+    return _pruned(law, data)
+
+
+def _pruned(law: FlexibleLaw, data: Data) -> FlexibleLaw:
+    """The law without the parts that are not worth their unknowns: a coarse spline of one may have needed another."""
+    while len(law.blocks) > 1:
+        fewer = [fitted(law.base, data, law.port, [b for b in law.blocks if b is not part]) for part in law.blocks]
+        best = max((f for f in fewer if f is not None), key=lambda f: f.evidence, default=None)
+        if best is None or best.evidence <= law.evidence:
+            break
+        law = best
+    return law
+
+
+def _same(block: Block, blocks: Sequence[Block]) -> bool:
+    return any((block.along, block.times) == (b.along, b.times) for b in blocks)
+
+
+def fitted(fit: Fit, data: Data, port: Port, blocks: Sequence[Block]) -> FlexibleLaw | None:
+    """The model of `fit` with a force made of these parts, all unknowns fitted; None where it cannot be."""
+    blocks = _pinned(blocks)
+    term = spline_law(fit.model, port, blocks).at(port.at)
+    try:
+        fitter = Fitter(fit.model.with_term(term), data)
+        new = fitter.fit(
+            fit.values | dict.fromkeys(names_of(term), 0.0), extended(fit.initial, fitter.sim), fit.process, ITERATIONS
+        )
+    except SymidError:
+        return None
+    return FlexibleLaw(port, blocks, term, new, fit, data)
+
+
+# ---- which parts -----------------------------------------------------------------------------
+def chosen_blocks(
+    fit: Fit, data: Data, port: Port, projection: Projection | None = None, around: FlexibleLaw | None = None
+) -> tuple[float, Port, tuple[Block, ...]]:
+    """Forecast worth of the best set of parts at a port, found by adding and leaving out.
+
+    Parameters
+    ----------
+    projection : of `fit`, made here where it is left out. around : a law at the port, around whose fit is forecast.
+    """
+    parts, here = candidate_blocks(fit, data, port), fit if around is None else around.fit
+    projection = projection or Projection(here, data, known=() if around is None else names_of(around.term))
+    path = fitted_path(here, data)
+    shapes = [numbers(b, path, fit.model) for b in parts]
+    columns = force_responses(projection, port, np.hstack(shapes))
+    if columns is None:
+        return -np.inf, port, ()
+    columns = np.split(columns, np.cumsum([s.shape[1] for s in shapes])[:-1], axis=1)
+    rest = projection.rest
+    if around is not None:
+        # What the law explains now, any set of parts has to explain in its place.
+        own = force_responses(projection, port, around.force(path)[:, None])
+        rest = rest + projection.project(own[:, 0])
+    forecast = _Forecast(projection, columns, rest)
+    best: tuple[int, ...] = ()
+    while True:
+        moves = [tuple(sorted({*best, i})) for i in range(len(parts)) if i not in best and len(best) < MOST_PARTS]
+        moves += [tuple(j for j in best if j != i) for i in best if len(best) > 1]
+        share = forecast.share(best)
+        better = max(moves, key=lambda chosen: forecast.worth(chosen, share), default=best)
+        share = forecast.share(max(better, best, key=len))
+        if forecast.worth(better, share) <= forecast.worth(best, share) + 1e-9:
+            return forecast.worth(best, forecast.share(best)), port, tuple(parts[i] for i in best)
+        best = better
+
+
+class _Forecast:
+    """What sets of parts would explain of the innovations `rest`, forecast from their responses."""
+
+    def __init__(self, projection: Projection, columns: list[np.ndarray], rest: np.ndarray):
+        self.rest, self.samples = rest, projection.data.samples
+        self.shapes = [e.recorded.shape for e in projection.data.segments]
+        a = projection.project(np.hstack(columns))
+        self.columns = a / (np.sqrt((a**2).sum(0)) + 1e-300)
+        self.gram, self.onto = self.columns.T @ self.columns, self.columns.T @ rest
+        ends = np.cumsum([c.shape[1] for c in columns])
+        self.where = [np.arange(end - c.shape[1], end) for c, end in zip(columns, ends, strict=True)]
+        self.total, self.shares = float(rest @ rest), {}
+
+    def explained(self, chosen: tuple[int, ...]) -> tuple[np.ndarray, np.ndarray, int]:
+        """Columns of some parts, their coefficients, and how many directions of them count."""
+        use = np.concatenate([self.where[i] for i in chosen])
+        size, directions = np.linalg.eigh(self.gram[np.ix_(use, use)])
+        directions = directions[:, size > DEPENDENT * size[-1]]
+        size = size[size > DEPENDENT * size[-1]]
+        return use, directions @ ((directions.T @ self.onto[use]) / size), len(size)
+
+    def share(self, chosen: tuple[int, ...]) -> float:
+        """Part of the samples that what the parts leave lets count as independent."""
+        if chosen not in self.shares:
+            left = self.rest
+            if chosen:
+                use, coefficients, _ = self.explained(chosen)
+                left = left - self.columns[:, use] @ coefficients
+            pieces = np.split(left, np.cumsum([n * m for n, m in self.shapes])[:-1])
+            self.shares[chosen] = independent_share(
+                [p.reshape(shape) for p, shape in zip(pieces, self.shapes, strict=True)]
+            )
+        return self.shares[chosen]
+
+    def worth(self, chosen: tuple[int, ...], share: float) -> float:
+        """Twice the log-likelihood of independent samples, the noise estimated anew, less log N for each unknown."""
+        if not chosen:
+            return 0.0
+        use, coefficients, size = self.explained(chosen)
+        left = max(self.total - float(coefficients @ self.onto[use]), 1e-9 * self.total)
+        gain = -len(self.rest) * np.log(left / self.total)
+        return share * gain - log(max(share * self.samples, 2.0)) * size
+
+
+def candidate_blocks(fit: Fit, data: Data, port: Port, count: int = KNOTS) -> list[Block]:
+    """Splines of position, of rate, each times the other, and of the other states, alone and times the rate."""
+    path, model = fitted_path(fit, data), fit.model
+
+    def block(signal, times=1) -> Block | None:
+        values = along(path, signal, model)
+        return Block(signal, times, knots_of(values, count)) if np.ptp(values) > 0 else None
+
+    x, v = port.position, port.rate
+    one = x * 0 + 1
+    pairs = [(x, one)] + ([(v, one), (x, v), (v, x)] if v != 0 else [])
+    for s in other_signals(model, port):
+        pairs += [(s, one)] + ([(s, v)] if v != 0 else [])
+    return [b for b in (block(*p) for p in pairs) if b is not None]
+
+
+def _pinned(blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """Parts that hold a force which an earlier part holds already keep it at zero in the middle."""
+    found: list[Block] = []
+    for b in blocks:
+        held = any(a.times == b.times or a.along == b.times for a in found)
+        middle = int(np.argmin(np.abs(np.array(b.knots))))
+        found.append(replace(b, pinned=middle if held else -1))
+    return tuple(found)
+
+
+def numbers(block: Block, path: np.ndarray, model: Model) -> np.ndarray:
+    """(N, unknowns) what each unknown of a part is multiplied by along states (N, n)."""
+    times = 1.0 if block.times == 1 else along(path, block.times, model)
+    return block.basis(along(path, block.along, model), times)
+
+
+def names_of(term: Term) -> list[str]:
+    """The term's parameters as a model calls them."""
+    return [term.parameter_name(q.key) for q in term.law.parameters]

@@ -1,0 +1,61 @@
+"""A figure of what a model lacks: the force over what it follows, and its energy in time and by amplitude."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symid.discrepancy.say.rest import noun, power_unit, signal_name
+from symid.mechanics.places import signal_unit
+from symid.plots.style import INK, MODEL, QUIET, WARN, Picture, opened
+from symid.units import shown_unit, unit_symbol
+
+if TYPE_CHECKING:
+    from symid.discrepancy.locate.rest import Rest, Stretch
+
+MOST_POINTS = 3000
+
+
+def plot_rest(rest: Rest) -> Picture:
+    """The remaining force over each signal that it follows, and its mean power in the parts of the window."""
+    figure = Picture(figsize=(9.5, 3.1), layout="constrained")
+    panels = figure.subplots(1, len(rest.signals) + 1)
+    factor, prefix = _prefixed(float(np.abs(rest.force).max()))
+    every = max(1, len(rest.force) // MOST_POINTS)
+    for axes, (signal, values) in zip(panels, rest.signals.items(), strict=False):
+        unit, scale = shown_unit(signal_unit(rest.model, signal))
+        dots = axes.scatter(
+            values[::every] * scale, rest.force[::every] * factor, c=rest.time[::every], s=4, lw=0, cmap="viridis"
+        )
+        axes.axhline(0, color=INK, lw=0.5)
+        axes.set_xlabel(f"{signal_name(rest.model, rest.port, signal)} [{unit}]", fontsize=9)
+        opened(axes)
+    panels[0].set_ylabel(f"remaining {noun(rest.port.unit)} [{prefix}{unit_symbol(rest.port.unit)}]", fontsize=9)
+    figure.colorbar(dots, ax=panels[len(rest.signals) - 1], label="time [s]", pad=0.02)
+    _bars(panels[-1], rest)
+    return figure
+
+
+def _bars(axes, rest: Rest) -> None:
+    """Mean power, or mean flow, with two standard errors: all, parts of the window, small and large motion."""
+    parts: list[tuple[str, Stretch]] = [("all", rest.whole)]
+    parts += [(f"{s.span[0]:.3g} to {s.span[1]:.3g} s", s) for s in rest.stretches]
+    parts += [("small motion", rest.small), ("large motion", rest.large)]
+    factor, prefix = _prefixed(max(abs(s.power) for _, s in parts))
+    values = np.array([[s.power, s.error] for _, s in parts]) * factor
+    places = np.arange(len(parts))
+    colors = [MODEL if p < -2 * e else WARN if p > 2 * e else QUIET for p, e in values]
+    axes.barh(places, values[:, 0], xerr=2 * values[:, 1], color=colors, height=0.65, error_kw={"lw": 1, "ecolor": INK})
+    axes.axvline(0, color=INK, lw=0.5)
+    axes.set_yticks(places, [name for name, _ in parts], fontsize=8.5)
+    axes.invert_yaxis()
+    unit = rest.port.unit if rest.first_order else power_unit(rest)
+    what = "mean flow" if rest.first_order else "mean power into the motion"
+    axes.set_xlabel(f"{what} [{prefix}{unit_symbol(unit)}]", fontsize=9)
+    opened(axes)
+
+
+def _prefixed(largest: float) -> tuple[float, str]:
+    """Factor and prefix with which numbers up to `largest` are read."""
+    return next((f, p) for p, f in (("", 1.0), ("m", 1e3), ("µ", 1e6)) if largest * f > 0.5 or p == "µ")
