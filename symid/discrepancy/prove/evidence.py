@@ -66,7 +66,7 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
     nameless_too = bool(left and left[0].minus_log10_p > POLICY.remainder) or not found.established
     unnamed = nameless(found, data, search.progress) if nameless_too else Nameless()
     final = improved(found, unnamed.flexible)
-    runs = _runs(final, base, task, plain)
+    runs = _runs(final, base, task, plain, unnamed.flexible and unnamed.flexible.fit)
     return Evidence(
         found,
         left,
@@ -89,7 +89,7 @@ def rivals(found: Hypothesis, ranking: Sequence[Hypothesis]) -> list:
     return [c.suspect for c in ranking if c.suspect.established and c.suspect.term not in taken][:RIVALS]
 
 
-def _runs(final: Fit, base: Fit, task: Task, plain: Data) -> dict[str, FreeRun]:
+def _runs(final: Fit, base: Fit, task: Task, plain: Data, law: Fit | None) -> dict[str, FreeRun]:
     """Free runs of the strongest fits of the model as given and of the improved one."""
     given, better = [base], [final]
     if task.values:
@@ -104,5 +104,6 @@ def _runs(final: Fit, base: Fit, task: Task, plain: Data) -> dict[str, FreeRun]:
     }
     if final is not base and task.held_out is not None:
         given += output_error_fit(base, windows["train"])
-        better += output_error_fit(final, windows["train"])
+        # A free run of many unknowns would follow the random forces of the fitted window.
+        better += output_error_fit(final, windows["train"]) if final is not law else []
     return free_runs(given, better, windows, task.settling)
