@@ -8,7 +8,7 @@ READY := .venv/.ready
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: demo test test-slow faults coverage lint bench docs clean
+.PHONY: demo test test-slow faults mutants coverage lint bench docs clean
 
 demo: $(READY)
 	$(PY) -m symid.cli demo
@@ -29,6 +29,11 @@ coverage: $(READY)
 	$(PY) -m coverage run -m pytest -n 2 --dist loadfile
 	$(PY) -m coverage combine --quiet
 	$(PY) -m coverage report --fail-under=92
+
+# Small changes of the code that the tests should notice; an hour, `make mutants SAMPLE=5` for a few.
+SAMPLE ?= 25
+mutants: $(READY)
+	-$(PY) tests/mutation.py --sample $(SAMPLE)
 
 lint: $(READY)
 	$(PY) -m ruff check symid tests

@@ -53,7 +53,7 @@ def _values(model: Model) -> Iterator[str]:
         if isinstance(c, Process) and not (isfinite(c.size) and c.size > 0):
             yield f"the process noise '{c.name}' has size={c.size}; give a positive number [{c.unit}*sqrt(s)]"
         if isinstance(c, Parameter) and c.prior is not None and not isinstance(c.prior, Prior):
-            yield f"'{c.name}' has no prior in {c.prior!r}: give Normal(mean, deviation) or LogNormal(median, factor)"
+            yield f"the prior {c.prior!r} of '{c.name}' is none: give Normal(mean, std) or LogNormal(median, factor)"
         if isinstance(c, Parameter) and isinstance(c.prior, LogNormal) and not _ends(c.bounds)[0] > 0:
             yield f"'{c.name}' has a log-normal prior, which needs a lower bound above 0; its bounds are {c.bounds}"
         if isinstance(c, Constant) and not isfinite(c.value):
