@@ -5,6 +5,7 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
+from symid.identification.elsewhere import excess_note
 from symid.identification.fit import fit_text
 from symid.identification.weighting import by_noise
 
@@ -102,7 +103,19 @@ def error_notes(solution: Solution) -> list[str]:
     if lost:
         found = ", ".join(f"{text}: {value:.5g} +- {error:.2g}" for text, (value, error) in solution.determined.items())
         notes.append(f"These data do not determine {', '.join(lost)}" + (f": only {found}" if found else " at all"))
-    return notes
+    return [*notes, *excess_note(solution), *_unverified(solution)]
+
+
+def _unverified(solution: Solution) -> list[str]:
+    size = solution.transcription.layout.size
+    return (
+        []
+        if size <= VERIFIED
+        else [
+            f"Not verified by a finer mesh and an integrator, which take as long as the solve: {size} unknowns; "
+            "solution.verification does it"
+        ]
+    )
 
 
 def text(solution: Solution) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symid.errors import SymidError
+from symid.identification.elsewhere import said_of_optimum
 from symid.nlp import OptimalityReport, check_optimality
 from symid.simulation import simulator
 from symid.threads import one_blas_thread
@@ -63,7 +64,10 @@ class Verification:
 
 @one_blas_thread
 def verify(solution: Solution) -> Verification:
-    """Solve on a finer mesh, integrate, and measure optimality; takes about as long as the solve did."""
+    """Solve on a finer mesh, integrate, measure optimality, look for other optima where the fit errs much.
+
+    It takes about as long as the solve did.
+    """
     mesh, departures, optimality = mesh_error(solution), integrated(solution), optimality_of(solution)
     departs, sentences = _departs(solution, departures), []
     if not optimality.ok:
@@ -73,7 +77,7 @@ def verify(solution: Solution) -> Verification:
         )
     if departs:
         sentences.append(_said_of_departure(solution, departures))
-    sentences += _said_of_mesh(solution, mesh)
+    sentences += said_of_optimum(solution) + _said_of_mesh(solution, mesh)
     return Verification(mesh, departures, departs, optimality, tuple(sentences))
 
 

@@ -25,10 +25,10 @@ NOTHING = 1e-3
 """Residual, as a share of the channel's standard deviation, that is never far: without noise the mesh leaves it."""
 SMALL = 2000
 """Samples up to which all further starts are tried at once: they take a second or less."""
-LED, PULLED = (0.3, 0.1), 1.2
+LED, PULLED, ASKED = (0.3, 0.1), 1.2, 1.5
 """Gains with which simulations are led, and the ratio of their errors, with the solution's parameters to those with the
-regressed ones, from which on the solution is doubted. With process noise of standing it is 0.9 to 1.15 for the
-optimum of a right model, and 1.6 to 6 for wrong optima of the Lorenz and Duffing systems."""
+regressed ones, from which on other starts are tried, and said to be needed. With process noise of standing it is 0.9 to
+1.15 for the optimum of a right model, 1.3 of a wrong model, and 1.6 to 6 for wrong optima of Lorenz's and Duffing's."""
 
 
 def excess(t: Transcription, z: np.ndarray) -> np.ndarray:
@@ -52,7 +52,7 @@ def further_starts(t: Transcription, z: np.ndarray) -> Iterator[tuple[np.ndarray
     regressed = equation_error(t, guesses(t), motion)[0]
     shooting = Shooting(t) if can_shoot(t) else None
     large = sum(m.intervals for m in t.measured) > SMALL and shooting is not None and not shooting.hidden
-    if large and not _doubted(shooting, z, regressed):
+    if large and _doubt(shooting, z, regressed) < PULLED:
         return
     yield t.start(regressed, motion), False
     if shooting is not None:
@@ -60,7 +60,15 @@ def further_starts(t: Transcription, z: np.ndarray) -> Iterator[tuple[np.ndarray
             yield t.start(*found), True
 
 
-def _doubted(shooting: Shooting, z: np.ndarray, regressed: np.ndarray) -> bool:
-    """Whether simulations that are led along the recording follow it better with the regressed parameters."""
+def _doubt(shooting: Shooting, z: np.ndarray, regressed: np.ndarray) -> float:
+    """How much better simulations that are led along the recording follow it with the regressed parameters."""
     here, there = shooting.of_solution(z), shooting.unknowns(regressed)
-    return any(shooting.led_error(here, g) > PULLED * shooting.led_error(there, g) for g in LED)
+    return max(shooting.led_error(here, g) / shooting.led_error(there, g) for g in LED)
+
+
+def asked_for(t: Transcription, z: np.ndarray) -> np.ndarray | None:
+    """(free parameters,) SI that led simulations ask for, where those of `z` are in doubt."""
+    if not can_shoot(t):
+        return None
+    regressed = equation_error(t, guesses(t), smooth_motion(t))[0]
+    return regressed if _doubt(Shooting(t), z, regressed) > ASKED else None
