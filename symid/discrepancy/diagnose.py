@@ -19,6 +19,7 @@ from symid.discrepancy.task import Part, task_of
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
 from symid.estimation.measurement import fits_of
+from symid.estimation.pieces import free_pieces
 from symid.identification import Solution
 from symid.model import Model
 from symid.recording import Recording
@@ -72,6 +73,7 @@ def diagnose(
 
     # Locate: what the recording can be trusted for, and what the model as given leaves of it.
     pieces = segments_of(task.model, task.recording, task.fit_window, task.segment_length)
+    pieces = pieces if driven else free_pieces(pieces, len(task.model.states))
     checked = audit(task.model, task.recording, pieces, sensor_noise)
     plain = Data(pieces, checked.noise, driven, checked.rounding).thinned()
     window = task.fit_window, task.segment_length
@@ -86,6 +88,6 @@ def diagnose(
     progress("tested for a remainder")
 
     # Say: the verdict, and what a reader should know.
-    verdict, effects, equivalent = judge(evidence, search)
+    verdict, effects, equivalent = judge(evidence, search, checked)
     text = words(Story(verdict, effects, equivalent, ranking, evidence, checked, search.base, search.data))
     return finding(verdict, effects, equivalent, ranking, search.base, evidence, checked, text)

@@ -21,10 +21,14 @@ class Policy:
     ----------
     accept : evidence beyond all that, an odds ratio of exp(accept / 2).
     doubt : what a law without an established name must explain more than one with a name, odds of 150 to 1.
-    odds : by kind of suspect, what it must explain more than a force that follows the state: a stated geometry
-        or a sensor is checked by whoever builds the machine (7 to 1), a clock explains any regular motion (150 to 1).
-    harmonic : what a clock must explain more whose frequency is a multiple of the one at which a motion swings that
-        nothing drives: any bent force or bent scale makes such harmonics, so that none is ever named.
+    odds : by kind of suspect, or by name of its law, what it must explain more than a force that follows the state: a
+        stated geometry or a sensor is checked by whoever builds the machine (7 to 1), a clock explains any regular
+        motion (150 to 1). Drag with the square of the speed belongs to what moves through air or water, a friction with
+        the speed to joints: the other way round is rarer (50 to 1). Dry friction alone is rarer than friction with
+        the speed (7 to 1), which is the first term of every smooth loss.
+    never : the price of what is never named: a clock whose frequency is a multiple of the one at which a motion
+        swings that nothing drives, since any bent force or bent scale makes such harmonics; a law of which a
+        part came to nothing.
     harmonics : multiples that count.
     equivalent : answers whose evidence is so near are told; the better test then errs in 4 % (Phi(-sqrt(12)/2)).
     most_effects : a search ends here.
@@ -45,9 +49,17 @@ class Policy:
     accept: float = 3.0
     doubt: float = 10.0
     odds: dict[str, float] = field(
-        default_factory=lambda: {"state": 0.0, "geometry": 4.0, "sensor": 4.0, "clock": 10.0}
+        default_factory=lambda: {
+            "state": 0.0,
+            "geometry": 4.0,
+            "sensor": 4.0,
+            "clock": 10.0,
+            "coulomb_friction": 4.0,
+            "joint_drag": 8.0,
+            "link_drag": 8.0,
+        }
     )
-    harmonic: float = 1000.0
+    never: float = 1000.0
     harmonics: int = 6
     equivalent: float = 12.0
     most_effects: int = 8

@@ -10,6 +10,7 @@ import numpy as np
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit, Fitter
+from symid.estimation.pieces import free_pieces
 from symid.estimation.whitening import remembered
 from symid.estimation.zero_phase import ZeroPhase
 from symid.model import Model
@@ -77,6 +78,7 @@ def _undone(
         pieces = [
             replace(e, undone=a.recorded) for e, a in zip(pieces, segments_of(model, added, part, length), strict=True)
         ]
+    pieces = pieces if plain.driven else free_pieces(pieces, len(model.states))
     return replace(
         plain,
         segments=tuple(e.sparser(ratio) for e in pieces),

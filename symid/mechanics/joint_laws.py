@@ -134,7 +134,7 @@ FURTHER_LINK_LAWS: tuple[Law, ...] = (
     effort_law(
         "cable_stiffness",
         "link",
-        (LawParameter("k_Nm_rad", "N*m/rad", _BOTH_SIGNS),),
+        (LawParameter("k_Nm_rad", "N*m/rad", _POSITIVE),),
         lambda m, port, p: -p.k_Nm_rad * port.position,
         "A cable pulls the {place} with a stiffness of {k_Nm_rad}",
         "Hooke 1678",

@@ -279,7 +279,7 @@ WORLD_LAWS: tuple[Law, ...] = (
             LawParameter("bias_rad", "rad", (-0.5, 0.5), typical=0.01, plausible=0.02),
         ),
         _tilt,
-        "Gravity is {g_scale} times the stated one and the vertical is turned by {bias_rad}",
+        "Gravity is {g_scale} times the stated one; the vertical is turned by {bias_rad}",
         "Newton 1687",
         "global",
     ),

@@ -65,11 +65,21 @@ class Hypothesis:
 
     def belief(self) -> float:
         """What is to be subtracted from the evidence because of what the suspects are, and of their sizes."""
-        return self.doubt() + sum(POLICY.odds[s.kind] + _surprise(s, self.fit) for s in self.suspects)
+        return self.doubt() + sum(_odds(s) + _surprise(s, self.fit) for s in self.suspects)
 
     def doubt(self) -> float:
         """The part of `belief` that decides whether a suspect is believed at all, however it is called."""
-        return sum(POLICY.doubt * (not s.established) + POLICY.harmonic * self._is_harmonic(s) for s in self.suspects)
+        return sum(
+            POLICY.doubt * (not s.established) + POLICY.never * (self._is_harmonic(s) or self._is_half(s))
+            for s in self.suspects
+        )
+
+    def _is_half(self, suspect: Suspect) -> bool:
+        """Whether a part of the law has come to nothing at its bound, so that it is another law than its name says."""
+        return any(
+            q.null is not None and q.null in q.bounds and self.fit.values[suspect.term.parameter_name(q.key)] == q.null
+            for q in suspect.law.parameters
+        )
 
     def _is_harmonic(self, suspect: Suspect) -> bool:
         """Whether a clock strikes where a motion that nothing drives has its own harmonics."""
@@ -88,6 +98,10 @@ class Hypothesis:
     def __str__(self) -> str:
         names = ", ".join(str(s.term) for s in self.suspects) or "nothing added"
         return f"{names}: log-likelihood ratio {self.log_ratio:.1f}, score {self.score:.1f}, share {self.share:.2f}"
+
+
+def _odds(suspect: Suspect) -> float:
+    return POLICY.odds[suspect.kind] + POLICY.odds.get(suspect.term.name, 0.0)
 
 
 def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, share: float = 1.0) -> float:

@@ -140,8 +140,10 @@ def suspects(model: Model) -> list[Suspect]:
     return list(found.values())
 
 
-ESTABLISHED = {*CANONICAL, *(law.name for law in GEOMETRY_LAWS), "constant_torque"}
-"""Names that are an answer: of the answer files, of what may be stated wrongly, and the plainest force of all."""
+PLAIN = ("constant_torque", "quadratic_stiffness", "joint_drag", "link_drag")
+"""Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
+ESTABLISHED = {*CANONICAL, *(law.name for law in GEOMETRY_LAWS), *PLAIN}
+"""Names that are an answer: of the answer files, of what may be stated wrongly, and the plainest forces."""
 
 
 def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:

@@ -41,6 +41,7 @@ class Search:
     progress: Callable[[str], None] = lambda text: None
     left: dict[int, list[Test]] = field(default_factory=dict)
     tried: list[Hypothesis] = field(default_factory=list)
+    clocks: list[Hypothesis] = field(default_factory=list)
 
     @cached_property
     def projection(self) -> Projection:
@@ -110,12 +111,22 @@ class Search:
         terms, others = {s.term for s in found.suspects}, {}
         for h in self.tried:
             new = [s for s in h.suspects if s.term not in terms]
-            if len(h.suspects) == len(found.suspects) and len(new) == 1 and h.doubt() < POLICY.harmonic:
+            if (
+                len(h.suspects) == len(found.suspects)
+                and len(new) == 1
+                and h.doubt() < POLICY.never
+                and not self._only_clock(new[0], found)
+            ):
                 share = max(h, found, key=lambda k: k.log_ratio).share
                 if h.evidence(share) > found.evidence(share) - POLICY.equivalent:
                     kept = [s for s in h.suspects if s.term in terms]
                     others[new[0].term] = Hypothesis((*kept, new[0]), h.fit, h.base, h.data, h.forecast)
         return sorted(others.values(), key=lambda h: -h.log_ratio)
+
+    @staticmethod
+    def _only_clock(suspect: Suspect, found: Hypothesis) -> bool:
+        """Whether a clock stands against laws of which none follows one: it can imitate any regular motion."""
+        return suspect.kind == "clock" and all(s.kind != "clock" for s in found.suspects)
 
     def beaten(self, found: Hypothesis) -> bool:
         """Whether a flexible law at one place explains more than all that has a name: what acts there is in no list."""
@@ -132,17 +143,30 @@ class Search:
 
     # ---- trying ------------------------------------------------------------------------------
     def _added(self, best: Hypothesis) -> list[Hypothesis]:
-        """`best` with each of the other suspects, clocks only where states leave something."""
+        """`best` with each of the other suspects, clocks only where states leave something.
+
+        On top of an earlier finding clocks are looked for anew where no state is worth its price; else those that
+        were worth it alone are tried again.
+        """
         taken = {s.term for s in best.suspects}
         others = [s for s in self.pool if s.term not in taken]
         states, clocks = ([s for s in others if (s.kind == "clock") is clock] for clock in (False, True))
         found = self._explored(best, states)
         first = self._preferred(best, found)
-        if clocks and (first is None or not self.quiet(first)):
+        if first is not None and best.suspects:
+            found += self._known_clocks(best, taken)
+        elif clocks and (first is None or not self.quiet(first)):
             self.progress("looking for what follows a clock")
             found += self._explored(best, clocks)
+            self.clocks = self.clocks or [h for h in found if h.suspect.kind == "clock" and self._worth(h, best)]
         self.tried += found
         return by_score(found)
+
+    def _known_clocks(self, best: Hypothesis, taken: set) -> list[Hypothesis]:
+        """`best` with each clock that explained something alone, from where that was found."""
+        known = [h for h in self.clocks if h.suspect.term not in taken]
+        tried = [hypothesis([*best.suspects, h.suspect], best.fit, self.base, self.data, h.fit.values) for h in known]
+        return [h for h in tried if h is not None]
 
     def _explored(self, best: Hypothesis, pool: Sequence[Suspect]) -> list[Hypothesis]:
         found = explore(

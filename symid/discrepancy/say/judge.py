@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
@@ -19,11 +20,12 @@ from symid.estimation.data import Data
 from symid.estimation.fit import Fit
 
 
-def judge(evidence: Evidence, search: Search):
+def judge(evidence: Evidence, search: Search, audit: Audit):
     """Verdict, effects and equivalent hypotheses."""
     found, left, flexible, likes = evidence.found, evidence.left, search.flexible, search.equivalents(evidence.found)
     effects = tuple(_effect(s, found) for s in found.suspects)
     rest = _located(left) if left and left[0].minus_log10_p > POLICY.remainder else None
+    rest = None if _may_be_the_sensors(evidence, audit, search) else rest
     equivalent = tuple(likes)
     if not found.suspects and rest is None:
         return "adequate", (), ()
@@ -46,6 +48,16 @@ def judge(evidence: Evidence, search: Search):
     if rest is not None:
         return "unexplained", (_unknown(_voted(flexible(), effects[0], rest), left, rest, found), *effects), equivalent
     return "missing_physics", effects, equivalent
+
+
+def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> bool:
+    """Whether a rest beside a confirmed finding is less than noise of sensors of which nobody said how they err."""
+    found = evidence.found
+    confirmed = evidence.proof is None or evidence.proof.confirmed
+    if audit.stated or search.data.driven or not (found.suspects and found.established and confirmed):
+        return False
+    left = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
+    return bool(np.all(left < np.sqrt(2) * audit.noise))
 
 
 def _voted(flexible: Hypothesis, effect: Effect, rest: Test | None) -> str:

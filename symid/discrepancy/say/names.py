@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 
 from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.policy import POLICY
 from symid.model import Model
 from symid.units import quantity
 
@@ -29,7 +30,10 @@ def law_name(name: str, location: str = "") -> str:
 
 
 def sentence(suspect: Suspect, parameters: Mapping[str, tuple[float, float]], model: Model | None = None) -> str:
-    """The law's own sentence with place, values and standard errors put in, in the units that it has in `model`."""
+    """The law's own sentence with place, values and standard errors put in, in the units that it has in `model`.
+
+    Of its clauses, which semicolons separate, those are left out whose sizes could as well be nothing.
+    """
     units = {
         q.key: q.unit if model is None else model.parameters[suspect.term.parameter_name(q.key)].unit
         for q in suspect.law.parameters
@@ -39,6 +43,20 @@ def sentence(suspect: Suspect, parameters: Mapping[str, tuple[float, float]], mo
     template = re.sub(
         r"\b([Tt])he (?:sensor )?\{place\}",
         lambda the: place if the[1] == "t" else place[:1].upper() + place[1:],
-        suspect.law.sentence,
+        " and ".join(_sure_clauses(suspect, parameters)),
     )
     return template.format(place=place.removeprefix("the "), **filled)
+
+
+def _sure_clauses(suspect: Suspect, parameters: Mapping[str, tuple[float, float]]) -> list[str]:
+    """The clauses of a law's sentence of which some size is surely something; all if none is."""
+    nothing = {
+        q.key
+        for q in suspect.law.parameters
+        if q.null is not None and q.key in parameters
+        if abs(parameters[q.key][0] - q.null) <= POLICY.sure * parameters[q.key][1]
+    }
+    clauses = suspect.law.sentence.split("; ")
+    keys = [{part.split("}")[0] for part in clause.split("{")[1:]} - {"place"} for clause in clauses]
+    kept = [clause for clause, own in zip(clauses, keys, strict=True) if not own or own - nothing]
+    return kept or clauses

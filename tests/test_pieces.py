@@ -1,0 +1,54 @@
+"""A free motion is fitted in pieces that do not depend on how it was cut."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from symid.estimation.data import Segment
+from symid.estimation.pieces import FEW, MANY, free_pieces
+
+STEP, PERIOD = 0.02, 1.3
+TIME = np.arange(0, 26, STEP)
+SWING = np.exp(-0.03 * TIME) * np.cos(2 * np.pi * TIME / PERIOD)
+
+
+def cut(edges, time=TIME, x=SWING):
+    bounds = [0, *edges, len(time)]
+    return [
+        Segment(time[a:b], x[a:b, None], {"force": time[a:b]}) for a, b in zip(bounds[:-1], bounds[1:], strict=True)
+    ]
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.lists(st.integers(1, 12), min_size=1, max_size=6, unique=True))
+def test_one_coordinate_stays_in_one_piece_however_it_was_cut(places):
+    (whole,) = free_pieces(cut(sorted(100 * p for p in places)), 2)
+    np.testing.assert_array_equal(whole.time, TIME)
+    np.testing.assert_array_equal(whole.recorded[:, 0], SWING)
+    np.testing.assert_array_equal(whole.inputs["force"], TIME)
+
+
+@pytest.mark.parametrize("pieces", [1, 26])
+def test_more_coordinates_are_cut_into_a_few_swings(pieces):
+    found = free_pieces(cut([len(TIME) * k // pieces for k in range(1, pieces)]), 4)
+    swings = [(e.time[-1] - e.time[0]) / PERIOD for e in found]
+    assert FEW < min(swings) and max(swings) < MANY
+    np.testing.assert_array_equal(np.concatenate([e.time for e in found]), TIME)
+
+
+def test_a_cut_of_a_few_swings_is_kept():
+    pieces = cut([325, 650, 975])
+    assert free_pieces(pieces, 4) == tuple(pieces)
+
+
+@pytest.mark.parametrize("jump", [0.3, -0.1])
+def test_a_new_release_begins_a_new_piece(jump):
+    x = np.where(np.arange(len(TIME)) < 600, SWING, SWING + jump)
+    assert len(free_pieces(cut([600], x=x), 2)) == 2
+
+
+def test_time_that_begins_anew_or_a_long_gap_begins_a_new_piece():
+    again = cut([600], time=np.where(np.arange(len(TIME)) < 600, TIME, TIME - 12.0))
+    later = cut([600], time=np.where(np.arange(len(TIME)) < 600, TIME, TIME + 5.0))
+    assert len(free_pieces(again, 2)) == len(free_pieces(later, 2)) == 2
