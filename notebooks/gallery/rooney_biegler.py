@@ -17,11 +17,14 @@ m = si.Model("saturation")
 m.asymptote = si.Parameter(unit="1", bounds=(1, 100), guess=15)
 m.rate = si.Parameter(unit="1/s", bounds=(0.01, 10), guess=0.5)
 m.y = si.Output(m.asymptote * (1 - sm.exp(-m.rate * m.time)), unit="1")
-solution = si.Identification(m, data).solve()
+solution = si.Identification(m, data).solve(check=False)
 
 a, k = solution.values["asymptote"], solution.values["rate"]
 answers = {
     "asymptote": (a, 19.1426, 1e-3),
     "rate": (k, 0.5311, 1e-4),
     "mean square": (np.mean((y - a * (1 - np.exp(-k * hour))) ** 2), 4.33171, 1e-3),
+    "variance of asymptote": (solution.covariance.loc["asymptote", "asymptote"], 6.229, 1e-3),
+    "covariance": (solution.covariance.loc["asymptote", "rate"], -0.4322, 1e-4),
+    "variance of rate": (solution.covariance.loc["rate", "rate"], 0.04124, 1e-5),
 }

@@ -1,4 +1,4 @@
-"""Angles and rates of a pendulum with noise, as in the gallery's vyasarayani.py; two and a half times as many samples."""
+"""Angles and rates of a pendulum with noise, as in the gallery's vyasarayani.py, with two and a half times the samples."""
 
 import math
 
