@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from symid.discrepancy.locate.nameless import Nameless, improved, nameless
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.certain import beyond_chance, honest
 from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
+from symid.discrepancy.prove.nameless import Nameless, improved, nameless
 from symid.discrepancy.prove.held_out import Proof, compare
 from symid.discrepancy.prove.nulls import null_maxima
 from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_values
@@ -64,9 +64,10 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
     if found.suspects != before:
         left = search.remainder(found)
     nameless_too = bool(left and left[0].minus_log10_p > POLICY.remainder) or not found.established
-    unnamed = nameless(found, data, search.progress) if nameless_too else Nameless()
-    final = improved(found, unnamed.flexible)
-    runs = _runs(final, base, task, plain, unnamed.flexible and unnamed.flexible.fit)
+    windows = _windows(task, plain)
+    unnamed = nameless(found, data, windows.get("heldout"), search.progress) if nameless_too else Nameless()
+    final = improved(found, unnamed) if unnamed.fits else found.fit
+    runs = _runs(final, base, task, windows, refitted=final is found.fit)
     return Evidence(
         found,
         left,
@@ -89,21 +90,27 @@ def rivals(found: Hypothesis, ranking: Sequence[Hypothesis]) -> list:
     return [c.suspect for c in ranking if c.suspect.established and c.suspect.term not in taken][:RIVALS]
 
 
-def _runs(final: Fit, base: Fit, task: Task, plain: Data, law: Fit | None) -> dict[str, FreeRun]:
-    """Free runs of the strongest fits of the model as given and of the improved one."""
-    given, better = [base], [final]
-    if task.values:
-        given.append(with_values(base, task.values))
-    # Segments that were set apart are judged whole, and so are those that were fitted.
-    windows = {
+def _windows(task: Task, plain: Data) -> dict[str, Data]:
+    """The windows in which errors are told: segments that were set apart are judged whole, fitted ones as fitted."""
+    return {
         key: plain.with_segments(
             segments_of(task.model, task.recording, w, None if isinstance(w, str) else task.segment_length)
         )
         for key, w in (("train", task.fit_window), ("heldout", task.held_out))
         if w is not None
     }
+
+
+def _runs(final: Fit, base: Fit, task: Task, windows: dict[str, Data], refitted: bool) -> dict[str, FreeRun]:
+    """Free runs of the strongest fits of the model as given and of the improved one.
+
+    `refitted` says whether the latter may be fitted by free runs, too: one with many unknowns would follow the random
+    forces of the fitted window.
+    """
+    given, better = [base], [final]
+    if task.values:
+        given.append(with_values(base, task.values))
     if final is not base and task.held_out is not None:
         given += output_error_fit(base, windows["train"])
-        # A free run of many unknowns would follow the random forces of the fitted window.
-        better += output_error_fit(final, windows["train"]) if final is not law else []
+        better += output_error_fit(final, windows["train"]) if refitted else []
     return free_runs(given, better, windows, task.settling)

@@ -15,12 +15,13 @@ import numpy as np
 
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
-from symid.discrepancy.locate.nameless import Nameless
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.locate.rest import Rest
 from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.name.closed_form import Proposal, proposal_table
 from symid.discrepancy.prove.evidence import Evidence
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
+from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.prove.held_out import Proof
 from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
@@ -100,6 +101,11 @@ class Diagnosis:
         return self.unnamed.flexible
 
     @property
+    def proposal(self) -> Proposal | None:
+        """The simplest closed form that does as well: ``proposal.law``, ``proposal.expression``, ``proposal.model``."""
+        return self.unnamed.proposal
+
+    @property
     def improved(self) -> Model:
         return self.final.model
 
@@ -158,6 +164,7 @@ class Diagnosis:
                 for t in self.remainder[:3]
             ],
             "rest": None if self.rest is None else self.rest.table(),
+            "proposal": None if self.proposal is None else proposal_table(self.proposal),
             "flexible_law": None if self.flexible is None else self.flexible.table(),
             "words": self.words,
         }

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
-from symid.discrepancy.locate.nameless import Nameless
 from symid.discrepancy.locate.rest import BINS, Rest, Stretch, ranges_of
+from symid.discrepancy.name.closed_form import Proposal
 from symid.discrepancy.policy import POLICY
+from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.say.names import place_name
+from symid.mechanics.dictionary import law_text
 from symid.mechanics.places import signal_unit
 from symid.model import Model, Port
 from symid.units import quantity, reduced, same_dimension
@@ -21,11 +25,36 @@ MOSTLY = 0.7
 """Part of the samples from which on they are called small or large."""
 
 
-def nameless_words(unnamed: Nameless) -> list[str]:
-    """Sentences on a rest and on the flexible law that was fitted in its place."""
-    return (rest_words(unnamed.rest) if unnamed.rest is not None else []) + (
-        [flexible_words(unnamed.flexible)] if unnamed.flexible is not None else []
-    )
+def nameless_words(unnamed: Nameless, error: Callable[[float], str]) -> list[str]:
+    """Sentences on a rest, on the flexible law that was fitted in its place, and on the closed form that does as well.
+
+    Parameters
+    ----------
+    error : an error of the outputs as text.
+    """
+    out = rest_words(unnamed.rest) if unnamed.rest is not None else []
+    tested = {k: f" (held-out error {error(e)})" for k, e in unnamed.errors.items()}
+    if unnamed.flexible is not None:
+        out.append(flexible_words(unnamed.flexible) + tested.get("flexible", "") + ".")
+    if unnamed.proposal is not None:
+        out.append(
+            f"The simplest closed form that does as well is {formula(unnamed.proposal)}"
+            f"{tested.get('proposal', ', not tested on held-out data')}."
+        )
+    elif unnamed.flexible is not None:
+        out.append("No closed form of the dictionary does as well.")
+    return out
+
+
+def formula(proposal: Proposal) -> str:
+    """The law as a person writes it: "force = -a speed³ with a = 1.20 ± 0.05 N s³/m³"."""
+    names = {str(s): signal_name(proposal.model, proposal.port, s) for s in proposal.flexible.signals}
+    text = law_text(proposal.shapes, names)
+    values, errors = proposal.values, proposal.errors
+    numbers = [
+        f"{q.key.replace('_', ' ')} = {quantity(values[q.key], errors[q.key], q.unit)}" for q in proposal.law.parameters
+    ]
+    return f"{noun(proposal.port.unit)} = {text} with {', '.join(numbers)}"
 
 
 def flexible_words(law: FlexibleLaw) -> str:
@@ -33,7 +62,7 @@ def flexible_words(law: FlexibleLaw) -> str:
     names = dict.fromkeys(signal_name(law.model, law.port, s) for s in law.signals)
     return (
         f"A flexible {noun(law.port.unit)} at {place_name(law.port.at)}, given by splines over {' and '.join(names)} "
-        f"with {law.size} unknowns, stands for it in the improved model."
+        f"with {law.size} unknowns, can stand for it"
     )
 
 

@@ -115,7 +115,7 @@ def words(story: Story) -> str:
     first = (losses, _finding(story)) if len(losses) and " not enough" in losses[0] else (_finding(story) + losses,)
     parts = (
         *first,
-        nameless_words(story.evidence.unnamed),
+        nameless_words(story.evidence.unnamed, story.error),
         _alike(story),
         _proof(story) + _rest(story),
         _halves(story) + _verdicts_of_halves(story),

@@ -1,0 +1,77 @@
+"""What acts without a name: the rest, a flexible law in its place, and a closed form that does as well."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import log
+
+from symid.discrepancy.locate.flexible_law import FlexibleLaw, flexible_law
+from symid.discrepancy.locate.rest import Rest, rest_of
+from symid.discrepancy.model.hypothesis import Hypothesis, refit
+from symid.discrepancy.name.closed_form import Proposal, closed_form
+from symid.discrepancy.policy import POLICY
+from symid.discrepancy.prove.held_out import compare
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit
+from symid.estimation.free_run import free_run
+from symid.estimation.independence import independent_share
+
+WORSE = 1.1
+"""A closed form does as well as the flexible law if its held-out error is at most so many times that of the law."""
+
+
+@dataclass(frozen=True, eq=False)
+class Nameless:
+    """Of a diagnosis that ends with something unexplained; None where no force at a place explains more.
+
+    Attributes
+    ----------
+    rest : what the model lacks, given the effects that are named (without these, where a flexible law explains more
+        in their place). flexible : the flexible law. proposal : the simplest closed form that does as well.
+    errors : rms of the free runs on the held-out window of ``flexible`` and ``proposal``; empty without one.
+    """
+
+    rest: Rest | None = None
+    flexible: FlexibleLaw | None = None
+    proposal: Proposal | None = None
+    errors: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def fits(self) -> list[Fit]:
+        """Of the flexible law and of the proposal."""
+        return [law.fit for law in (self.flexible, self.proposal) if law is not None]
+
+
+def nameless(
+    found: Hypothesis, data: Data, held_out: Data | None, progress: Callable[[str], None] = lambda text: None
+) -> Nameless:
+    """Describe what `found` leaves, on top of the model as given and of that with the named effects."""
+    named = [s for s in found.suspects if s.established]
+    fits = [found.base]
+    if named:
+        with_names = found.fit if len(named) == len(found.suspects) else refit(named, found.fit, found.base, data)
+        fits += [] if with_names is None else [with_names]
+    progress("what has no name is described")
+    flexible = flexible_law(fits, data, progress)
+    if flexible is None:
+        return Nameless(rest_of(fits[-1], data))
+    rest, proposal = rest_of(flexible.base, data), closed_form(flexible, progress)
+    if held_out is None:
+        return Nameless(rest, flexible, proposal)
+    run = free_run(flexible.fit, held_out)
+    errors = {"flexible": run.rms}
+    if proposal is not None:
+        other = free_run(proposal.fit, held_out)
+        as_well = other.rms <= WORSE * run.rms or compare(other, run).probability < POLICY.confirm
+        proposal = proposal if as_well else None
+        errors |= {"proposal": other.rms} if as_well else {}
+    return Nameless(rest, flexible, proposal, errors)
+
+
+def improved(found: Hypothesis, unnamed: Nameless) -> Fit:
+    """The best of all fits: of what was found by name, of the flexible law, of the closed form; unknowns pay log N."""
+    fits = [found.fit, *unnamed.fits]
+    share = independent_share(max(fits, key=lambda f: f.loglik2).remaining)
+    price = log(max(share * found.data.samples, 2.0))
+    return max(fits, key=lambda f: share * f.loglik2 - price * len(f.values))
