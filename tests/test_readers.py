@@ -9,6 +9,7 @@ import pytest
 from symid.cli import main
 from symid.errors import RecordingError
 from symid.recording import joint_angles, read_recording
+from symid.recording.readers import READERS, RawColumn
 
 TIME = 0.01 * np.arange(120)
 ANKLE, HIP = 5 * np.sin(3 * TIME), 8 * np.cos(2 * TIME)
@@ -134,6 +135,24 @@ def test_a_motion_file_keeps_its_units(tmp_path, flag, angle):
     recording = read_recording(tmp_path / "walk.mot")
     assert recording["knee_angle_r"] == pytest.approx(angle)
     assert dict(recording.units) == {"knee_angle_r": "rad", "pelvis_tx": "m", "ground_force_vy": "N"}
+
+
+def test_a_states_file_of_opensim_is_no_table_of_angles(tmp_path):
+    joint = "/jointset/ankle_r/ankle_angle_r"
+    pelvis = "/jointset/ground_pelvis/pelvis_tx"
+    names = [f"{joint}/value", f"{joint}/speed", f"{pelvis}/value", f"{pelvis}/speed", "/forceset/soleus_r/activation"]
+    rows = ["\t".join([f"{0.01 * i:.2f}", "10", "20", "0.5", "0.1", "0.3"]) for i in range(5)]
+    head = ["states", "inDegrees=yes", "endheader", "\t".join(["time", *names])]
+    (tmp_path / "states.sto").write_text("\n".join([*head, *rows]) + "\n")
+    recording = read_recording(tmp_path / "states.sto")
+    assert [recording[n][0] for n in names] == pytest.approx([np.radians(10), np.radians(20), 0.5, 0.1, 0.3])
+    assert [recording.units[n] for n in names] == ["rad", "rad/s", "m", "m/s", "1"]
+
+
+def test_an_ending_of_ones_own_gets_a_reader(tmp_path, monkeypatch):
+    monkeypatch.setitem(READERS, ".log", lambda path: [RawColumn("time_s", TIME), RawColumn("angle_deg", ANKLE)])
+    (tmp_path / "run.log").write_bytes(b"\x00")
+    np.testing.assert_allclose(read_recording(tmp_path / "run.log")["angle"], np.radians(ANKLE))
 
 
 def test_own_names_are_mapped_from_python_and_from_the_command_line(tmp_path):

@@ -59,6 +59,8 @@ def mapped(path: Path, raw: list[RawColumn], mapping: Mapping[str, str]) -> tupl
             close = nearest(theirs, there) or list(there)[:MOST_NAMED]
             problems.append(f"there is no column '{theirs}' for {ours}; the file has {', '.join(close)}")
             continue
+        if found.fault:
+            raise RecordingError(f"{path}: {found.fault}")
         try:
             column = Column(ours, ours, None) if ours in LABELS else measured_column(ours)
         except SymidError as error:
@@ -73,6 +75,8 @@ def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str,
     """All columns: those with a unit in the file under their own name, the others by the unit that ends their names."""
     columns, table, problems = [], {}, []
     for c in raw:
+        if c.fault:
+            raise RecordingError(f"{path}: {c.fault}; a mapping of columns may leave it out")
         try:
             column = _column(c)
         except SymidError as error:

@@ -20,8 +20,8 @@ from symid.recording.spikes import find_spikes
 from symid.recording.timing import on_grid, time_fault
 from symid.units import FloatArray
 
-OTHER_FORMATS = (".tsv", ".xlsx", ".parquet", ".c3d", ".trc", ".mot", ".sto", ".mat", ".h5", ".hdf5")
-"""Endings of files that are not comma-separated text; those have readers of their own."""
+PLAIN = (".csv", ".txt", "")
+"""Endings of comma-separated text; an ending that no reader has is taken for it, too."""
 _CURES = {
     "gap": "read with allow_gaps=True (symid identify --allow-gaps), which gives what is missing no weight (or mark "
     "the parts in a 'segment' column)",
@@ -77,7 +77,7 @@ def read_recording(
     >>> read_recording("walk.csv", columns={"time_s": "t", "hip_angle_deg": "Hip"})  # doctest: +SKIP
     """
     path = Path(path)
-    if columns is None and path.suffix.lower() not in OTHER_FORMATS:
+    if columns is None and not _has_reader(path):
         found = read_header(path)
         table = _read_table(path, found, allow_gaps)
     else:
@@ -87,6 +87,14 @@ def read_recording(
     for remark in remarks:
         warnings.warn(remark, RecordingWarning, stacklevel=2)
     return recording.noted(*(f"warning: {remark}" for remark in remarks))
+
+
+def _has_reader(path: Path) -> bool:
+    if path.suffix.lower() in PLAIN:
+        return False
+    from symid.recording.readers import READERS
+
+    return path.suffix.lower() in READERS
 
 
 def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column], dict[str, np.ndarray]]:
@@ -292,7 +300,7 @@ def _runs(path: Path, table: dict[str, np.ndarray]) -> list[slice]:
 def _place(path: Path, row: int, more: str = "") -> str:
     """A data row (from 1), and the line of a text file on which it stands; blank lines count."""
     facts = [more] if more else []
-    if path.suffix.lower() not in OTHER_FORMATS:
+    if not _has_reader(path):
         facts.insert(0, f"line {next(line for place, (line, _) in enumerate(file_rows(path)) if place == row)}")
     return f"row {row} ({', '.join(facts)})" if facts else f"row {row}"
 

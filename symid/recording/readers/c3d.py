@@ -13,8 +13,9 @@ from symid.recording.readers.raw import RawColumn, cannot_be_read, library
 def read_c3d(path: Path) -> list[RawColumn]:
     """Time, ``<marker>_x``, ``_y``, ``_z`` in the file's unit, and analog channels at the frames of the markers.
 
-    Time counts from the first frame of the trial. A marker that was not seen is missing (NaN). An analog channel
-    without a unit is taken to be in volts. The reader is py-c3d: all Python, a damaged file cannot end the process.
+    Time is zero at frame 1; a file that was cut begins later. A marker that was not seen is missing (NaN). An analog
+    channel without a unit is taken to be in volts. The reader is py-c3d: all Python, a damaged file cannot end the
+    process.
     """
     c3d = library("c3d", path)
     try:
@@ -33,7 +34,7 @@ def read_c3d(path: Path) -> list[RawColumn]:
             numbers, points, analog = (np.array(part) for part in zip(*frames, strict=True))
     except Exception as error:  # of a damaged file it raises whatever it stumbles over
         raise cannot_be_read(path, error) from error
-    columns = [RawColumn("time_s", numbers / rate, "s")]
+    columns = [RawColumn("time_s", (numbers - 1) / rate, "s")]
     for i, name in enumerate(names[: points.shape[1]]):
         unseen = points[:, i, 3] < 0
         columns += [

@@ -28,7 +28,9 @@ def read_storage(path: Path) -> list[RawColumn]:
     """Time and columns, in degrees where the header says ``inDegrees=yes``, else radians; translations [m], forces [N].
 
     Which column is what follows OpenSim's names: ``_tx`` and ``_px`` are lengths, ``force_vx`` forces,
-    ``torque_x`` and ``moment`` torques. What ends in a unit keeps it; any other unit is given by a mapping of columns.
+    ``torque_x`` and ``moment`` torques; of a states file ``/value`` and ``/speed`` a coordinate and its rate,
+    ``/activation`` and ``/normalized_...`` plain numbers, ``/fiber_length`` a length. What ends in a unit keeps it; any
+    other unit is given by a mapping of columns.
     """
     lines = _lines(path)
     end = next((i for i, line in enumerate(lines) if line.strip().lower() == "endheader"), None)
@@ -41,7 +43,16 @@ def read_storage(path: Path) -> list[RawColumn]:
 
 
 def _unit(name: str, angle: str) -> str:
-    kinds = ((r"time", "s"), (r".*(_t[xyz]|_p[xyz])", "m"), (r".*force.*_v[xyz]", "N"), (r".*(torque|moment).*", "N*m"))
+    kinds = (
+        (r"time", "s"),
+        (r".*_[tp][xyz](/value)?", "m"),
+        (r".*_[tp][xyz](/speed|_u)", "m/s"),
+        (r".*/speed|.*_u", f"{angle}/s"),
+        (r".*(activation|excitation|normalized_\w+)", "1"),
+        (r".*fiber_length", "m"),
+        (r".*force.*_v[xyz]", "N"),
+        (r".*(torque|moment).*", "N*m"),
+    )
     return next((unit for pattern, unit in kinds if re.fullmatch(pattern, name.lower())), angle)
 
 

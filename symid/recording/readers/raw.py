@@ -13,11 +13,15 @@ from symid.errors import RecordingError
 
 
 class RawColumn(NamedTuple):
-    """A column as it stands in a file: its name there, its values (N,), and its unit where the file states one."""
+    """A column as it stands in a file: its name there, its values (N,), and its unit where the file states one.
+
+    `fault` says why the values are no numbers: an error if the column is used, and nothing if a mapping leaves it out.
+    """
 
     text: str
     values: np.ndarray
     unit: str | None = None
+    fault: str = ""
 
 
 def library(name: str, path: Path) -> ModuleType:

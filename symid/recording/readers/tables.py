@@ -35,12 +35,11 @@ def read_delimited(path: Path) -> list[RawColumn]:
             raise RecordingError(f"{path}: row {row} (line {line}) has {len(cells)} cells, the header has {len(names)}")
     columns = zip(*(cells for _, cells in samples), strict=True)
     return [
-        _text_column(path, name, cells, [line for line, _ in samples])
-        for name, cells in zip(names, columns, strict=True)
+        _text_column(name, cells, [line for line, _ in samples]) for name, cells in zip(names, columns, strict=True)
     ]
 
 
-def _text_column(path: Path, name: str, cells: tuple[str, ...], lines: list[int]) -> RawColumn:
+def _text_column(name: str, cells: tuple[str, ...], lines: list[int]) -> RawColumn:
     if name in LABELS[1:]:
         return RawColumn(name, np.array(cells, dtype=str))
     values = np.empty(len(cells))
@@ -48,9 +47,8 @@ def _text_column(path: Path, name: str, cells: tuple[str, ...], lines: list[int]
         try:
             values[i] = np.nan if cell.strip().lower() in MISSING else float(cell if "_" not in cell else "no number")
         except ValueError:
-            raise RecordingError(
-                f"{path}: column '{name}', row {i + 1} (line {lines[i]}): {cell[:40]!r} is not a number"
-            ) from None
+            fault = f"column '{name}', row {i + 1} (line {lines[i]}): {cell[:40]!r} is not a number"
+            return RawColumn(name, np.array(cells, dtype=str), fault=fault)
     return RawColumn(name, values)
 
 
@@ -82,5 +80,6 @@ def _of_frame(path: Path, read) -> list[RawColumn]:
         try:
             found.append(RawColumn(str(name), frame[name].to_numpy(dtype=kind)))
         except (TypeError, ValueError):
-            raise RecordingError(f"{path}: column '{name}' holds something that is not a number") from None
+            text, fault = frame[name].to_numpy(dtype=str), f"column '{name}' holds something that is not a number"
+            found.append(RawColumn(str(name), text, fault=fault))
     return found
