@@ -74,6 +74,12 @@ def bootstrap(
     ------
     ModelError
         If the problem was not solved, or too few of the draws were.
+
+    Examples
+    --------
+    >>> drawn = si.bootstrap(problem.solve(), 8, on_finished=None)
+    >>> drawn.parameters.index.tolist()
+    ['damping']
     """
     if not solution.solved:
         raise ModelError(f"bootstrap: the problem was not solved: {solution.message}")

@@ -41,6 +41,12 @@ def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] 
     ------
     ModelError
         If a model was not solved, has several episodes, or saw other data than the first.
+
+    Examples
+    --------
+    >>> two = {"free": problem.solve(), "fixed": si.Identification(model.fixed(damping=0.1), recording).solve()}
+    >>> list(si.compare(two).index)
+    ['free', 'fixed']
     """
     errors = {name: _errors(name, s) for name, s in solutions.items()}
     _refuse_other_data(solutions)

@@ -73,6 +73,11 @@ def identifiability(model: Model, seed: int = 0) -> Identifiability:
     ------
     ModelError
         If the model has no outputs, or no bounded motion was found at random parameters.
+
+    Examples
+    --------
+    >>> si.identifiability(model)
+    All parameters are determined by the outputs.
     """
     names = list(model.parameters)
     if not model.outputs:

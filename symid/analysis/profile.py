@@ -46,6 +46,12 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
     ------
     ModelError
         If the problem was not solved, there is no such parameter, or a fit fails.
+
+    Examples
+    --------
+    >>> table = si.profile(problem.solve(), "damping", [0.38, 0.40, 0.42])
+    >>> bool(table["deviance"].min() >= 0), len(table.attrs["interval"])
+    (True, 2)
     """
     if not solution.solved:
         raise ModelError(f"profile: the problem was not solved: {solution.message}")

@@ -30,6 +30,11 @@ class Uncertainty:
         standard errors).
     errors : the error model by which they were found, and the noise; see `Solution.errors`.
     determined : combinations that are determined where single parameters are not -> (value, standard error).
+
+    Examples
+    --------
+    >>> bool(si.uncertainty(problem.solve()).parameters.loc["damping", "relative_error"] < 0.1)
+    True
     """
 
     parameters: pd.DataFrame
@@ -77,6 +82,11 @@ def uncertainty(solution: Solution, errors: str = "auto") -> Uncertainty:
     ------
     ModelError
         If the problem was not solved.
+
+    Examples
+    --------
+    >>> si.uncertainty(problem.solve()).parameters[["explained", "at_bound"]].values.tolist()
+    [[0.0, False]]
     """
     if not solution.solved:
         raise ModelError(f"uncertainty: the problem was not solved: {solution.message}")

@@ -62,6 +62,12 @@ def read_case(directory: str | Path) -> Case:
     Raises
     ------
     DiagnosisError : its ``case.json`` does not say what is needed.
+
+    Examples
+    --------
+    >>> case = si.read_case("data/concealed/cases/r01")
+    >>> case.model.name, case.fit_window
+    ('double pendulum on a bench', (0.0, 24.0))
     """
     directory = Path(directory)
     path = directory / "case.json"
@@ -114,6 +120,10 @@ def rig_case(
     Raises
     ------
     DiagnosisError : there is nothing to take for the window. RecordingError, ModelError : as for `rig_model`.
+
+    Examples
+    --------
+    >>> case = si.rig_case("swing.csv", "rig.json", fit_window=(0, 20), friction=["joint1"])    # doctest: +SKIP
     """
     table = with_base_acceleration(read_recording(recording))
     model = rig_model(parameters, table.channels, friction)
@@ -124,7 +134,13 @@ def rig_case(
 
 
 def diagnose_case(case: Case, **options: Any) -> Diagnosis:
-    """`diagnose` with everything that the case says."""
+    """`diagnose` with everything that the case says.
+
+    Examples
+    --------
+    >>> print(si.diagnose_case(si.read_case("data/concealed/cases/r01")))       # doctest: +SKIP
+    Joint 2 is held back by a dry friction of 38.01 ± 0.40 µN m whatever its speed. ...
+    """
     return diagnose(
         case.model,
         case.recording,

@@ -61,6 +61,14 @@ def diagnose(
     Raises
     ------
     DiagnosisError : a window is empty, a channel is missing, or the model cannot be fitted at all.
+
+    Examples
+    --------
+    >>> case = si.read_case("data/concealed/cases/r01")
+    >>> found = si.diagnose(case.model, case.recording, fit_window=(0, 24), held_out=(24, 36),
+    ...                     segment_length=4.0, driven=False)                                    # doctest: +SKIP
+    >>> found                                                                                    # doctest: +SKIP
+    <Diagnosis: missing_physics: coulomb_friction at joint2>
     """
     task = task_of(
         subject, recording, fit_window, start, held_out=held_out, segment_length=segment_length, settling=settling

@@ -42,6 +42,11 @@ class LocalPool(Executor):
     ------
     SolveError
         `jobs` is below 1. Futures raise it where worker processes cannot start.
+
+    Examples
+    --------
+    >>> with si.LocalPool(2) as pool:                               # doctest: +SKIP
+    ...     solution = problem.solve(starts=20, executor=pool)
     """
 
     def __init__(self, jobs: int | None = None):
@@ -183,6 +188,11 @@ class Cluster(Executor):
     ------
     SolveError
         dask.distributed is absent, or no scheduler answers there.
+
+    Examples
+    --------
+    >>> with si.Cluster("tcp://HOST:8786") as pool:                 # doctest: +SKIP
+    ...     solution = problem.solve(starts=20, executor=pool)
     """
 
     def __init__(self, client: Any, timeout_s: float = 10.0):

@@ -73,6 +73,13 @@ class Identification:
     ------
     ModelError, TranscriptionError
         When the program is first needed, if model and recordings do not fit together.
+
+    Examples
+    --------
+    >>> problem = Identification(model, recording, window=(0, 4))
+    >>> solution = problem.solve()
+    >>> solution.solved, list(solution.values)
+    (True, ['damping'])
     """
 
     model: Model

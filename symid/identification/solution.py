@@ -41,6 +41,15 @@ class Solution:
     starts : one row for each start, in their order.
     best : which of them this is.
     error_model : asked for: "auto", "white", "coloured" or "clustered"; see `with_errors`.
+
+    Examples
+    --------
+    >>> solution = problem.solve()
+    >>> row = solution.parameters.loc["damping"]
+    >>> bool(abs(row.value - 0.4) < 3 * row.std_error), row.unit
+    (True, '1/s')
+    >>> list(solution.trajectories[0])
+    ['angle', 'rate', 'measured', 'measured recorded']
     """
 
     problem: Identification
@@ -53,6 +62,7 @@ class Solution:
 
     @property
     def transcription(self) -> Transcription:
+        """The discretised problem that was solved; SolveError where the model has changed since."""
         t = self.problem.transcription
         if self.problem.model.fingerprint != self.fingerprint:
             raise SolveError(f"model '{self.problem.model.name}' changed since it was solved: solve it again")
@@ -60,10 +70,12 @@ class Solution:
 
     @property
     def model(self) -> Model:
+        """The model that was identified."""
         return self.problem.model
 
     @property
     def solved(self) -> bool:
+        """Whether Ipopt found an optimum."""
         return self.result.solved
 
     @property

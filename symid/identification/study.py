@@ -42,6 +42,11 @@ class Solve:
     number, seed : of a random start.
     options : for `symid.ipopt_solver.solve_nlp`.
     labels : what this solve is called in the study's table, column -> value.
+
+    Examples
+    --------
+    >>> Study({"first": Solve(problem), "second": Solve(problem, start={"damping": 1.0})})
+    <Study of 2 solves>
     """
 
     problem: Identification
@@ -68,6 +73,7 @@ class Solve:
 
     @property
     def key(self) -> str:
+        """Fingerprint of everything that the result depends on."""
         return self.identity["key"]
 
     @property
@@ -113,6 +119,12 @@ class Study:
     ------
     SolveError
         There are no solves, or the directory belongs to another study or cannot be written.
+
+    Examples
+    --------
+    >>> study = Study.product({"given": problem, "short": si.Identification(model, recording, (0, 3))}, starts=1)
+    >>> list(study.run_here(on_finished=None).table["solved"])
+    [True, True]
     """
 
     def __init__(self, solves: Mapping[str, Solve], store: str | Path | None = None):

@@ -21,6 +21,12 @@ class BenchDoublePendulum:
     ----------
     m1, m2 : masses [kg]. a1, a2 : joint to centre of mass [m]. L1 : joint 1 to joint 2 [m].
     I1, I2 : moments of inertia about the centres of mass [kg m^2]. g : gravity [m/s^2].
+
+    Examples
+    --------
+    >>> rig = BenchDoublePendulum(m1=0.1, m2=0.1, a1=0.1, a2=0.1, L1=0.2, I1=4e-4, I2=4e-4)
+    >>> list(rig.plant(friction=("joint1",)).parameters)
+    ['viscous_friction_joint1_coefficient_Nms_rad']
     """
 
     m1: float

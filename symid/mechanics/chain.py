@@ -33,6 +33,11 @@ class ChainLink:
     mass [kg], com (joint to centre of mass [m]), inertia (about the centre of mass [kg m^2]).
     length : joint to joint [m]; None for the last link, where it has no meaning.
     constants : other names of the model's constants, by quantity (default ``<link>_mass`` ...).
+
+    Examples
+    --------
+    >>> Chain((ChainLink("arm", mass=0.2, com=0.15, inertia=1.5e-3),)).plant().constants["arm_mass"].value
+    0.2
     """
 
     name: str
@@ -82,6 +87,11 @@ class Chain:
     base_channel : channel with the recorded forward acceleration of the base; "" for a fixed base.
     angle_bound, velocity_bound : bounds of the states [rad], [rad/s].
     friction_speed : width of the smoothed jump of any dry friction that is added [rad/s].
+
+    Examples
+    --------
+    >>> Chain.uniform(3, length=0.5, upright=True).plant().name
+    'upright chain of 3 links'
     """
 
     links: tuple[ChainLink, ...]

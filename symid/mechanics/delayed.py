@@ -21,6 +21,11 @@ class DelayedFullState(Feedback):
     Parameters
     ----------
     lags : times before now at which the states are read [s], not negative, increasing.
+
+    Examples
+    --------
+    >>> len(Chain.uniform(1).with_feedback(DelayedFullState(lags=(0.05, 0.1))).parameters)
+    5
     """
 
     lags: tuple[float, ...] = (0.06, 0.1, 0.14)

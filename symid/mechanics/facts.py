@@ -35,6 +35,12 @@ def model_of(facts: Mapping[str, Any], channels: Iterable[str] = ()) -> Model:
     Raises
     ------
     ModelError : naming what is missing or unknown. RecordingError : about a rig's parameters.
+
+    Examples
+    --------
+    >>> table = {"m1_kg": 0.1, "a1_m": 0.1, "I1_kg_m2": 4e-4}
+    >>> model_of({"system": "rig", "parameters": table}, channels=["link1_angle"]).name
+    'pendulum on a bench'
     """
     readers = {"standing": _standing, "rig": _rig}
     if facts.get("system") not in readers:

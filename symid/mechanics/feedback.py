@@ -40,6 +40,11 @@ class Feedback(ABC):
     delay : bounds [s] of one unknown delay of all signals; None for no delay.
     muscle : bounds [s] of one unknown time constant with which the torques follow what the law
         asks for (first-order activation, Zajac 1989); None for no lag.
+
+    Examples
+    --------
+    >>> "feedback_delay" in Chain.uniform(1).with_feedback(PD(delay=(0.0, 0.3))).parameters
+    True
     """
 
     delay: Bounds | None = None
@@ -117,7 +122,13 @@ class Feedback(ABC):
 
 @dataclass(frozen=True, kw_only=True)
 class PD(Feedback):
-    """Each joint by its own angle and rate: T = kp (angle - ref) + kd rate."""
+    """Each joint by its own angle and rate: T = kp (angle - ref) + kd rate.
+
+    Examples
+    --------
+    >>> list(Chain.uniform(1).with_feedback(PD()).parameters)
+    ['kp_joint1', 'kd_joint1', 'ref_joint1']
+    """
 
     def torques(self, model: Model, joints: tuple[str, ...]) -> list[sm.Expr]:
         for joint in joints:
@@ -133,7 +144,13 @@ class PD(Feedback):
 
 @dataclass(frozen=True, kw_only=True)
 class FullStatePD(Feedback):
-    """Each joint by the angles and rates of all joints: T = K (angles - refs, rates)."""
+    """Each joint by the angles and rates of all joints: T = K (angles - refs, rates).
+
+    Examples
+    --------
+    >>> len(Chain.uniform(2).with_feedback(FullStatePD()).parameters)
+    10
+    """
 
     def torques(self, model: Model, joints: tuple[str, ...]) -> list[sm.Expr]:
         gains = full_state_gains(model, joints)

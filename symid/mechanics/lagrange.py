@@ -51,6 +51,12 @@ def lagrange_residuals(kinetic: sm.Expr, potential: sm.Expr, q: Exprs, dq: Exprs
     ----------
     kinetic, potential : energies [J] as functions of q, dq (kinetic) and q (potential).
     q, dq, ddq : symbols of the n coordinates and of their first and second derivatives.
+
+    Examples
+    --------
+    >>> q, w, a, m = sm.symbols("q w a m")
+    >>> lagrange_residuals(m * w**2 / 2, 9.81 * m * q, [q], [w], [a])       # a falling mass
+    (-a*m - 9.81*m,)
     """
     residuals = []
     for q_i, dq_i in zip(q, dq, strict=True):

@@ -50,6 +50,11 @@ class NeuralNetwork(Feedback):
         below zero, is what the article prints.
     scale : torque [N m] of an output of 1.
     lags : times before now at which the inputs are read [s].
+
+    Examples
+    --------
+    >>> len(Chain.uniform(2).with_feedback(NeuralNetwork(hidden=4)).parameters)
+    30
     """
 
     hidden: int = 4

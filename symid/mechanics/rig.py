@@ -48,6 +48,12 @@ def rig_model(
     ------
     RecordingError : listing every key that is missing or has no usable value.
     ModelError : `friction` names a joint that the rig does not have.
+
+    Examples
+    --------
+    >>> rig = rig_model({"m1_kg": 0.1, "a1_m": 0.1, "I1_kg_m2": 4e-4}, channels=["link1_angle"], friction=["joint1"])
+    >>> list(rig.states), list(rig.parameters)
+    (['link1_angle', 'link1_velocity'], ['viscous_friction_joint1_coefficient_Nms_rad'])
     """
     name = "rig" if isinstance(parameters, Mapping) else str(parameters)
     given = load_table(parameters)

@@ -22,6 +22,11 @@ class Skeleton:
     links : their names, from the base on. lengths : (links,) [m]; of the last link twice the way to its centre of mass.
     states : names of the states. turns : (links, states) each link's angle from the vertical, as a sum of states.
     upright : whether the vertical points up.
+
+    Examples
+    --------
+    >>> skeleton(Chain.uniform(2, length=0.5, upright=True).plant()).upright
+    True
     """
 
     links: tuple[str, ...]

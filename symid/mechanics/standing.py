@@ -28,6 +28,12 @@ class DoubleLinkPendulum:
     ----------
     leg_length [m], leg_com, trunk_com : joint to centre of mass [m], leg_mass, trunk_mass [kg],
     leg_inertia, trunk_inertia : about the centres of mass [kg m^2], gravity [m/s^2].
+
+    Examples
+    --------
+    >>> body = DoubleLinkPendulum.from_json("data/standing_synthetic/body.json")
+    >>> list(body.with_feedback(PD()).inputs)
+    ['platform_acceleration']
     """
 
     leg_length: float

@@ -33,5 +33,10 @@ def suspects(model: Model, laws: dict[str, Law] | None = None) -> list[Term]:
     Parameters
     ----------
     laws : by name; the whole `LIBRARY` where not given. A user's own law is one more entry.
+
+    Examples
+    --------
+    >>> "viscous_friction@joint1" in {str(term) for term in suspects(Chain.uniform(1).plant())}
+    True
     """
     return [law.at(place) for law in (LIBRARY if laws is None else laws).values() for place in law.places(model)]

@@ -68,6 +68,10 @@ def from_kane(
     ------
     ModelError
         With everything that is missing, unknown or unusable at once (`violations`).
+
+    Examples
+    --------
+    >>> model = from_kane(kane, {"q": "rad", "u": "rad/s", "m": "kg"}, constants={"m": 1.0})     # doctest: +SKIP
     """
     from sympy.physics.mechanics import KanesMethod
 
@@ -93,6 +97,16 @@ def from_lagrange(
     """A Model from a LagrangesMethod without constraints (``form_lagranges_equations``).
 
     The rate of a coordinate ``q`` becomes the state ``q_rate``; all else as in `from_kane`.
+
+    Examples
+    --------
+    >>> from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
+    >>> q, l, g = dynamicsymbols("q"), *sm.symbols("l g")
+    >>> method = LagrangesMethod((l * q.diff()) ** 2 / 2 + g * l * sm.cos(q), [q])
+    >>> _ = method.form_lagranges_equations()
+    >>> units = {"q": "rad", "q_rate": "rad/s", "l": "m", "g": "m/s^2"}
+    >>> list(from_lagrange(method, units, constants={"g": 9.81}, bounds={"l": (0.1, 2)}).parameters)
+    ['l']
     """
     from sympy.physics.mechanics import LagrangesMethod
 
@@ -122,7 +136,12 @@ def from_lagrange(
 
 
 def from_system(system: System, units: Mapping[str, str], **options: Any) -> Model:
-    """A Model from a System whose equations were formed (``form_eoms``); as `from_kane`."""
+    """A Model from a System whose equations were formed (``form_eoms``); as `from_kane`.
+
+    Examples
+    --------
+    >>> model = from_system(system, {"q": "rad", "u": "rad/s", "m": "kg"}, constants={"m": 1.0}) # doctest: +SKIP
+    """
     method = system.eom_method
     if method is None:
         raise ModelError("this System has no equations yet: call form_eoms() first")

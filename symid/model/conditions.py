@@ -61,6 +61,7 @@ class Constraint(Component):
 
     @property
     def row(self) -> Row:
+        """The expression, and the numbers between which it lies."""
         return row_of(self.condition, self.lower, self.upper)
 
     @property
@@ -153,7 +154,7 @@ class Objective(Component):
     """What an Optimization makes small; an Identification adds it to the squared output error.
 
     >>> m.cost = Objective(running=m.force**2)
-    >>> m.quick = Objective(terminal=m.time)
+    >>> m.quick = Objective(terminal=m.clock.terminal)
 
     Parameters
     ----------

@@ -71,7 +71,14 @@ class Component:
 
 @dataclass(frozen=True, kw_only=True)
 class State(AlongTime, Component):
-    """A quantity with a time derivative, unknown at every node. Bounds in its unit."""
+    """A quantity with a time derivative, unknown at every node. Bounds in its unit.
+
+    Examples
+    --------
+    >>> m.lean = State(unit="rad", bounds=(-1, 1), meaning="from the vertical")
+    >>> m.lean.dot
+    lean'
+    """
 
     unit: str = REQUIRED
     bounds: Bounds = (-inf, inf)
@@ -142,6 +149,10 @@ class Input(AlongTime, Component):
         digital-to-analogue converter does (zero-order hold; Astrom & Wittenmark 1997, section 2.3);
         "linear" joins them by straight lines; "smooth" samples a smooth signal: straight lines where
         the scheme is of second order on the samples themselves, else a cubic spline.
+
+    Examples
+    --------
+    >>> m.push = Input(unit="N", channel="recorded_force")
     """
 
     unit: str = REQUIRED
@@ -158,6 +169,10 @@ class Parameter(Quantity, Component):
     bounds : in its unit; the larger one scales it.
     guess : used as a start if given.
     prior : what is known before the data: `Normal` or `LogNormal`.
+
+    Examples
+    --------
+    >>> m.damping = Parameter(unit="N*s/m", bounds=(0, 10), meaning="of the bearing")
     """
 
     unit: str = REQUIRED
@@ -168,7 +183,12 @@ class Parameter(Quantity, Component):
 
 @dataclass(frozen=True)
 class Constant(Quantity, Component):
-    """A known number, in its unit. Changing the value never needs new code."""
+    """A known number, in its unit. Changing the value never needs new code.
+
+    Examples
+    --------
+    >>> m.mass = Constant(2.0, unit="kg")
+    """
 
     value: float
     unit: str = field(default=REQUIRED, kw_only=True)
@@ -176,14 +196,25 @@ class Constant(Quantity, Component):
 
 @dataclass(frozen=True, kw_only=True)
 class Noise(Quantity, Component):
-    """Process noise: drawn for an episode, then known. Zero in a deterministic problem."""
+    """Process noise: drawn for an episode, then known. Zero in a deterministic problem.
+
+    Examples
+    --------
+    >>> m.jitter = Noise(unit="N")          # its size is given by Episodes
+    """
 
     unit: str = REQUIRED
 
 
 @dataclass(frozen=True)
 class Expression(Quantity, Component):
-    """A named intermediate quantity, such as a joint torque, that a Term can redefine."""
+    """A named intermediate quantity, such as a joint torque, that a Term can redefine.
+
+    Examples
+    --------
+    >>> m.mass = Constant(2.0, unit="kg")
+    >>> m.momentum = Expression(m.mass * m.speed, unit="kg*m/s")
+    """
 
     expr: sm.Expr
     unit: str = field(default=REQUIRED, kw_only=True)
@@ -191,7 +222,12 @@ class Expression(Quantity, Component):
 
 @dataclass(frozen=True)
 class Equation(Component):
-    """A residual that must be zero at all times."""
+    """A residual that must be zero at all times.
+
+    Examples
+    --------
+    >>> m.motion = Equation(m.x.dot - m.speed)
+    """
 
     expr: sm.Expr
 
@@ -201,6 +237,10 @@ class Output(Quantity, Component):
     """What a sensor shows, to be compared with the recorded `channel`.
 
     The channel and the unit default to those of the state when `expr` is one state.
+
+    Examples
+    --------
+    >>> m.seen = Output(m.x, channel="recorded_position")
     """
 
     expr: sm.Expr
@@ -218,6 +258,11 @@ class Port(Component):
     into : equation name -> coefficient with which a force along +rate enters that residual.
     unit : unit of the force (``"N*m"`` at a joint); where it is left out, that of the first
         equation that the force enters, for which this must have been declared before.
+
+    Examples
+    --------
+    >>> m.motion = Equation(m.speed.dot + m.c * m.speed)
+    >>> m.slider = Port(position=m.x, rate=m.speed, into={"motion": -1.0}, role="joint", at="slider")
     """
 
     position: sm.Expr

@@ -42,7 +42,8 @@ FREE_FACTOR = 10.0
 
 
 def _kind(kind: type[Part]) -> dict[str, Part]:
-    return cast("dict[str, Part]", property(lambda self: self._of(kind)))
+    told = f"Its parts of the kind `{kind.__name__}`, by name, in order of declaration."
+    return cast("dict[str, Part]", property(lambda self: self._of(kind), doc=told))
 
 
 class Model:

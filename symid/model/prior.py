@@ -29,12 +29,18 @@ class Normal:
             raise ModelError(f"{self}: a prior needs a finite mean and a positive standard deviation")
 
     def penalty(self, expr: sm.Expr) -> sm.Expr:
+        """What it adds to minus twice the log-likelihood for an expression of the quantity."""
         return ((expr - sm.Float(self.mean)) / sm.Float(self.deviation)) ** 2
 
 
 @dataclass(frozen=True)
 class LogNormal:
-    """Positive, with this median; two thirds lie within a `factor` of it: LogNormal(2, 1.5) is 1.33 to 3."""
+    """Positive, with this median; two thirds lie within a `factor` of it: LogNormal(2, 1.5) is 1.33 to 3.
+
+    Examples
+    --------
+    >>> m.stiffness = Parameter(unit="N/m", bounds=(0, 1e5), prior=LogNormal(1000.0, 1.3))
+    """
 
     median: float
     factor: float

@@ -28,6 +28,11 @@ class LawParameter:
         diagnosis believes in larger ones less (a Cauchy prior of this width). 0 where any size is as likely.
     clock : how the parameter follows a clock instead of the state: "frequency", "phase", "start", "duration"
         or "moment"; "" for all others.
+
+    Examples
+    --------
+    >>> LawParameter("torque_Nm", "N*m", bounds=(0, 5), plausible=0.1).unit
+    'N*m'
     """
 
     key: str
@@ -57,6 +62,14 @@ class Law:
     source : author and year of the formula.
     place : name of its one place, for a law that acts on all parts with that role at once
         (``"global"``); "" for a law that acts at one part's place.
+
+    Examples
+    --------
+    >>> def drag(model, place, p):
+    ...     model.add_effort(place, -p.c_Nms_rad * model.rate)
+    >>> law = Law("drag", "joint", (LawParameter("c_Nms_rad", "N*m*s/rad", (0, 1)),), drag, "Drag of {c_Nms_rad}")
+    >>> str(law.at("shaft"))
+    'drag@shaft'
     """
 
     name: str
@@ -74,18 +87,26 @@ class Law:
         return list(dict.fromkeys(self.place or at for at in everywhere if all(model.find(r, at) for r in others)))
 
     def at(self, place: str) -> Term:
+        """This law at one place."""
         return Term(self, place)
 
 
 @dataclass(frozen=True)
 class Term:
-    """A law at one place. `Model.with_term(term)` gives a new model that contains it."""
+    """A law at one place. `Model.with_term(term)` gives a new model that contains it.
+
+    Examples
+    --------
+    >>> str(si.mechanics.LIBRARY["viscous_friction"].at("joint1"))
+    'viscous_friction@joint1'
+    """
 
     law: Law
     location: str
 
     @property
     def name(self) -> str:
+        """Name of its law."""
         return self.law.name
 
     def parameter_name(self, key: str) -> str:

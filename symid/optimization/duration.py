@@ -15,7 +15,7 @@ NAME = "duration"
 class Free:
     """A duration [s] to be found between `lower` and `upper`; a solve begins at `guess`, their middle by default.
 
-    >>> si.Optimization(model, duration=si.Free(1, 20), nodes=100)
+    >>> problem = si.Optimization(model, duration=si.Free(1, 20), nodes=100)
     """
 
     lower: float

@@ -27,6 +27,17 @@ class Plan:
     ----------
     problem : what was solved.
     result : what Ipopt returned.
+
+    Examples
+    --------
+    >>> m = si.Model("cart")
+    >>> m.x, m.v, m.force = si.State(unit="m"), si.State(unit="m/s"), si.Control(unit="m/s^2")
+    >>> m.motion = si.Equation({0: m.x.dot - m.v, 1: m.v.dot - m.force})
+    >>> m.ends = si.Boundary(initial={m.x: 0, m.v: 0}, terminal={m.x: 1, m.v: 0})
+    >>> m.effort = si.Objective(running=m.force**2)
+    >>> plan = si.Optimization(m, duration=1, nodes=21).solve()
+    >>> round(plan.objective, 3), round(float(plan[m.x][-1]), 3)        # 12 for one metre in one second
+    (12.0, 1.0)
     """
 
     problem: Optimization
@@ -34,6 +45,7 @@ class Plan:
 
     @property
     def solved(self) -> bool:
+        """Whether an optimum was found."""
         return self.result.solved
 
     @property
@@ -43,6 +55,7 @@ class Plan:
 
     @property
     def objective(self) -> float:
+        """Value of the objective, penalties of soft constraints and priors included."""
         return self.result.objective
 
     @cached_property

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from symid.identification import Solution
-from symid.identification.fit import common_unit
+from symid.identification.fit import common_unit, rms_text
 from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened
 from symid.units import shown_unit, unit_symbol, with_error
 
@@ -29,15 +29,16 @@ def plot_fit(solution: Solution, episode: int = 0, window: tuple[float, float] |
     figure = Picture(figsize=(9, 2.6 * len(outputs) + 0.5), layout="constrained")
     axes = figure.subplots(2 * len(outputs), 1, sharex=True, squeeze=False, height_ratios=[2.6, 1] * len(outputs))[:, 0]
     time = frame.index.to_numpy()
+    wide = 3.0 if time[-1] - time[0] <= 3 * TYPICAL else 1.6  # below a model that fits, the recording and its gaps show
     for (name, output), above, below in zip(outputs.items(), axes[::2], axes[1::2], strict=True):
         unit, factor = shown_unit(output.unit)
         recorded, model = frame[f"{name} recorded"].to_numpy() * factor, frame[name].to_numpy() * factor
-        above.plot(time, recorded, color=RECORDED, lw=1.4, label="recorded")
+        above.plot(time, recorded, color=RECORDED, lw=wide, label="recorded")
         above.plot(time, model, color=MODEL, lw=0.9, label="model")
         below.axhline(0, color=INK, lw=0.5)
         below.plot(time, recorded - model, color=WARN, lw=0.6)
-        rms = np.sqrt(np.nanmean((recorded - model) ** 2))
-        above.set_title(f"{output.channel.replace('_', ' ')}: RMS error {rms:.3g} {unit}", loc="left", fontsize=10)
+        rms = rms_text(float(np.sqrt(np.nanmean((recorded - model) ** 2))) / factor, output.unit or "1", digits=3)
+        above.set_title(f"{output.channel.replace('_', ' ')}: RMS error {rms}", loc="left", fontsize=10)
         above.set_ylabel(unit)
         below.set_ylabel(f"residual\n{unit}", fontsize=8)
         opened(above, below)

@@ -41,6 +41,13 @@ class Recording:
     ------
     RecordingError
         If lengths differ, a unit is missing or not SI, or a table names an unknown channel.
+
+    Examples
+    --------
+    >>> time = np.arange(0, 1, 0.01)
+    >>> rec = Recording("swing", time, {"angle": np.sin(time)}, {"angle": "rad"})
+    >>> len(rec), rec.interval, rec.sampling_interval
+    (100, (0.0, 0.99), 0.01)
     """
 
     name: str

@@ -39,6 +39,11 @@ class Episodes:
         "gaussian" (as in the article; independent).
     shared_initial_state : whether all episodes start in the same free state (as in the
         authors' files) or each in its own.
+
+    Examples
+    --------
+    >>> si.Identification(model, recording, episodes=Episodes(3, push=0.2, seed=1)).episodes.count
+    3
     """
 
     count: int = 1

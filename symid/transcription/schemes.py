@@ -36,17 +36,35 @@ def _stencil(*numbers: ArrayLike) -> Stencil:
 
 
 def Midpoint() -> Scheme:
-    """Implicit midpoint rule, also called the one-stage Gauss method; the article's scheme."""
+    """Implicit midpoint rule, also called the one-stage Gauss method; the article's scheme.
+
+    Examples
+    --------
+    >>> si.Identification(model, recording, scheme=Midpoint()).scheme.order
+    2
+    """
     return Scheme("midpoint", 2, _stencil([0.5], [[0.5, 0.5]], [[-1, 1]], [[1]], np.zeros((0, 2))))
 
 
 def BackwardEuler() -> Scheme:
-    """Implicit Euler; strongly damping, for stiff or non-smooth models."""
+    """Implicit Euler; strongly damping, for stiff or non-smooth models.
+
+    Examples
+    --------
+    >>> BackwardEuler().order
+    1
+    """
     return Scheme("backward_euler", 1, _stencil([1], [[0, 1]], [[-1, 1]], [[1]], np.zeros((0, 2))))
 
 
 def Trapezoid() -> Scheme:
-    """Implicit trapezoidal rule in residual form: the mean of the residuals at both ends."""
+    """Implicit trapezoidal rule in residual form: the mean of the residuals at both ends.
+
+    Examples
+    --------
+    >>> Trapezoid().order
+    2
+    """
     return Scheme("trapezoid", 2, _stencil([0, 1], np.eye(2), [[-1, 1], [-1, 1]], [[0.5, 0.5]], np.zeros((0, 2))))
 
 
@@ -54,6 +72,11 @@ def HermiteSimpson() -> Scheme:
     """Hermite-Simpson, that is the three-stage Lobatto IIIA method (Hairer & Wanner 1996, table IV.5.7).
 
     Three interior slots hold the increments h x' at the start, middle and end of the interval.
+
+    Examples
+    --------
+    >>> si.Identification(model, recording, scheme=HermiteSimpson()).solve().solved
+    True
     """
     state: list[list[float]] = [[1, 0, 0, 0, 0], [1, 5 / 24, 1 / 3, -1 / 24, 0], [0, 0, 0, 0, 1]]
     rate = [[0, 1, 0, 0, 0], [0, 0, 1, 0, 0], [0, 0, 0, 1, 0]]

@@ -38,6 +38,12 @@ class Suspect:
     ----------
     established : whether the term's name is one that answers may give; others are hypotheses
         that say what an unexplained rest looks like.
+
+    Examples
+    --------
+    >>> mine = si.Suspect(si.mechanics.LIBRARY["viscous_friction"].at("joint1"))
+    >>> mine.established
+    True
     """
 
     term: Term
@@ -45,6 +51,7 @@ class Suspect:
 
     @property
     def law(self) -> Law:
+        """What it says, wherever it acts."""
         return self.term.law
 
     @property
@@ -71,6 +78,7 @@ class Suspect:
 
     @property
     def size(self) -> int:
+        """How many unknowns it brings."""
         return len(self.law.parameters)
 
     def named(self, values: dict[str, float]) -> dict[str, float]:
@@ -131,6 +139,13 @@ def suspects(model: Model) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses.
 
     Of laws that write the same equations, such as a drag on the first link and friction at its joint, the first stands.
+
+    Examples
+    --------
+    >>> rig = si.mechanics.Chain.uniform(2).plant()
+    >>> found = si.suspects(rig)
+    >>> {"viscous_friction@joint1", "coulomb_friction@joint2"} <= {str(s.term) for s in found}
+    True
     """
     found: dict[Any, Any] = {}
     for term in terms_of(model):

@@ -72,6 +72,12 @@ class Diagnosis:
     unnamed : what acts and has no name: `rest`, `flexible`.
     false_alarm_probability : that chance alone makes the best suspect look as good as the weakest effect that was found
         (of an adequate model: as the best suspect); None where that cannot be told.
+
+    Examples
+    --------
+    >>> found = si.diagnose_case(si.read_case("data/concealed/cases/r01"))       # doctest: +SKIP
+    >>> found.verdict, found.confirmed                                           # doctest: +SKIP
+    ('missing_physics', True)
     """
 
     verdict: str
@@ -107,6 +113,7 @@ class Diagnosis:
 
     @property
     def improved(self) -> Model:
+        """The model with the found terms."""
         return self.final.model
 
     @property
