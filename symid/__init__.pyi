@@ -23,6 +23,7 @@ from .errors import (
     SymidError as SymidError,
     TranscriptionError as TranscriptionError,
 )
+from .identification.export import export as export
 from .identification import (
     Cluster as Cluster,
     Identification as Identification,

@@ -15,7 +15,8 @@ LINE = 150
 """LaTeX characters of one line of an equation, about a notebook's width."""
 
 
-def _names(model: Model) -> dict[sm.Symbol, str]:
+def letters(model: Model) -> dict[sm.Symbol, str]:
+    """How LaTeX prints the symbol of each part, of its rate, of its ends, and of what is late."""
     names = {TIME: "t"}
     for part in model.components.values():
         own = part.latex or sm.latex(part.symbol)
@@ -34,7 +35,7 @@ def latex(model: Model) -> str:
 
 def latex_lines(model: Model) -> list[str]:
     """The same line by line, with an ampersand where they are to be aligned."""
-    names = _names(model)
+    names = letters(model)
 
     def tex(e):
         return sm.latex(e, symbol_names=names)
@@ -93,7 +94,7 @@ def _parts(model: Model):
 
 def html(model: Model) -> str:
     """Name, equations and a table of all parts with their letters in the equations, for a notebook."""
-    names, rows = _names(model), []
+    names, rows = letters(model), []
     for kind, c, value in _parts(model):
         letter = f"${names[c.symbol]}$" if kind != "output" else ""
         cells = (kind, letter, f"<code>{escape(c.name)}</code>", value, escape(c.unit), escape(c.meaning))
