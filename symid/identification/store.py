@@ -8,26 +8,22 @@ last: where it is there and its checksums are right, the solve is whole.
 from __future__ import annotations
 
 import hashlib
-import io
 import json
 import warnings
 import zipfile
 from collections.abc import Mapping
-from dataclasses import asdict, fields
+from dataclasses import asdict
 from pathlib import Path
 from typing import Protocol
-
-import numpy as np
 
 from symid.errors import SolveError
 from symid.files import plain, write_atomically, write_json
 from symid.identification.identity import VERSION, digest
 from symid.identification.start_row import StartRow
 from symid.identification.worker import Outcome
-from symid.ipopt_solver import LinearSolver, SolverResult, WorstConstraint
+from symid.ipopt_solver.kept import put_together, taken_apart, with_nan
 
 FORMAT = "symid study 2"
-ARRAYS = tuple(f.name for f in fields(SolverResult) if "ndarray" in str(f.type))
 
 
 class Store(Protocol):
@@ -164,35 +160,12 @@ def _keys_on_disk(path: Path, known: Mapping, wanted: Mapping) -> dict[str, str]
 
 def _taken_apart(outcome: Outcome) -> tuple[dict, bytes]:
     """JSON content and the bytes of an npz file."""
-    content, arrays, result = {"format": FORMAT, "row": asdict(outcome.row), "result": None}, {}, outcome.result
-    if result is not None:
-        arrays = {name: getattr(result, name) for name in ARRAYS}
-        content["result"] = {f.name: getattr(result, f.name) for f in fields(result) if f.name not in ARRAYS}
-        if result.worst_constraint is not None:
-            content["result"]["worst_constraint"] = asdict(result.worst_constraint)
-        content["result"]["linear_solver"] = asdict(result.linear_solver)
-    file = io.BytesIO()
-    np.savez(file, **arrays)
-    return plain(content), file.getvalue()
+    result, arrays = taken_apart(outcome.result)
+    return plain({"format": FORMAT, "row": asdict(outcome.row), "result": result}), arrays
 
 
 def _put_together(content: dict, arrays: bytes) -> Outcome:
-    row = StartRow(**_with_nan(content["row"], StartRow))
-    values = content["result"]
-    if values is None:
-        return Outcome(row)
-    worst = values["worst_constraint"]
-    values["worst_constraint"] = None if worst is None else WorstConstraint(**_with_nan(worst, WorstConstraint))
-    noted = values.get("linear_solver", {"name": "mumps", "reason": "solved before it was noted which"})
-    values["linear_solver"] = LinearSolver(**noted)
-    with np.load(io.BytesIO(arrays), allow_pickle=False) as file:
-        return Outcome(row, SolverResult(**_with_nan(values, SolverResult), **{name: file[name] for name in ARRAYS}))
-
-
-def _with_nan(values: dict, kind: type) -> dict:
-    """JSON has no NaN: a number that is null was one."""
-    numbers = {f.name for f in fields(kind) if f.type in ("float", float)}
-    return {k: np.nan if v is None and k in numbers else v for k, v in values.items()}
+    return Outcome(StartRow(**with_nan(content["row"], StartRow)), put_together(content["result"], arrays))
 
 
 def _text(content: dict) -> bytes:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
@@ -93,6 +94,12 @@ class Plan:
         """(nodes,) the motion of one quantity, by name or part."""
         column: np.ndarray = self.trajectories[str(getattr(name, "symbol", name))].to_numpy()
         return column
+
+    def save(self, path: str | Path) -> None:
+        """Write the plan to the file `path`; `Optimization.load` reads it."""
+        from symid.optimization.saved import save
+
+        save(self, path)
 
     def plot(self) -> Any:
         """Figure of the motion and its controls."""

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -99,6 +100,12 @@ class Optimization:
     def start(self, values: Mapping[str, Any] | Plan | None = None) -> np.ndarray:
         """A free vector to start from, see `solve`."""
         return start_vector(self, values)
+
+    def load(self, path: str | Path) -> Plan:
+        """The plan of this problem that `Plan.save` wrote; SolveError where it is that of another."""
+        from symid.optimization.saved import load
+
+        return load(path, self)
 
     def solve(
         self,
