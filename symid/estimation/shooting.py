@@ -7,7 +7,7 @@ recording somewhat: from a worse one, or an unstable one, it could end in anothe
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import scipy
@@ -26,7 +26,7 @@ FINE_GAINS = (0.7, 0.3, 0.1, 0.06, 0.03, 0.02, 0.01, 0.006, 0.003, 0.002, 0.001,
 """The same in smaller steps: the optimum moves less from one to the next. From 0.03 to nothing at once, a pendulum that
 turns over, a Lorenz and a Duffing system lose it."""
 RUNAWAY = 4.0
-"""Cost over the least of the gains before, at which the optimum has been lost."""
+"""Cost over the least of the gains before, above which the optimum has been lost."""
 DRAWS, BEST, PATIENCE = 24, 4, 60
 """Random parameters tried where states are hidden, how many of all fits with the strongest gain go on, and the
 evaluations that each may take from there."""
@@ -69,6 +69,15 @@ def agree(costs: Sequence[float], count: int) -> bool:
     return len(costs) == count and max(costs) <= ALIKE * min(costs)
 
 
+def unlike(ends: Sequence[scipy.optimize.OptimizeResult]) -> list[scipy.optimize.OptimizeResult]:
+    """Ends, sorted by cost, without those of the same optimum."""
+    kept = list(ends[:1])
+    for end in ends[1:]:
+        if end.cost > ALIKE * kept[-1].cost:
+            kept.append(end)
+    return kept
+
+
 class Shooting:
     """Output error as a function of z: scaled parameters, then the initial state of each recording."""
 
@@ -81,9 +90,9 @@ class Shooting:
             np.concatenate([b, side]) / self.scale for b, side in zip(parameter_bounds(t), (-free, free), strict=True)
         )
 
-    def unknowns(self, parameters: np.ndarray) -> np.ndarray:
-        """z of these parameters (SI) and the recorded initial states, inside the bounds."""
-        first = [np.where(self.unseen(m), self.size, m.states[m.first]) for m in self.t.measured]
+    def unknowns(self, parameters: np.ndarray, share: np.ndarray | float = 1.0) -> np.ndarray:
+        """z of these parameters (SI) and the recorded initial states, in the bounds; `share` of `size` if unseen."""
+        first = [np.where(self.unseen(m), share * self.size, m.states[m.first]) for m in self.t.measured]
         z = np.concatenate([parameters, *first]) / self.scale
         return np.clip(z, np.nextafter(self.lower, np.inf), np.nextafter(self.upper, -np.inf))
 
@@ -98,6 +107,11 @@ class Shooting:
         """(n,) whether nothing recorded shows a state."""
         return ~np.any(m.states[m.nodes] != 0, axis=0)
 
+    def with_hidden(self, motion: list[np.ndarray]) -> list[np.ndarray]:
+        """Per episode states (nodes, n), those that nothing recorded shows at `size`."""
+        shown = [self.t.measured[r] for r in self.t.recording_of]
+        return [np.where(self.unseen(m), self.size, x) for m, x in zip(shown, motion, strict=True)]
+
     @property
     def hidden(self) -> bool:
         return any(self.unseen(m).any() for m in self.t.measured)
@@ -105,29 +119,28 @@ class Shooting:
     def led(self, starts: Sequence[np.ndarray]) -> list[scipy.optimize.OptimizeResult]:
         """Output-error fits that begin where fits of led simulations end."""
         draws = [self.drawn(k) for k in range(DRAWS)] if self.hidden else []
-        ends = sorted((self.fit(z, GAINS[0]) for z in (*starts, *draws)), key=lambda end: end.cost)[:BEST]
+        ends = unlike(sorted((self.fit(z, GAINS[0]) for z in (*starts, *draws)), key=lambda end: end.cost))[:BEST]
         for gain in (*GAINS[1:], 0.0):
             ends = [self.fit(end.x, gain, PATIENCE) for end in ends]
         return [end for end in ends if self.follows(end.x)]
 
-    def tracked(self, starts: Sequence[np.ndarray]) -> list[tuple[np.ndarray, list[np.ndarray]]]:
-        """Parameters and states of every episode, led as weakly as the optimum is not lost; nothing where it is never.
+    def tracked(self, starts: Sequence[np.ndarray]) -> Iterator[tuple[np.ndarray, list[np.ndarray]]]:
+        """Parameters and states of every episode, of simulations that follow the recording, led as weakly as may be.
 
-        States that jump a little at the samples are a start of a collocation where simulations alone lose the
-        recording, as those of chaotic systems do.
+        Where the optimum is lost on the way, what was found before that is led still: states that jump a little at the
+        samples are a start of a collocation where simulations alone lose the recording, as of chaotic systems.
         """
         draws = [self.drawn(k) for k in range(DRAWS)] if self.hidden else []
         ends = sorted((self.fit(z, FINE_GAINS[0], PATIENCE) for z in (*starts, *draws)), key=lambda end: end.cost)
-        found = []
-        for end in ends[: BEST if self.hidden else 1]:
-            least, gain = end.cost, FINE_GAINS[0]
-            for weaker in FINE_GAINS[1:]:
-                further = self.fit(end.x, weaker, PATIENCE)
-                if further.cost > RUNAWAY * least:
-                    break
-                end, gain, least = further, weaker, min(least, further.cost)
-            found.append(self._ended(end.x, gain))
-        return [f for f in found if f is not None]
+        for end in unlike(ends)[: BEST if self.hidden else len(starts)]:
+            least, kept = end.cost, (end.x, FINE_GAINS[0])
+            for gain in FINE_GAINS[1:]:
+                end = self.fit(end.x, gain, PATIENCE)
+                if end.cost <= RUNAWAY * least:
+                    least, kept = min(least, end.cost), (end.x, gain)
+            found = self._ended(*kept)
+            if found is not None:
+                yield found
 
     def _ended(self, z: np.ndarray, gain: float) -> tuple[np.ndarray, list[np.ndarray]] | None:
         self.gain = gain
@@ -154,7 +167,10 @@ class Shooting:
         return np.concatenate([layout.parameters(free), *first]) / self.scale
 
     def drawn(self, number: int) -> np.ndarray:
-        """z of random parameters within their bounds, over four decades where these do not change sign."""
+        """z of random parameters within their bounds, over four decades where these do not change sign.
+
+        Of every second one hidden states are drawn likewise: their size follows from parameters that are not known.
+        """
         draw = np.random.default_rng(np.random.SeedSequence(0, spawn_key=(number,)))
         lower, upper = (b * self.scale[: len(b)] for b in (self.lower[: self.q], self.upper[: self.q]))
         size = self.scale[: self.q]
@@ -165,7 +181,8 @@ class Shooting:
             if np.all(high > 0)
             else draw.uniform(low, high),
         )
-        return self.unknowns(np.where(low >= 0, decades, even))
+        share = 10 ** draw.uniform(-4, 0, self.t.layout.n) if number % 2 else 1.0
+        return self.unknowns(np.where(low >= 0, decades, even), share)
 
     def gains(self, r: int, gain: float) -> np.ndarray | None:
         """(n, m) corrections at each sample: the states that outputs show by `gain` of the output error, and their

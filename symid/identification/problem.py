@@ -240,7 +240,8 @@ class Identification:
             told = None if on_iteration is None else on_iteration(iteration)
             return told is not False and iteration.dual_infeasibility <= dual_limit
 
-        return solve_nlp(self.nonlinear_program(start, kept), on_iteration=watch, warm_start=warm_start, **solver)
+        nlp = _off_its_bounds(self.nonlinear_program(start, kept))
+        return solve_nlp(nlp, on_iteration=watch, warm_start=warm_start, **solver)
 
     def solve(
         self,
@@ -298,3 +299,10 @@ class Identification:
             else study.run(executor, on_finished=on_finished)
         )
         return to_likelihood(ended.best(), on_iteration=on_iteration, **solver)
+
+
+def _off_its_bounds(nlp: NonlinearProgram) -> NonlinearProgram:
+    """`nlp` with its start a trace inside of the bounds, where a square root or logarithm has derivatives."""
+    trace = NEAR["bound_push"] * np.maximum(1.0, np.abs(nlp.start))
+    free = nlp.upper - nlp.lower > 2 * trace
+    return replace(nlp, start=np.where(free, np.clip(nlp.start, nlp.lower + trace, nlp.upper - trace), nlp.start))

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp, deadline
 from symid.errors import MachineError, SymidError
+from symid.identification.attempts import solve_default
 from symid.identification.start_row import StartRow
-from symid.identification.starts.further import far, further_starts
 from symid.ipopt_solver import Iteration, SolverResult
 from symid.ipopt_solver.bounded import LEAVE
 from symid.ipopt_solver.status import STATUS, WALL_TIME
@@ -46,52 +46,10 @@ class Outcome:
         return self.finished and not out_of_time
 
 
-LOST, TRACE = 1.2, 1e-9
-"""An end whose objective is so much larger than that of a start by simulation has lost it; a start with no more than
-that part of the objective's scale is the recorded motion itself, whose objective says nothing."""
-FEW, MANY = 40, 200
-"""Iterations in which a start by simulation leads to the optimum that it is close to, or to none; and a further one."""
-
-
 def _solved(solve: Solve, z: np.ndarray, on_iteration) -> SolverResult:
-    """From `z`, and where that is a default start that ends far above a smoother, from further ones: the best end."""
-    problem, t = solve.problem, solve.problem.transcription
-    if not isinstance(solve.start, str) or solve.start != "default":
-        return problem.solve_from(z, on_iteration=on_iteration, **solve.options)
-    best = _from_simulation(problem, z, on_iteration, solve.options)
-    if problem.episodes.count > 1 or (best.solved and not far(t, best.z)):
-        return best
-    options = dict(solve.options) | {"max_iterations": min(MANY, solve.options.get("max_iterations", MANY))}
-    try:
-        for further, simulated in further_starts(t, best.z):
-            run = _from_simulation if simulated else _as_usual
-            best = _better(best, run(problem, further, on_iteration, options))
-            if best.solved and not far(t, best.z):
-                break
-    except SymidError:  # also that time is up
-        pass
-    return best
-
-
-def _as_usual(problem: Identification, z: np.ndarray, on_iteration, options: dict) -> SolverResult:
-    return problem.solve_from(z, on_iteration=on_iteration, **options)
-
-
-def _from_simulation(problem: Identification, z: np.ndarray, on_iteration, options: dict) -> SolverResult:
-    """By small steps from a start found by simulation, and as usual where these lose it."""
-    nlp = problem.nonlinear_program(z)
-    before = nlp.objective(z)
-    if before <= TRACE * nlp.objective_scale:
-        return _as_usual(problem, z, on_iteration, options)
-    few = options | {"max_iterations": min(FEW, options.get("max_iterations", FEW))}
-    end = problem.solve_from(z, on_iteration=on_iteration, near=True, **few)
-    if end.solved and end.objective <= LOST * before:
-        return end
-    return _better(_as_usual(problem, z, on_iteration, options), end)
-
-
-def _better(one: SolverResult, other: SolverResult) -> SolverResult:
-    return other if other.solved and (not one.solved or other.objective < one.objective) else one
+    if isinstance(solve.start, str) and solve.start == "default":
+        return solve_default(solve.problem, z, on_iteration, dict(solve.options))
+    return solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options)
 
 
 def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | None = None) -> Outcome:

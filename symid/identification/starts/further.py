@@ -54,9 +54,10 @@ def further_starts(t: Transcription, z: np.ndarray) -> Iterator[tuple[np.ndarray
     large = sum(m.intervals for m in t.measured) > SMALL and shooting is not None and not shooting.hidden
     if large and _doubt(shooting, z, regressed) < PULLED:
         return
-    yield t.start(regressed, motion), False
+    yield t.start(regressed, motion if shooting is None else shooting.with_hidden(motion)), False
     if shooting is not None:
-        for found in shooting.tracked([shooting.unknowns(regressed)]):
+        others = [regressed, equation_error(t, guesses(t))[0]]
+        for found in shooting.tracked([shooting.unknowns(p) for p in others]):
             yield t.start(*found), True
 
 

@@ -1,0 +1,103 @@
+"""The solve from a default start: by small steps, as usual, from further starts where it ends far from a smoother."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from symid.deadline import TimeUp
+from symid.errors import SolveError
+from symid.identification.starts.further import far, further_starts
+from symid.ipopt_solver import Iteration, SolverResult
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from symid.identification.problem import Identification
+
+LOST, TRACE = 1.2, 1e-9
+"""An end whose objective is so much larger than that of a start by simulation has lost it; a start with no more than
+that part of the objective's scale is the recorded motion itself."""
+FEW, MANY = 40, 200
+"""Iterations in which a start by simulation leads to the optimum that it is close to, or to none; and a further one."""
+
+
+class Attempts:
+    """Solves of one problem, of which the best end is kept, or what the first one that was refused said.
+
+    on_iteration, options : of `Identification.solve_from`.
+    """
+
+    def __init__(self, problem: Identification, on_iteration: Callable[[Iteration], bool | None] | None, options: dict):
+        self.problem, self.t, self.on_iteration, self.options = problem, problem.transcription, on_iteration, options
+        self.best: SolverResult | None = None
+        self.refused: SolveError | None = None
+
+    def run(self, z: np.ndarray, most: float = float("inf"), near: bool = False) -> None:
+        """Solve from `z` in at most so many iterations."""
+        given = dict(self.options)
+        if most < float("inf"):
+            given["max_iterations"] = min(most, given.get("max_iterations", most))
+        try:
+            end = self.problem.solve_from(z, on_iteration=self.on_iteration, near=near, **given)
+        except TimeUp:
+            raise
+        except SolveError as refused:
+            self.refused = self.refused or refused
+            return
+        better = end.solved and self.best is not None and end.objective < self.best.objective
+        if self.best is None or (end.solved and (better or not self.best.solved)):
+            self.best = end
+
+    def is_motion(self, z: np.ndarray) -> bool:
+        """Whether `z` is not the recorded motion itself, whose objective says nothing."""
+        nlp = self.problem.nonlinear_program(z)
+        return bool(nlp.objective(z) > TRACE * nlp.objective_scale)
+
+    def beside(self, z: np.ndarray) -> None:
+        """By small steps, and as usual where these lose a start that was near to the recording."""
+        self.run(z, FEW, near=True)
+        lost = LOST * self.problem.transcription.program.objective(z)
+        if not self.done and not far(self.t, z) and not (self.solved and self.best.objective <= lost):
+            self.run(z, MANY)
+
+    @property
+    def solved(self) -> bool:
+        return self.best is not None and self.best.solved
+
+    @property
+    def done(self) -> bool:
+        """Whether an end is there, and as near to the recording as the noise lets it be."""
+        return self.solved and not far(self.t, self.best.z)
+
+    def end(self) -> SolverResult:
+        if self.best is None:
+            raise self.refused
+        return self.best
+
+
+def solve_default(problem: Identification, z: np.ndarray, on_iteration, options: dict) -> SolverResult:
+    """The best end from the default start `z` and, where that is far above a smoother, from further ones."""
+    attempts = Attempts(problem, on_iteration, options)
+    simulated = attempts.is_motion(z)
+    if simulated:
+        attempts.beside(z)
+    else:
+        attempts.run(z)
+    try:
+        if problem.episodes.count == 1 and not attempts.done:
+            for further, led in further_starts(attempts.t, z if attempts.best is None else attempts.best.z):
+                if led:
+                    attempts.beside(further)
+                else:
+                    attempts.run(further, MANY)
+                if attempts.done:
+                    break
+        if simulated and not attempts.done and problem.episodes.count == 1:
+            attempts.run(z, MANY, near=True)
+        if simulated and not attempts.solved:
+            attempts.run(z)
+    except TimeUp:
+        if attempts.best is None:
+            raise
+    return attempts.end()
