@@ -170,3 +170,12 @@ def test_nothing_is_found_in_a_filtered_recording_that_lacks_nothing():
     finding_of = finding(filtered(recorded(5)))
     assert finding_of.verdict == "adequate"
     assert "low-pass filtered" in finding_of.words and "undone" in finding_of.words
+
+
+def test_a_stated_filter_keeps_its_cutoff():
+    recording = filtered(recorded(0))
+    ((data, fit),) = fits_of(
+        cart(), recording, (0.0, 40.0), None, data_of(recording), ZeroPhase(2, 4.0, 50.0), False, {}, known=True
+    )
+    assert not data.cutoff_free and data.filter == ZeroPhase(2, 4.0, 50.0)
+    assert fit.values["stiffness"] == pytest.approx(TRUE["stiffness"], abs=4 * fit.errors["stiffness"])

@@ -1,6 +1,7 @@
 """Files that a user writes, spoiled by hypothesis: one exception of symid, or a result; never another, never a hang."""
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -153,3 +154,19 @@ def test_recordings_of_any_cells(tmp_path, rows, gaps):
         return
     assert all(len(row) == 3 or (len(row) == 4 and not row[3].strip()) for row in rows if any(c.strip() for c in row))
     assert len(recording) >= 2
+
+
+@pytest.mark.parametrize(
+    ("stated", "said"),
+    [
+        ({"order": 2, "cutoff_Hz": 6.0, "zero_phase": False}, "filter.zero_phase: must be True, since only filters"),
+        ({"order": 0, "cutoff_Hz": 6.0}, "filter.order: must be one of"),
+        ({"order": 2}, "'cutoff_Hz' is a required property"),
+        ({"order": 2, "cutoff_Hz": 400.0}, "must be below half of the"),
+    ],
+)
+def test_a_filter_that_cannot_be_undone_is_refused(tmp_path, stated, said):
+    (tmp_path / "case.json").write_text(json.dumps(CASES[1] | {"filter": stated}))
+    shutil.copy(ROOT / "concealed" / "cases" / "s01" / "recording.csv", tmp_path)
+    with pytest.raises(SymidError, match=said):
+        read_case(tmp_path)

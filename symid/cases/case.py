@@ -11,12 +11,13 @@ from typing import Any
 
 import numpy as np
 
+from symid.cases.schema import refuse_violations
 from symid.discrepancy.diagnose import diagnose
 from symid.discrepancy.say.diagnosis import Diagnosis
-from symid.cases.schema import refuse_violations
 from symid.errors import DiagnosisError, RecordingError, SymidError
-from symid.files import read_json
 from symid.estimation.data import piece_length, segments_of
+from symid.estimation.zero_phase import ZeroPhase
+from symid.files import read_json
 from symid.mechanics import model_of, rig_model
 from symid.mechanics.rig import BASES
 from symid.model import Model
@@ -39,6 +40,7 @@ class Case:
     sensor_noise : standard deviation [SI], None where the recording must tell.
     segment_length : seconds of one piece with an initial state of its own; None for one piece.
     driven : whether random forces act on the system besides the recorded input.
+    filter : what the outputs were low-pass filtered with, None where the recording must tell.
     settling : seconds at the start of the fit window that the fit measure leaves out.
     """
 
@@ -51,6 +53,7 @@ class Case:
     segment_length: float | None
     driven: bool
     settling: float
+    filter: ZeroPhase | None = None
 
 
 def read_case(directory: str | Path) -> Case:
@@ -90,6 +93,7 @@ def read_case(directory: str | Path) -> Case:
         "fit_window": fit,
         "held_out_window": held_out,
         "sensor_noise": facts.get("angle_noise_rms_rad_approx"),
+        "filter": _filter(facts.get("filter"), recording, path),
     }
     if facts["system"] == "standing":
         return Case(**common, segment_length=None, driven=True, settling=3.0)
@@ -150,6 +154,7 @@ def diagnose_case(case: Case, **options: Any) -> Diagnosis:
         segment_length=case.segment_length,
         driven=case.driven,
         settling=case.settling,
+        filter=case.filter,
         **options,
     )
 
@@ -190,6 +195,19 @@ def with_base_acceleration(recording: Recording) -> Recording:
         if position in recording.channels and np.ptp(recording[position]) > STILL:
             return smooth_states(recording, position)
     return recording
+
+
+def _filter(stated: Mapping[str, Any] | None, recording: Recording, path: Path) -> ZeroPhase | None:
+    """The stated filter; by default it saw every sample that was kept."""
+    if stated is None:
+        return None
+    rate = stated.get("rate_Hz", 1.0 / float(np.median(np.diff(recording.time))))
+    if not 2 * stated["cutoff_Hz"] < rate:
+        raise DiagnosisError(
+            f"{path}: filter.cutoff_Hz must be below half of the {rate:g} samples per second that the filter saw, "
+            f"found {stated['cutoff_Hz']:g}; state rate_Hz where more samples went into it than were kept"
+        )
+    return ZeroPhase(int(stated["order"]), float(stated["cutoff_Hz"]), float(rate))
 
 
 def _pieces(model: Model, recording: Recording, fit: Part) -> float:

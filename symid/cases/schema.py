@@ -21,6 +21,16 @@ SCHEMA = {
         },
         "parameters": _NUMBERS,
         "gravity_m_s2": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e3},
+        "filter": {
+            "type": "object",
+            "required": ["order", "cutoff_Hz"],
+            "properties": {
+                "order": {"enum": [1, 2, 3, 4, 5, 6, 7, 8]},
+                "cutoff_Hz": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e6},
+                "rate_Hz": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e6},
+                "zero_phase": {"const": True},
+            },
+        },
         "baseline": {
             "type": "object",
             "properties": {"controller": {"type": "string"}, "terms": {"type": "array", "items": {"type": "string"}}},
@@ -50,10 +60,12 @@ def _reason(error) -> str:
         "type": "must be a {}",
         "exclusiveMinimum": "must be above {}",
         "maximum": "must be at most {:g}",
+        "const": "must be {}, since only filters without a phase shift are undone",
+        "enum": "must be one of {}",
         "maxLength": "must have at most {} letters",
     }
     if error.validator == "required":
         return error.message
     wanted = error.validator_value
-    wanted = " or ".join(wanted) if isinstance(wanted, list) else wanted
+    wanted = " or ".join(map(str, wanted)) if isinstance(wanted, list) else wanted
     return f"{kinds.get(error.validator, error.message).format(wanted)}, found {text}"

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cache
 
 from symid.discrepancy.locate.audit import audit
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
+from symid.discrepancy.model.dry import with_friction_speeds
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.model.suspects import suspects as suspects_of
 from symid.discrepancy.name.error_model import with_error_model
@@ -20,6 +22,7 @@ from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
 from symid.estimation.measurement import fits_of
 from symid.estimation.pieces import free_pieces
+from symid.estimation.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.model import Model
 from symid.recording import Recording
@@ -37,6 +40,7 @@ def diagnose(
     segment_length: float | None = None,
     driven: bool = True,
     settling: float = 0.0,
+    filter: ZeroPhase | None = None,
     start: Mapping[str, float] | None = None,
     suspects: Sequence[Suspect] | None = None,
     threads: int = 2,
@@ -55,6 +59,8 @@ def diagnose(
     segment_length : seconds of one piece with an initial state of its own; None for one piece.
     driven : whether random forces act at the model's noises besides the recorded inputs.
     settling : seconds that the fit measure leaves out at the start of the fit window.
+    filter : what the recorded outputs were low-pass filtered with, forwards and backwards, where that is known;
+        the spectra tell it where it is not.
     start : values [SI] of some parameters from which the first fit begins.
     suspects : what may be missing; every law of the library at every place by default.
 
@@ -73,6 +79,9 @@ def diagnose(
     task = task_of(
         subject, recording, fit_window, start, held_out=held_out, segment_length=segment_length, settling=settling
     )
+    pieces = segments_of(task.model, task.recording, task.fit_window, task.segment_length)
+    pieces = pieces if driven else free_pieces(pieces, len(task.model.states))
+    task = replace(task, model=with_friction_speeds(task.model, pieces))
     pool = list(suspects_of(task.model) if suspects is None else suspects)
 
     def searched(base: Fit, data: Data) -> Search:
@@ -80,12 +89,12 @@ def diagnose(
         return Search(base, data, pool, flexible, threads, progress)
 
     # Locate: what the recording can be trusted for, and what the model as given leaves of it.
-    pieces = segments_of(task.model, task.recording, task.fit_window, task.segment_length)
-    pieces = pieces if driven else free_pieces(pieces, len(task.model.states))
-    checked = audit(task.model, task.recording, pieces, sensor_noise)
+    checked = audit(task.model, task.recording, pieces, sensor_noise, filter)
     plain = Data(pieces, checked.noise, driven, checked.rounding).thinned()
     window = task.fit_window, task.segment_length
-    possible = fits_of(task.model, task.recording, *window, plain, checked.filter, checked.inputs, task.start)
+    possible = fits_of(
+        task.model, task.recording, *window, plain, checked.filter, checked.inputs, task.start, checked.known
+    )
     progress(f"the model as given is fitted ({possible[0][1].iterations} iterations)")
 
     # Name: the laws that explain it.

@@ -26,6 +26,7 @@ def fits_of(
     filter: ZeroPhase | None,
     inputs: bool,
     start: Mapping[str, float],
+    known: bool = False,
 ) -> list[tuple[Data, Fit]]:
     """What may have been measured, and the fit of `model` to each: `plain` data, or those with a filter undone.
 
@@ -37,6 +38,7 @@ def fits_of(
     part, length : as for `segments_of`.
     inputs : whether the inputs may have gone through the filter, too; that is then a second possibility, whose
         log-likelihood compares with that of the first.
+    known : whether the filter is, so that its cutoff keeps its value.
 
     Raises
     ------
@@ -45,7 +47,7 @@ def fits_of(
     if filter is None:
         return [(plain, fit_model(model, plain, dict(start)))]
     ratio = filter.ratio(plain.segments[0].step)
-    data = _undone(model, recording, part, length, plain, filter, ratio, inputs=False)
+    data = _undone(model, recording, part, length, plain, filter, ratio, inputs=False, known=known)
     fit = fit_model(model, data, dict(start))
     found = [(data, fit)]
     if inputs:
@@ -69,12 +71,20 @@ def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
 
 
 def _undone(
-    model: Model, recording: Recording, part, length, plain: Data, filter: ZeroPhase, ratio: int, inputs: bool
+    model: Model,
+    recording: Recording,
+    part,
+    length,
+    plain: Data,
+    filter: ZeroPhase,
+    ratio: int,
+    inputs: bool,
+    known: bool = False,
 ) -> Data:
     outputs = [y.channel for y in model.outputs.values()]
     whole, added = _restored(recording, outputs + [u.channel for u in model.inputs.values()] * inputs, filter, ratio)
     pieces = segments_of(model, whole, part, length)
-    if not inputs:
+    if not (inputs or known):
         pieces = [
             replace(e, undone=a.recorded) for e, a in zip(pieces, segments_of(model, added, part, length), strict=True)
         ]

@@ -76,7 +76,7 @@ def time_derivative(model: Model, expr: sm.Expr) -> sm.Expr:
 
 def dry(model: Model, port: Port, law: str) -> sm.Expr:
     """The smoothed sign of the port's rate, tanh(rate/width), in -1 ... 1."""
-    stated = model.find("friction_speed")
+    stated = model.find("friction_speed", port.at) or model.find("friction_speed", "")
     if stated:
         return sm.tanh(port.rate / stated[0].symbol)
     width = fixed(

@@ -36,7 +36,7 @@ class Audit:
     noise : (m,) standard deviation of the sensor [SI]. stated : whether that was given.
     cutoff : (m,) above this frequency the signal is empty, so it was low-pass filtered [Hz]; NaN where not.
     filter : the zero-phase filter that did it, as the spectra show it; None where none of the outputs was filtered.
-    inputs : whether the inputs may have been filtered, too.
+    inputs : whether the inputs may have been filtered, too. known : whether the filter was stated.
     rounding : (m,) step of the encoder [SI], 0 where values are not rounded visibly.
     """
 
@@ -46,6 +46,7 @@ class Audit:
     rounding: np.ndarray
     filter: ZeroPhase | None = None
     inputs: bool = False
+    known: bool = False
 
     @property
     def filtered(self) -> bool:
@@ -53,24 +54,31 @@ class Audit:
 
 
 def audit(
-    model: Model, recording: Recording, segments: tuple[Segment, ...], given: float | Mapping[str, float] | None
+    model: Model,
+    recording: Recording,
+    segments: tuple[Segment, ...],
+    given: float | Mapping[str, float] | None,
+    filter: ZeroPhase | None = None,
 ) -> Audit:
-    """Sensor noise as stated, or else from the recording; and where its spectrum is empty."""
+    """Sensor noise and `filter` as stated, or else from the recording; and where its spectrum is empty."""
     table = given if isinstance(given, Mapping) else recording.noise if given is None else {}
     names = [y.channel for y in model.outputs.values()]
     cutoff = np.array([_cutoff([e.recorded[:, i] for e in segments], segments[0].step) for i in range(len(names))])
     rounding = np.array([_step(np.concatenate([e.recorded[:, i] for e in segments])) for i in range(len(names))])
-    filter = _filter(model, segments) if np.isfinite(cutoff).any() else None
-    inputs = filter is not None and any(
-        np.isfinite(_cutoff([e.inputs[u] for e in segments], segments[0].step)) for u in model.inputs
+    known = filter is not None
+    filter = filter or (_filter(model, segments) if np.isfinite(cutoff).any() else None)
+    inputs = (
+        filter is not None
+        and not known
+        and any(np.isfinite(_cutoff([e.inputs[u] for e in segments], segments[0].step)) for u in model.inputs)
     )
     if isinstance(given, (int, float)):
-        return Audit(np.full(len(names), float(given)), True, cutoff, rounding, filter, inputs)
+        return Audit(np.full(len(names), float(given)), True, cutoff, rounding, filter, inputs, known)
     noise = [
         float(table[c]) if c in table else _noise([e.recorded[:, i] for e in segments], segments[0].step, filter)
         for i, c in enumerate(names)
     ]
-    return Audit(np.array(noise), all(c in table for c in names), cutoff, rounding, filter, inputs)
+    return Audit(np.array(noise), all(c in table for c in names), cutoff, rounding, filter, inputs, known)
 
 
 def _filter(model: Model, segments: tuple[Segment, ...]) -> ZeroPhase:

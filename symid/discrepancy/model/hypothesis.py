@@ -75,11 +75,12 @@ class Hypothesis:
         )
 
     def _is_half(self, suspect: Suspect) -> bool:
-        """Whether a part of the law has come to nothing at its bound, so that it is another law than its name says."""
-        return any(
-            q.null is not None and q.null in q.bounds and self.fit.values[suspect.term.parameter_name(q.key)] == q.null
-            for q in suspect.law.parameters
-        )
+        """Whether a part of the law has come to nothing at its bound, so that it is another law than its name says.
+
+        Or a sensor, a drive or a geometry ends at the bound of what is possible at all.
+        """
+        at = {q: self.fit.values[suspect.term.parameter_name(q.key)] for q in suspect.law.parameters}
+        return any(q.null is not None and v in q.bounds and (v == q.null or q.null == 1) for q, v in at.items())
 
     def _is_harmonic(self, suspect: Suspect) -> bool:
         """Whether a clock strikes where a motion that nothing drives has its own harmonics."""

@@ -298,9 +298,10 @@ def _rest(s: Story) -> list[str]:
 def _caveats(s: Story) -> list[str]:
     out = []
     if s.filter is not None:
+        stated = ", as stated" if s.audit.known else ""
         out.append(
-            f"The recording was low-pass filtered: about as a Butterworth filter of order {s.filter.order}, forwards "
-            f"and backwards, does at {s.filter.cutoff:.2g} Hz. That was undone before anything was compared."
+            f"The recording was low-pass filtered{stated}: about as a Butterworth filter of order {s.filter.order}, "
+            f"forwards and backwards, does at {s.filter.cutoff:.2g} Hz. That was undone before anything was compared."
         )
     elif not s.audit.stated:
         out.append(
