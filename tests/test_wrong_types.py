@@ -88,3 +88,90 @@ def test_arithmetic_with_what_is_no_number_is_refused():
     with pytest.raises(SymidError, match="cannot stand in an equation"):
         pendulum().angle + object()
     assert (pendulum().angle <= 1).func is sm.Le
+
+
+def cart() -> si.Model:
+    m = si.Model("cart")
+    m.x, m.v, m.u = si.State(unit="m"), si.State(unit="m/s"), si.Control(unit="m/s^2", bounds=(-9, 9))
+    m.kinematics, m.balance = si.Equation(m.x.dot - m.v), si.Equation(m.v.dot - m.u)
+    m.ends = si.Boundary(initial={m.x: 0, m.v: 0}, terminal={m.x: 1, m.v: 0})
+    m.cost = si.Objective(running=m.u**2)
+    return m
+
+
+@pytest.mark.parametrize(
+    ("part", "words"),
+    [
+        (lambda m: si.Model(3), "the name of a Model: give a str, not 3"),
+        (lambda m: si.Constraint(m.x <= 1, soft="very"), "soft='very': give a number"),
+        (lambda m: si.Constraint(m.x <= 1, soft=-1), "of at least 0"),
+        (lambda m: si.Constraint(m.x, lower="low"), "lower='low': give a number"),
+        (lambda m: si.Boundary(3).rows(set()), "holds no quantity"),
+        (lambda m: si.Boundary(final={m.x: 1}), "final is not known; give initial, terminal or periodic"),
+        (lambda m: si.Boundary(initial={m.x: (1, 2, 3)}).rows(set()), "give a number, an expression, or"),
+        (lambda m: si.Boundary(periodic=m.x), "give a list of quantities"),
+        (lambda m: si.State(unit="m", index=3).copies(), "index=range"),
+        (lambda m: si.Normal("a", 1), "mean='a': give a number"),
+        (lambda m: si.LogNormal(None, 2), "median=None: give a number"),
+        (lambda m: pendulum().fixed(damping=None), "damping=None: give a number"),
+        (lambda m: pendulum().with_constants(stiffness="4"), "stiffness='4': give a number"),
+        (lambda m: pendulum().free(3), "no part '3'"),
+        (lambda m: m.with_term(3), "give a Term"),
+        (lambda m: si.compare([]), "give a Mapping"),
+        (lambda m: si.compare({}), "no solution was given"),
+        (lambda m: si.profile(m, "x"), "give a Solution, not a Model"),
+        (lambda m: si.identifiability(3), "give a Model, not 3"),
+    ],
+)
+def test_values_of_a_wrong_type_are_refused(part, words):
+    with pytest.raises(ModelError, match=words):
+        part(cart())
+
+
+@pytest.mark.parametrize(
+    ("part", "words"),
+    [
+        (lambda m: si.Process(unit="N", size="big"), "size=big; give a positive number"),
+        (lambda m: si.Parameter(unit="N", guess="a few"), "the guess a few .* is no number inside"),
+        (lambda m: si.Control(unit="N", hold="smooth"), "known: 'linear', 'zero'$"),
+    ],
+)
+def test_parts_with_a_wrong_value_are_named_by_check(part, words):
+    m = cart()
+    m.odd = part(m)
+    with pytest.raises(ModelError, match=words.replace("$", "\n|known: 'linear', 'zero'$")):
+        m.check()
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: si.Optimization(cart(), duration=1, nodes=["a", "b", "c"]), "nodes=.*whole number"),
+        (lambda: si.Optimization(cart(), duration=1, history={"z": 1}).solve(), "history: .* has no 'z'"),
+        (lambda: si.Optimization(cart(), duration=1, history={"x": "a"}).solve(), "history of x='a': give a number"),
+        (lambda: si.Optimization(cart(), duration=1, history=3).solve(), "history: give a Mapping, not 3"),
+        (lambda: si.Free("a", 2), "lower='a': give a number"),
+        (lambda: si.Optimization(cart(), duration=1).solve(starts=0), "starts=0: give a whole number of at least 1"),
+        (lambda: si.Optimization(cart(), duration=1).solve(starts="3"), "starts='3': give a number"),
+        (lambda: si.Optimization(cart(), duration=1).solve(seed=-1), "seed=-1: give a whole number"),
+        (lambda: si.Optimization(cart(), duration=1).solve(options=3), "options of Ipopt: give a Mapping"),
+        (lambda: si.Optimization(cart(), duration=1).solve(max_iterations="a"), "max_iterations='a'"),
+        (lambda: si.Optimization(cart(), duration=1).solve({"x": lambda: 3}), "the function for 'x' gives no number"),
+        (lambda: si.Identification(pendulum(), RECORDING, noise=3), "noise=3: give one dictionary for each"),
+        (lambda: si.Identification(pendulum(), RECORDING, noise=[3]), "noise=3: give a dictionary"),
+        (lambda: si.Identification(pendulum(), RECORDING, weights={"angle": "a"}), "weights of 'angle'='a'"),
+        (lambda: si.Identification(pendulum(), RECORDING, refine=None), "refine=None: give a number"),
+        (lambda: si.Identification(pendulum(), RECORDING, ridge="1"), "ridge='1': give a number"),
+        (lambda: si.Identification(pendulum(), RECORDING).solve(start=None), "start=None: give 'default'"),
+        (lambda: si.Identification(pendulum(), RECORDING).solve(start={"damping": "a"}), "start: damping='a'"),
+        (lambda: si.Identification(pendulum(), RECORDING).solve(starts="a"), "starts='a'"),
+        (lambda: si.Identification(pendulum(), RECORDING).solve(executor=4), "executor=4: give an executor"),
+        (lambda: si.Identification(pendulum(), RECORDING).load(3), "load: give the path"),
+        (lambda: si.read_recording(None), "read_recording: give the path of a file or a directory, not None"),
+        (lambda: si.Recording("a", [0, 1], {"x": ["u", "v"]}, {"x": "m"}), "holds numbers"),
+        (lambda: si.Episodes(2, torque="a"), "torque='a': give a number"),
+    ],
+)
+def test_arguments_of_a_wrong_type_are_refused(call, words):
+    with pytest.raises(SymidError, match=words):
+        call()

@@ -11,6 +11,7 @@ from typing import cast
 import numpy as np
 import pandas as pd
 
+from symid import checked
 from symid.errors import ModelError
 from symid.identification import Solution, Solve, Study
 from symid.identification.covariance import ParameterErrors
@@ -81,6 +82,8 @@ def bootstrap(
     >>> drawn.parameters.index.tolist()
     ['damping']
     """
+    checked.kind(solution, Solution, "bootstrap", ModelError)
+    count = checked.whole(count, "bootstrap: count", ModelError, least=1)
     if not solution.solved:
         raise ModelError(f"bootstrap: the problem was not solved: {solution.message}")
     errors = cast("ParameterErrors", solution.errors)  # it was solved

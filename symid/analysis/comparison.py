@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import scipy
 
+from symid import checked
 from symid.errors import ModelError
 from symid.identification import Solution
 from symid.identification.sensitivity import outputs_and_targets
@@ -48,6 +49,11 @@ def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] 
     >>> list(si.compare(two).index)
     ['free', 'fixed']
     """
+    checked.kind(solutions, Mapping, "compare", ModelError)
+    if not solutions:
+        raise ModelError("compare: no solution was given; give a dictionary of name -> Solution")
+    for s in solutions.values():
+        checked.kind(s, Solution, "compare", ModelError)
     errors = {name: _errors(name, s) for name, s in solutions.items()}
     _refuse_other_data(solutions)
     count = independent_samples(min(errors.values(), key=lambda e: float(np.mean(e**2))))

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from symid import checked
 from symid.analysis.eigenvalues import slopes_at
 from symid.errors import ModelError
 from symid.identification.combinations import combinations, involved
@@ -79,6 +80,7 @@ def identifiability(model: Model, seed: int = 0) -> Identifiability:
     >>> si.identifiability(model)
     All parameters are determined by the outputs.
     """
+    checked.kind(model, Model, "identifiability", ModelError)
     names = list(model.parameters)
     if not model.outputs:
         raise ModelError(f"identifiability: model '{model.name}' has no Output")

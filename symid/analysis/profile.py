@@ -8,6 +8,7 @@ from typing import cast
 import numpy as np
 import pandas as pd
 
+from symid import checked
 from symid.errors import ModelError
 from symid.identification import Solution
 from symid.identification.covariance import ParameterErrors
@@ -53,6 +54,7 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
     >>> bool(table["deviance"].min() >= 0), len(table.attrs["interval"])
     (True, 2)
     """
+    checked.kind(solution, Solution, "profile", ModelError)
     if not solution.solved:
         raise ModelError(f"profile: the problem was not solved: {solution.message}")
     names = list(solution.values)
@@ -64,7 +66,7 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
         rows = {**profiled.side(-1), **profiled.side(1)}
     else:
         rows, start = {}, solution.result
-        for value in map(float, values):
+        for value in (checked.number(v, "profile: values", ModelError) for v in _several(values)):
             start, rows[value] = profiled.at(value, start)
     rows[solution.values[parameter]] = solution.result.objective
     table = pd.DataFrame({"objective": rows}).sort_index()
@@ -73,6 +75,11 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
     table.attrs["interval"] = _interval(table["deviance"], solution.values[parameter])
     table.attrs["errors"] = errors.model
     return table
+
+
+def _several(values) -> list:
+    """What was given as values; one number stands for itself."""
+    return list(values) if np.ndim(values) else [values]
 
 
 class _Profile:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from symid import checked
 from symid.analysis.eigenvalues import complete, growth
 from symid.analysis.forward import Drive, forward_rms
 from symid.analysis.points import grid
@@ -112,6 +113,7 @@ def stability(
     >>> si.stability(problem.solve(), held_out=(4, 6)).eigenvalue_percent
     100.0
     """
+    checked.kind(solution, Solution, "stability", ModelError)
     recording = solution.problem.recordings[which]
     options.setdefault("window", solution.problem.windows[which] or recording.interval)
     return stability_of(solution.model, solution.values, recording, held_out=held_out, **options)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from symid import checked
 from symid.errors import TranscriptionError
 from symid.model import Model
 from symid.recording import Recording
@@ -32,7 +33,7 @@ def as_recordings(recordings) -> tuple[Recording, ...]:
     many = tuple(recordings) if isinstance(recordings, Sequence) and not isinstance(recordings, str) else (recordings,)
     for r in many:
         if not isinstance(r, Recording):
-            raise TranscriptionError(f"a Recording is needed, not {_shown(r)}: {_way(r)}")
+            raise TranscriptionError(f"a Recording is needed, not {checked.shown(r)}: {_way(r)}")
     if not many:
         raise TranscriptionError("no recording was given: an Identification needs at least one")
     return many
@@ -52,28 +53,37 @@ def _way(thing) -> str:
 def refuse_wrong_types(problem: Identification) -> None:
     """TranscriptionError at the first argument that is not what it should be."""
     if not isinstance(problem.model, Model):
-        raise TranscriptionError(f"an Identification begins with a Model, not {_shown(problem.model)}")
+        raise TranscriptionError(f"an Identification begins with a Model, not {checked.shown(problem.model)}")
     refuse_scheme(problem.scheme)
     if not isinstance(problem.episodes, Episodes):
         raise TranscriptionError(
-            f"episodes={_shown(problem.episodes)}: give Episodes(count, amplitude), for instance Episodes(3, 0.25)"
+            f"episodes={checked.shown(problem.episodes)}: give Episodes(count, amplitude), as Episodes(3, 0.25)"
         )
     if isinstance(problem.per_recording, str) or not isinstance(problem.per_recording, Sequence):
-        raise TranscriptionError(f"per_recording={_shown(problem.per_recording)}: give a list of names of parameters")
-    for name in ("weights", "loss"):
-        table = getattr(problem, name)
+        raise TranscriptionError(
+            f"per_recording={checked.shown(problem.per_recording)}: give a list of names of parameters"
+        )
+    noise = problem.noise
+    if noise is not None and (isinstance(noise, (str, Mapping)) or not isinstance(noise, Sequence)):
+        raise TranscriptionError(f"noise={checked.shown(noise)}: give one dictionary for each recording, in a list")
+    tables = [("weights", problem.weights), ("loss", problem.loss), *(("noise", table) for table in noise or ())]
+    for name, table in tables:
         if table is not None and not isinstance(table, Mapping):
-            raise TranscriptionError(f"{name}={_shown(table)}: give a dictionary of output name -> number")
+            raise TranscriptionError(f"{name}={checked.shown(table)}: give a dictionary of output name -> number")
+        for of, value in (table or {}).items():
+            checked.number(value, f"{name} of '{of}'", TranscriptionError)
+    checked.whole(problem.refine, "refine", TranscriptionError, least=1)
+    checked.number(problem.ridge, "ridge", TranscriptionError)
     if problem.window is not None and not _is_window(problem.window):
         raise TranscriptionError(
-            f"window={_shown(problem.window)}: give (t0, t1) [s], or one such pair for each recording"
+            f"window={checked.shown(problem.window)}: give (t0, t1) [s], or one such pair for each recording"
         )
 
 
 def refuse_scheme(scheme) -> None:
     if not isinstance(scheme, Scheme):
         known = ", ".join(f"{make.__name__}()" for make in SCHEMES.values())
-        raise TranscriptionError(f"scheme={_shown(scheme)}: give one of {known}")
+        raise TranscriptionError(f"scheme={checked.shown(scheme)}: give one of {known}")
 
 
 def _is_window(window) -> bool:
@@ -84,7 +94,3 @@ def _is_window(window) -> bool:
         p is None or (isinstance(p, Sequence) and len(p) == 2 and all(isinstance(t, (int, float)) for t in p))
         for p in pairs
     )
-
-
-def _shown(thing) -> str:
-    return repr(thing) if isinstance(thing, (str, int, float, bool, type(None))) else f"a {type(thing).__name__}"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from symid import checked
 from symid.codegen.standalone import c_text, python_text
 from symid.errors import ModelError
 from symid.files import write_atomically
@@ -34,7 +35,7 @@ def export(what: Solution | Model, path: str | Path) -> None:
     CodegenError
         The model has delays, algebraic variables or free parameters, which such a function cannot hold.
     """
-    path = Path(path)
+    path = checked.path(path, "export", ModelError)
     if path.suffix not in TEXTS:
         raise ModelError(f"export: {path.name} ends with none of {', '.join(TEXTS)}; the suffix says what is written")
     if not isinstance(what, (Solution, Model)):

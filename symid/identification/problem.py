@@ -13,7 +13,8 @@ from typing import Any, cast
 
 import numpy as np
 
-from symid.errors import RecordingWarning, TranscriptionError
+from symid import checked
+from symid.errors import RecordingWarning, SolveError, TranscriptionError
 from symid.identification.arguments import Recordings, refuse_wrong_types
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
@@ -282,6 +283,9 @@ class Identification:
         SymidError
             If no start gave a result, or `store` belongs to another study or cannot be written.
         """
+        seed = checked.whole(seed, "seed", SolveError)
+        if executor is not None and not (hasattr(executor, "submit") or hasattr(executor, "get_executor")):
+            raise SolveError(f"executor={checked.shown(executor)}: give an executor of concurrent.futures, or a Client")
         self.transcription  # noqa: B018 - a problem that cannot be transcribed is refused before any start
         for remark in self.remarks if check else ():
             warnings.warn(remark, RecordingWarning, stacklevel=2)

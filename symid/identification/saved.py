@@ -11,6 +11,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from symid import checked
 from symid.errors import SolveError
 from symid.files import write_json
 from symid.identification.identity import digest, problem_identity
@@ -43,6 +44,7 @@ def load(path: str | Path, problem: Identification) -> Solution:
     SolveError
         The directory is damaged, of another format or of another problem.
     """
+    path = checked.path(path, "load", SolveError)
     try:
         noise = json.loads((Path(path) / SUMMARY).read_text(encoding="utf-8"))["noise"]
     except (OSError, ValueError, KeyError, TypeError) as absent:

@@ -16,6 +16,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Protocol
 
+from symid import checked
 from symid.errors import SolveError
 from symid.files import plain, write_atomically, write_json
 from symid.identification.identity import VERSION, digest
@@ -51,7 +52,7 @@ class StudyDirectory:
     """
 
     def __init__(self, path: str | Path, identities: Mapping[str, Mapping[str, str]]):
-        self.path = Path(path)
+        self.path = checked.path(path, "the directory of a study or solution", SolveError)
         known = self._read_register()
         self._keys = _keys_on_disk(self.path, known, identities)
         if not known.keys() >= identities.keys():

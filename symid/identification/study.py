@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symid import checked
 from symid.deadline import START_LIMIT_S
 from symid.errors import SolveError
 from symid.identification.dispatch import in_turn, on_executor
@@ -244,8 +245,7 @@ class Study:
 
 def start_kinds(problem: Identification, starts: int, start: Any = "default") -> list[Any]:
     """`start` alone, or (several starts) as many random ones, searched for where there are several episodes."""
-    if starts < 1 or int(starts) != starts:
-        raise SolveError(f"starts={starts}: give a whole number of at least 1")
+    starts = checked.whole(starts, "starts", SolveError, least=1)
     return [start] if starts == 1 else ["search" if can_search(problem) else "random"] * int(starts)
 
 

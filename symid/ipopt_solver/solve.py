@@ -4,12 +4,13 @@ import ctypes
 import functools
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
 
+from symid import checked
 from symid.ipopt_solver import library as ipopt_library
 from symid.deadline import check, remaining
 from symid.errors import MachineError, SolveError
@@ -178,17 +179,22 @@ def _check_inside(nlp: NonlinearProgram, z: np.ndarray) -> None:
 
 
 def _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian) -> dict:
+    if options is not None:
+        checked.kind(options, Mapping, "options of Ipopt", SolveError)
     if hessian not in ("exact", "limited-memory"):
         raise SolveError(f"hessian={hessian!r} is unknown: choose 'exact' or 'limited-memory'.")
     if hessian == "exact" and nlp.hessian is None:
         raise SolveError(
             "The program has no exact Hessian: give NonlinearProgram.hessian or solve with hessian='limited-memory'."
         )
-    chosen = DEFAULTS | {"hessian_approximation": hessian, "max_iter": int(max_iterations)}
+    chosen = DEFAULTS | {
+        "hessian_approximation": hessian,
+        "max_iter": checked.whole(max_iterations, "max_iterations", SolveError),
+    }
     if nlp.variable_scale is not None or nlp.constraint_scale is not None:
         chosen["nlp_scaling_method"] = "user-scaling"
     if time_limit_s is not None:
-        chosen["max_wall_time"] = float(time_limit_s)
+        chosen["max_wall_time"] = checked.number(time_limit_s, "time_limit_s", SolveError)
     return chosen | (WARM_START if warm_start else {}) | (options or {})
 
 

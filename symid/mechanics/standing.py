@@ -6,6 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from symid import checked
+from symid.errors import ModelError
 from symid.mechanics.chain import Chain, ChainLink
 from symid.model import Model
 from symid.recording import read_body
@@ -52,6 +54,8 @@ class DoubleLinkPendulum:
 
     def with_feedback(self, law: Feedback) -> Model:
         """The closed loop: this body under a feedback law such as `PD()`."""
+        if not hasattr(law, "close"):
+            raise ModelError(f"with_feedback: give a feedback law such as PD(), not {checked.shown(law)}")
         return law.close(self.plant())
 
     def plant(self) -> Model:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from numbers import Real
 from math import isfinite, isnan, nan
 
 import sympy as sm
@@ -48,9 +49,10 @@ def violations(model: Model, units: bool = True) -> Iterator[str]:
 
 def _values(model: Model) -> Iterator[str]:
     for c in model.components.values():
-        if isinstance(c, (Input, Control)) and c.hold not in (HOLDS if isinstance(c, Input) else HOLDS[1:]):
-            yield f"the {type(c).__name__.lower()} '{c.name}' has hold={c.hold!r}; known: {', '.join(map(repr, HOLDS))}"
-        if isinstance(c, Process) and not (isfinite(c.size) and c.size > 0):
+        if isinstance(c, (Input, Control)) and c.hold not in _holds(c):
+            known = ", ".join(map(repr, _holds(c)))
+            yield f"the {type(c).__name__.lower()} '{c.name}' has hold={c.hold!r}; known: {known}"
+        if isinstance(c, Process) and not (isfinite(_number(c.size)) and c.size > 0):
             yield f"the process noise '{c.name}' has size={c.size}; give a positive number [{c.unit}*sqrt(s)]"
         if isinstance(c, Parameter) and c.prior is not None and not isinstance(c.prior, Prior):
             yield f"the prior {c.prior!r} of '{c.name}' is none: give Normal(mean, std) or LogNormal(median, factor)"
@@ -62,8 +64,17 @@ def _values(model: Model) -> Iterator[str]:
             lo, hi = _ends(c.bounds)
             if isnan(lo) or isnan(hi) or lo > hi:
                 yield f"the bounds {c.bounds} of '{c.name}' are not an interval; give (lower, upper)"
-            elif isinstance(c, Parameter) and c.guess is not None and not lo <= c.guess <= hi:
-                yield f"the guess {c.guess:g} of parameter '{c.name}' is outside its bounds ({lo:g}, {hi:g})"
+            elif isinstance(c, Parameter) and c.guess is not None and not lo <= _number(c.guess) <= hi:
+                yield f"the guess {c.guess} of parameter '{c.name}' is no number inside its bounds ({lo:g}, {hi:g})"
+
+
+def _holds(part: Input | Control) -> tuple[str, ...]:
+    """What this part may do between samples: a control is not sampled from a smooth signal."""
+    return HOLDS if isinstance(part, Input) else HOLDS[1:]
+
+
+def _number(value) -> float:
+    return value if isinstance(value, Real) else nan
 
 
 def _ends(bounds) -> tuple[float, float]:

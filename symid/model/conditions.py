@@ -14,6 +14,7 @@ from typing import Any
 import sympy as sm
 from sympy.core.relational import Relational
 
+from symid import checked
 from symid.errors import ModelError
 from symid.model.declare import Component
 from symid.model.prior import Prior
@@ -59,6 +60,12 @@ class Constraint(Component):
     upper: float | None = field(default=None, kw_only=True)
     soft: float | None = field(default=None, kw_only=True)
 
+    def __post_init__(self):
+        for name in ("lower", "upper", "soft"):
+            given = getattr(self, name)
+            if given is not None:
+                checked.number(given, f"Constraint: {name}", ModelError, least=0 if name == "soft" else -inf)
+
     @property
     def row(self) -> Row:
         """The expression, and the numbers between which it lies."""
@@ -73,6 +80,10 @@ class Constraint(Component):
         below = sm.Max(0, sympified(row.lower) - row.expr) if row.lower > -inf else sm.Integer(0)
         above = sm.Max(0, row.expr - sympified(row.upper)) if row.upper < inf else sm.Integer(0)
         return below**2 + above**2
+
+
+COMMON: dict = {"meaning": "", "role": "", "at": "", "latex": "", "name": "", "index": None}
+"""What every part may be given, with what stands where it is not."""
 
 
 @dataclass(frozen=True)
@@ -106,19 +117,17 @@ class Boundary(Component):
         periodic: Mapping[Any, Any] | Sequence[Any] = (),
         **common: Any,
     ) -> None:
+        if unknown := common.keys() - COMMON - {"conditions"}:  # `replace` names all fields
+            raise ModelError(f"Boundary: {', '.join(sorted(unknown))} is not known; give initial, terminal or periodic")
+        if isinstance(periodic, str) or not isinstance(periodic, (Mapping, Sequence)):
+            raise ModelError(f"Boundary: periodic={periodic!r}: give a list of quantities, or quantity -> expression")
         periodic = periodic if isinstance(periodic, Mapping) else {x: x for x in periodic}
         values = {
             "conditions": conditions,
             "initial": _plain(initial),
             "terminal": _plain(terminal),
             "periodic": _plain(periodic),
-            "meaning": "",
-            "role": "",
-            "at": "",
-            "latex": "",
-            "name": "",
-            "index": None,
-        }
+        } | COMMON
         for name, value in (values | common).items():
             object.__setattr__(self, name, value)
 
@@ -176,7 +185,9 @@ def _plain(ends: Any) -> dict[sm.Expr, Any]:
 def _interval(value: Any) -> tuple[Any, Any]:
     """(lower, upper) of a value that is a number or a pair; (None, expression) of any other."""
     if isinstance(value, (tuple, list)):
-        low, high = (float(v) for v in value)
+        if len(value) != 2:
+            raise ModelError(f"a Boundary has {value!r} for a value: give a number, an expression, or (lower, upper)")
+        low, high = (checked.number(v, "Boundary: a limit", ModelError) for v in value)
         return low, high
     value = sympified(value)
     return (float(value), float(value)) if value.is_number else (None, value)
@@ -193,6 +204,8 @@ def row_of(condition: Any, lower: float | None = None, upper: float | None = Non
             f"a condition is always {condition}: compare parts of the model, for instance m.x <= 1 "
             "(== compares the parts themselves: use sympy.Eq)"
         )
+    if not condition.free_symbols:
+        raise ModelError(f"the condition {condition} holds no quantity: compare parts of the model, as in m.x <= 1")
     if not isinstance(condition, Relational):
         both = lower is None and upper is None
         return Row(

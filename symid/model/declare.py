@@ -57,7 +57,11 @@ class Component:
                 value = dict(enumerate(value))
             if isinstance(value, Mapping):
                 return {i: replace(self, **{key: e}) for i, e in value.items()}
-        return None if self.index is None else {i: replace(self, index=None) for i in self.index}
+        if self.index is None:
+            return None
+        if not isinstance(self.index, Iterable):
+            raise ModelError(f"index={self.index!r}: give the indices of the copies, for instance index=range(4)")
+        return {i: replace(self, index=None) for i in self.index}
 
     @property
     def symbol(self) -> sm.Symbol:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import sympy as sm
 
+from symid import checked
 from symid.errors import ModelError
 from symid.model.attach import completed, hint
 from symid.model.conditions import Boundary, Constraint, Objective
@@ -71,6 +72,7 @@ class Model:
     terms: tuple[Term, ...]
 
     def __init__(self, name: str, description: str = ""):
+        checked.kind(name, str, "the name of a Model", ModelError)
         fields = {"name": name, "description": description, "components": {}, "groups": {}, "delays": {}, "terms": ()}
         self.__dict__.update(fields)
 
@@ -217,6 +219,8 @@ class Model:
 
     def with_term(self, term: Term) -> Model:
         """A new model that contains `term`; this one stays as it is."""
+        if not hasattr(term, "build"):
+            raise ModelError(f"with_term: give a Term, for instance law.at(place), not {checked.shown(term)}")
         new = self.copy()
         term.build(new)
         new.__dict__["terms"] = (*self.terms, term)
@@ -224,7 +228,7 @@ class Model:
 
     def with_constants(self, **values: float) -> Model:
         """A new model with other values [in the constants' own units]."""
-        return self._with({k: replace(self._part(k, Constant), value=float(v)) for k, v in values.items()})
+        return self._with({k: replace(self._part(k, Constant), value=_number(k, v)) for k, v in values.items()})
 
     def with_bounds(self, **bounds: Bounds) -> Model:
         """A new model with other bounds on states, controls or parameters [in their own units]."""
@@ -237,7 +241,7 @@ class Model:
         parts = {k: (self._part(k, Parameter), v) for k, v in values.items()}
         return self._with(
             {
-                k: Constant(float(v), unit=c.unit, meaning=c.meaning, role=c.role, at=c.at, latex=c.latex, name=k)
+                k: Constant(_number(k, v), unit=c.unit, meaning=c.meaning, role=c.role, at=c.at, latex=c.latex, name=k)
                 for k, (c, v) in parts.items()
             }
         )
@@ -385,9 +389,13 @@ class Model:
         return latex(self)
 
 
+def _number(name: str, value) -> float:
+    return checked.number(value, name, ModelError)
+
+
 def nearest(name: str, names: Iterable[str]) -> str:
     """A phrase with the known names most like `name`, for error messages."""
     from difflib import get_close_matches
 
-    close = get_close_matches(name, list(names), n=3, cutoff=0.5)
+    close = get_close_matches(str(name), list(names), n=3, cutoff=0.5)
     return f"did you mean {', '.join(map(repr, close))}?" if close else f"known: {', '.join(names) or 'none'}"

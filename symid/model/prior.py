@@ -11,6 +11,7 @@ from math import isfinite, log
 
 import sympy as sm
 
+from symid import checked
 from symid.errors import ModelError
 
 
@@ -25,6 +26,8 @@ class Normal:
     deviation: float
 
     def __post_init__(self) -> None:
+        checked.number(self.mean, "Normal: mean", ModelError)
+        checked.number(self.deviation, "Normal: deviation", ModelError)
         if not (isfinite(self.mean) and isfinite(self.deviation) and self.deviation > 0):
             raise ModelError(f"{self}: a prior needs a finite mean and a positive standard deviation")
 
@@ -46,6 +49,8 @@ class LogNormal:
     factor: float
 
     def __post_init__(self) -> None:
+        checked.number(self.median, "LogNormal: median", ModelError)
+        checked.number(self.factor, "LogNormal: factor", ModelError)
         if not (self.median > 0 and isfinite(self.median) and isfinite(self.factor) and self.factor > 1):
             raise ModelError(f"{self}: a log-normal prior needs a positive median and a factor above 1")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import isfinite
 
+from symid import checked
 from symid.errors import TranscriptionError
 from symid.model import Model, Parameter
 
@@ -23,6 +24,8 @@ class Free:
     guess: float | None = None
 
     def __post_init__(self) -> None:
+        checked.number(self.lower, "Free: lower", TranscriptionError)
+        checked.number(self.upper, "Free: upper", TranscriptionError)
         if not 0 < self.lower <= self.upper < float("inf"):
             raise TranscriptionError(
                 f"Free({self.lower}, {self.upper}): a free duration needs finite bounds above 0 s, the lower one first"

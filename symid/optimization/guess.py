@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symid import checked
 from symid.errors import SolveError
 from symid.model import nearest
 from symid.optimization.plan import Plan
@@ -42,13 +43,16 @@ def _parameter(part, value) -> float:
     if value is None:
         middle = 0.5 * (lo + hi) if np.isfinite([lo, hi]).all() else np.clip(0.0, lo, hi)
         value = middle if part.guess is None else part.guess
-    return float(value)
+    return checked.number(value, f"start: {part.name}", SolveError)
 
 
 def _along(name: str, value, time: np.ndarray, shares: np.ndarray) -> np.ndarray:
     """(nodes,) a number, an array of any length evenly along the motion, or a function of time."""
     if callable(value):
-        return np.array([float(value(s)) for s in time])
+        try:
+            return np.array([float(value(s)) for s in time])
+        except (TypeError, ValueError) as problem:
+            raise SolveError(f"start: the function for '{name}' gives no number for a time [s]: {problem}") from problem
     try:
         value = np.asarray(value, dtype=float)
     except (TypeError, ValueError):

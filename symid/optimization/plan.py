@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from symid.errors import ModelError
 from symid.ipopt_solver import SolverResult
+from symid.model import nearest
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -92,7 +94,10 @@ class Plan:
 
     def __getitem__(self, name: Any) -> np.ndarray:
         """(nodes,) the motion of one quantity, by name or part."""
-        column: np.ndarray = self.trajectories[str(getattr(name, "symbol", name))].to_numpy()
+        name, known = str(getattr(name, "symbol", name)), self.trajectories
+        if name not in known:
+            raise ModelError(f"the plan has no motion of '{name}'; {nearest(name, known.columns)}")
+        column: np.ndarray = known[name].to_numpy()
         return column
 
     def save(self, path: str | Path) -> None:

@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from symid.errors import TranscriptionError
+from symid import checked
+from symid.errors import SolveError, TranscriptionError
 from symid.ipopt_solver import Iteration, solve_nlp
-from symid.model import Model, Parameter
+from symid.model import Model, Parameter, nearest
 from symid.optimization.duration import Free, with_duration
 from symid.optimization.guess import shaken, start_vector
 from symid.optimization.plan import Plan
@@ -78,7 +79,7 @@ class Optimization:
         """The finite problem: made once, when first needed."""
         began = time.perf_counter()
         model, length, name = self._timed
-        before = {str(getattr(k, "symbol", k)): float(v) for k, v in self.history.items()}
+        before = self._before()
         axis, count = length * self.shares, len(self.shares)
         past = np.array([before.get(s, 0.0) for s in model.states])
         grid = Measured(
@@ -96,6 +97,15 @@ class Optimization:
         )
         made.seconds["build"] = time.perf_counter() - began
         return made
+
+    def _before(self) -> dict[str, float]:
+        """Name -> value before 0 s."""
+        known = [*self.model.states, *self.model.controls]
+        checked.kind(self.history, Mapping, "history", TranscriptionError)
+        before = {str(getattr(k, "symbol", k)): v for k, v in self.history.items()}
+        for name in before.keys() - set(known):
+            raise TranscriptionError(f"history: model '{self.model.name}' has no '{name}'; {nearest(name, known)}")
+        return {k: checked.number(v, f"history of {k}", TranscriptionError) for k, v in before.items()}
 
     def start(self, values: Mapping[str, Any] | Plan | None = None) -> np.ndarray:
         """A free vector to start from, see `solve`."""
@@ -138,6 +148,8 @@ class Optimization:
         SymidError
             The model is incomplete, the start does not fit, or a function has no value.
         """
+        starts = checked.whole(starts, "starts", SolveError, least=1)
+        seed = checked.whole(seed, "seed", SolveError)
         first = self.start(start)
         plans = []
         for k in range(starts):
@@ -157,7 +169,10 @@ def _shares(nodes: int | Sequence[float]) -> np.ndarray:
     if isinstance(nodes, (int, np.integer)) and nodes >= 3:
         return np.linspace(0.0, 1.0, nodes)
     several = isinstance(nodes, (Sequence, np.ndarray)) and not isinstance(nodes, str)
-    shares = np.array(nodes if several else [], dtype=float)
+    try:
+        shares = np.array(nodes if several else [], dtype=float)
+    except (TypeError, ValueError):
+        shares = np.zeros(0)
     if shares.ndim != 1 or len(shares) < 3 or shares[0] != 0 or shares[-1] != 1 or not (np.diff(shares) > 0).all():
         raise TranscriptionError(
             f"nodes={nodes!r}: give a whole number of at least 3, or shares of the duration that increase from 0 to 1"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symid import checked
 from symid.errors import SolveError
 from symid.files import write_atomically
 from symid.ipopt_solver.kept import put_together, taken_apart
@@ -24,6 +25,7 @@ FORMAT = "symid plan 1"
 
 def save(plan: Plan, path: str | Path) -> None:
     """Write `plan` to the file `path`."""
+    path = checked.path(path, "Plan.save", SolveError)
     result, arrays = taken_apart(plan.result)
     about = {"format": FORMAT, "problem": identity(plan.problem), "result": result, "sha256": _sum(arrays)}
     file = io.BytesIO()
@@ -42,6 +44,7 @@ def load(path: str | Path, problem: Optimization) -> Plan:
     SolveError
         The file is absent or damaged, of another format, or of another problem, whose difference is named.
     """
+    path = checked.path(path, "Optimization.load", SolveError)
     try:
         with np.load(path, allow_pickle=False) as file:
             about, arrays = json.loads(str(file["about"])), file["arrays"].tobytes()

@@ -6,6 +6,7 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
+from symid import checked
 from symid.errors import RecordingError
 from symid.files import read_json
 from symid.units import known_unit, nearest, same_dimension, split_column_name
@@ -67,7 +68,7 @@ def load_table(source: str | os.PathLike | Mapping[str, object]) -> Mapping[str,
     """The JSON object in a file, without a look at its keys; a mapping is given back as it is."""
     if isinstance(source, Mapping):
         return source
-    path = Path(source)
+    path = checked.path(source, "a body file", RecordingError)
     if not path.exists():
         raise RecordingError(f"{path}: there is no such body file")
     content = read_json(path, object_pairs_hook=lambda pairs: _unique(path, pairs))

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from symid import checked
 from symid.errors import RecordingError, RecordingWarning
 from symid.recording.header import Column, file_rows, read_header, require_file
 from symid.recording.recording import Recording
@@ -76,7 +77,7 @@ def read_recording(
     --------
     >>> read_recording("walk.csv", columns={"time_s": "t", "hip_angle_deg": "Hip"})  # doctest: +SKIP
     """
-    path = Path(path)
+    path = checked.path(path, "read_recording", RecordingError)
     if columns is None and not _has_reader(path):
         found = read_header(path)
         table = _read_table(path, found, allow_gaps)

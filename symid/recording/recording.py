@@ -325,7 +325,10 @@ def _rebuild(values: dict[str, Any]) -> Recording:
 
 def _frozen(values: Any, kind: type) -> np.ndarray:
     """The values as an array that nobody can write to; shared, not copied, where it is one."""
-    array: np.ndarray = np.asarray(values, dtype=kind)
+    try:
+        array: np.ndarray = np.asarray(values, dtype=kind)
+    except (TypeError, ValueError) as problem:
+        raise RecordingError(f"a recording holds numbers: {problem}") from None
     owner = array if array.base is None else array.base
     if array.flags.writeable or getattr(getattr(owner, "flags", None), "writeable", True):
         array = array.copy()

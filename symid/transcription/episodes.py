@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from symid import checked
 from symid.errors import TranscriptionError
 from symid.model import Model, nearest
 
@@ -68,6 +69,7 @@ class Episodes:
         if distribution not in DISTRIBUTIONS:
             raise TranscriptionError(f"episodes: no distribution '{distribution}'; known: {', '.join(DISTRIBUTIONS)}")
         for word, value in {"amplitude": amplitude, **by_word}.items():
+            checked.number(value, f"episodes: {word}", TranscriptionError)
             if not (np.isfinite(value) and value >= 0):
                 raise TranscriptionError(f"episodes: {word}={value} must be a finite amplitude of at least 0")
         for name, given in (

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy
 
+from symid import checked
 from symid.errors import SolveError
 from symid.estimation.bounds import guesses, parameter_bounds
 from symid.estimation.shooting import shoot
@@ -180,10 +181,15 @@ def given_start(t: Transcription, given: dict[str, float] | Solution) -> np.ndar
         raise SolveError(
             f"start: '{given}' is not known; give 'default', 'random', parameter values by name, or a Solution"
         )
+    if not isinstance(given, dict) and not hasattr(given, "values"):
+        raise SolveError(
+            f"start={checked.shown(given)}: give 'default', 'random', parameter values by name, or a Solution"
+        )
     values = given if isinstance(given, dict) else given.values
     parameters, lower, upper = guesses(t), *parameter_bounds(t)
     base = {name: columns for name, columns in zip(t.model.parameters, t.layout.parameter_index.T, strict=True)}
     for name, value in values.items():
+        value = checked.number(value, f"start: {name}", SolveError)
         if name in t.layout.parameter_names:
             parameters[t.layout.parameter_names.index(name)] = value
         elif name in base:

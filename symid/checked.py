@@ -1,0 +1,49 @@
+"""Arguments of a wrong kind, refused in one sentence by the exception of the room that was called."""
+
+from __future__ import annotations
+
+from math import inf, isnan
+from pathlib import Path
+from typing import Any
+
+from symid.errors import SymidError
+
+
+def shown(value: Any) -> str:
+    """The value where it is short, else its kind."""
+    return repr(value) if isinstance(value, (str, int, float, bool, type(None))) else f"a {type(value).__name__}"
+
+
+def number(value: Any, what: str, error: type[SymidError], *, least: float = -inf) -> float:
+    """`value` as a float of at least `least`; text is none, even where it spells one."""
+    try:
+        found = float("nan" if isinstance(value, (str, bytes)) else value)
+    except (TypeError, ValueError):
+        found = float("nan")
+    if isnan(found) or found < least:
+        raise error(f"{what}={shown(value)}: give a number" + (f" of at least {least:g}" if least > -inf else ""))
+    return found
+
+
+def whole(value: Any, what: str, error: type[SymidError], *, least: int = 0) -> int:
+    """`value` as an int of at least `least`."""
+    found = number(value, what, error)
+    if found != found // 1 or found < least:
+        raise error(f"{what}={shown(value)}: give a whole number of at least {least}")
+    return int(found)
+
+
+def path(value: Any, what: str, error: type[SymidError]) -> Path:
+    """`value` as a Path."""
+    try:
+        return Path(value)
+    except TypeError:
+        raise error(f"{what}: give the path of a file or a directory, not {shown(value)}") from None
+
+
+def kind(value: Any, wanted: type | tuple[type, ...], what: str, error: type[SymidError]) -> Any:
+    """`value`, which must be of one of the kinds `wanted`."""
+    if not isinstance(value, wanted):
+        names = [k.__name__ for k in (wanted if isinstance(wanted, tuple) else (wanted,))]
+        raise error(f"{what}: give a {' or a '.join(names)}, not {shown(value)}")
+    return value
