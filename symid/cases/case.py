@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,11 +14,12 @@ import numpy as np
 from symid.cases.schema import refuse_violations
 from symid.discrepancy.diagnose import diagnose
 from symid.discrepancy.say.diagnosis import Diagnosis
+from symid.analysis.bodies import bodies_words, determined, rig_with_unknown_bodies, unknown_bodies
 from symid.errors import DiagnosisError, RecordingError, SymidError
 from symid.estimation.data import piece_length, segments_of
 from symid.estimation.zero_phase import ZeroPhase
 from symid.files import read_json
-from symid.mechanics import model_of, rig_model
+from symid.mechanics import model_of
 from symid.mechanics.rig import BASES
 from symid.model import Model
 from symid.recording import Recording, read_recording, smooth_states
@@ -41,6 +42,8 @@ class Case:
     segment_length : seconds of one piece with an initial state of its own; None for one piece.
     driven : whether random forces act on the system besides the recorded input.
     filter : what the outputs were low-pass filtered with, None where the recording must tell.
+    given : of a rig whose bodies are not all known, the model with every unknown number free; `model` holds those that
+        the motion does not tell from others.
     settling : seconds at the start of the fit window that the fit measure leaves out.
     """
 
@@ -54,6 +57,7 @@ class Case:
     driven: bool
     settling: float
     filter: ZeroPhase | None = None
+    given: Model | None = None
 
 
 def read_case(directory: str | Path) -> Case:
@@ -110,8 +114,9 @@ def rig_case(
     fit_window: Part | None = None,
     held_out: Part | None = None,
     sensor_noise: float | None = None,
+    allow_gaps: bool = False,
 ) -> Case:
-    """A rig whose parameters are known, as a case: a chain of links that hangs from a mount.
+    """A rig whose parameters are known, or ``null``, as a case: a chain of links that hangs from a mount.
 
     Parameters
     ----------
@@ -119,7 +124,7 @@ def rig_case(
     fit_window, held_out : start and end [s] or labels of the column ``split``, whose labels for
         fitting and holding out are taken where these are left out. Segments begin each from a
         state of their own; a long motion is cut into pieces of a few swings.
-    sensor_noise : [rad]; told from the recording where left out.
+    sensor_noise : [rad]; told from the recording where left out. allow_gaps : as for `read_recording`.
 
     Raises
     ------
@@ -129,23 +134,22 @@ def rig_case(
     --------
     >>> case = si.rig_case("swing.csv", "rig.json", fit_window=(0, 20), friction=["joint1"])    # doctest: +SKIP
     """
-    table = with_base_acceleration(read_recording(recording))
-    model = rig_model(parameters, table.channels, friction)
+    table = with_base_acceleration(read_recording(recording, allow_gaps=allow_gaps))
     fit, later = parts_of(table, fit_window, held_out, source=str(recording))
-    return Case(
-        table.name, model, table, fit, later, sensor_noise, _pieces(model, table, fit), driven=False, settling=0.0
-    )
+    model, given = rig_with_unknown_bodies(parameters, table, friction, fit)
+    pieces = _pieces(model, table, fit)
+    return Case(table.name, model, table, fit, later, sensor_noise, pieces, driven=False, settling=0.0, given=given)
 
 
 def diagnose_case(case: Case, **options: Any) -> Diagnosis:
-    """`diagnose` with everything that the case says.
+    """`diagnose` with everything that the case says, and what the motion determines of bodies that are not known.
 
     Examples
     --------
     >>> print(si.diagnose_case(si.read_case("data/concealed/cases/r01")))       # doctest: +SKIP
     Joint 2 is held back by a dry friction of 38.01 ± 0.40 µN m whatever its speed. ...
     """
-    return diagnose(
+    found = diagnose(
         case.model,
         case.recording,
         fit_window=case.fit_window,
@@ -157,6 +161,11 @@ def diagnose_case(case: Case, **options: Any) -> Diagnosis:
         filter=case.filter,
         **options,
     )
+    unknown = unknown_bodies(case.given) if case.given is not None else ()
+    if case.given is None or not unknown or found.data is None:
+        return found
+    bodies = determined(found.final, found.data, case.given, unknown)
+    return replace(found, bodies=tuple(bodies), words=f"{found.words}\n{bodies_words(bodies, unknown)}")
 
 
 def parts_of(

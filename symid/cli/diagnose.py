@@ -34,7 +34,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--rig",
         metavar="PARAMETERS.json",
         help="masses, lengths and inertias with units in their names: m1_kg, a1_m "
-        "(joint to centre of mass), I1_kg_m2, L1_m (joint to joint), m2_kg ..., g_m_s2; friction in it is ignored",
+        "(joint to centre of mass), I1_kg_m2, L1_m (joint to joint), m2_kg ..., g_m_s2; null for what is not known; "
+        "friction in it is ignored",
+    )
+    rig.add_argument(
+        "--allow-gaps", action="store_true", help="accept blank cells, missing rows and uneven times of a rig"
     )
     rig.add_argument(
         "--friction",
@@ -132,6 +136,7 @@ def _of_rig(path: Path, arguments: argparse.Namespace):
         fit_window=_part("--window", arguments.window),
         held_out=_part("--held-out", arguments.held_out),
         sensor_noise=arguments.sensor_noise,
+        allow_gaps=arguments.allow_gaps,
     )
     if arguments.held_out_csv and case.held_out_window is None:
         raise DiagnosisError("--held-out-csv needs a held-out window; give --held-out T0 T1, or a label")

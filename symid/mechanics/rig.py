@@ -6,6 +6,7 @@ import os
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from math import inf
 from typing import Any, cast
 
 from symid.errors import ModelError, RecordingError
@@ -19,6 +20,8 @@ MOST_LINKS = 20
 """Equations of longer chains take minutes to derive."""
 BASES = ("base", "cart", "pivot", "platform", "mount")
 """Names by which a recording may call what the first joint is fixed to."""
+REACH = 0.3
+"""Length of a chain of which nothing is known [m]."""
 _QUANTITIES = {"m": "kg", "a": "m", "I": "kg*m^2", "L": "m"}
 _LONG = {"mass": "m", "com": "a", "inertia": "I", "length": "L"}
 _FIELDS = {"m": "mass", "a": "com", "I": "inertia", "L": "length"}
@@ -29,6 +32,7 @@ def rig_model(
     parameters: Mapping[str, object] | str | os.PathLike[str],
     channels: Iterable[str] = (),
     friction: Iterable[str] = (),
+    reach: float = REACH,
 ) -> Model:
     """A chain of links that hangs from a mount, as its parameters and its recording say.
 
@@ -38,11 +42,13 @@ def rig_model(
         joint to centre of mass ``a1_m``, inertias about the centres of mass ``I1_kg_m2``, joint
         to joint ``L1_m`` for all links but the last, and ``g_m_s2`` (9.81 if left out); or
         ``link1_mass_kg``, ``link1_com_m``, ``link1_inertia_kg_m2``, ``link1_length_m``,
-        ``gravity_m_s2``. Other keys, such as friction that somebody published, are left out.
+        ``gravity_m_s2``. Other keys, such as friction that somebody published, are left out. What is not known
+        is ``null``, and a parameter of the model.
     channels : of the recording. Angles called ``joint1_angle`` are relative to the link before,
         ``link1_angle`` from the downward vertical. An acceleration of what carries the chain
         (``cart_acceleration``; see `BASES`) drives it, and so do torques (``joint1_torque``).
     friction : joints that the model gives an unknown viscous friction.
+    reach : about how long the chain is [m], for the guesses of what is not known.
 
     Raises
     ------
@@ -74,7 +80,10 @@ def rig_model(
     needed = {f"{q}{i}": unit for i in range(1, count + 1) for q, unit in _QUANTITIES.items() if q != "L" or i < count}
     gravity = {"g": "m/s^2"} if any(k.startswith("g_") for k in table) else {}
     own = {k: v for k, v in table.items() if k.split("_")[0] in needed | gravity}
-    values = {"g": 9.81} | read_body(own, needed | gravity, name)
+    unknown = [k.split("_")[0] for k, v in own.items() if v is None and not k.startswith("g_")]
+    known = {k: unit for k, unit in (needed | gravity).items() if k not in unknown}
+    values = {"g": 9.81} | read_body({k: v for k, v in own.items() if k.split("_")[0] in known}, known, name)
+    values |= _guesses(unknown, values, count, reach)
     links = tuple(
         ChainLink(
             f"link{i}",
@@ -83,11 +92,24 @@ def rig_model(
         )
         for i in range(1, count + 1)
     )
-    return _driven(
+    model = _driven(
         Chain(links, gravity=values["g"], name=f"{_COUNT.get(count, f'chain of {count} links')} on a bench"),
         set(channels),
         tuple(friction),
     )
+    return model.free(**dict.fromkeys(unknown, (0.0, inf))) if unknown else model
+
+
+def _guesses(unknown: Iterable[str], known: Mapping[str, float], count: int, reach: float) -> dict[str, float]:
+    """Those of a chain of equal rods, as heavy as the links that are known, or 1 kg each."""
+    masses = [v for k, v in known.items() if k.startswith("m")]
+    values = dict(known)
+    for kind in "mLaI":
+        for k in (k for k in unknown if k[0] == kind):
+            length = values.get(f"L{k[1:]}", reach / count)
+            usual = {"m": sum(masses) / len(masses) if masses else 1.0, "L": reach / count, "a": length / 2}
+            values[k] = usual[kind] if kind in usual else values[f"m{k[1:]}"] * length**2 / 12
+    return {k: values[k] for k in unknown}
 
 
 def _short(key: str) -> str:

@@ -54,8 +54,8 @@ def nameless(
         fits += [] if with_names is None else [with_names]
     progress("what has no name is described")
     flexible = flexible_law(fits, data, progress)
-    if flexible is None:
-        return Nameless(rest_of(fits[-1], data))
+    if flexible is None or improved(found, Nameless(flexible=flexible)) is found.fit:
+        return Nameless(rest_of(fits[-1], data))  # a law of the library, if only a hypothesis, explains more
     rest, proposal = rest_of(flexible.base, data), closed_form(flexible, progress)
     if held_out is None:
         return Nameless(rest, flexible, proposal)

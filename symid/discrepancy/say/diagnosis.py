@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from symid.analysis.bodies import Determined
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
 from symid.discrepancy.locate.remainder import Test
@@ -23,6 +24,7 @@ from symid.discrepancy.prove.evidence import Evidence
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.prove.held_out import Proof
+from symid.estimation.data import Data
 from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
 from symid.files import write_atomically
@@ -69,7 +71,8 @@ class Diagnosis:
     audit : noise of the sensors, and whether the recording was filtered. halves : each effect on two halves;
     verdicts_of_halves : what either half alone says, where what is left is not random.
     proof : held-out errors before and after, compared; None without held-out data or effects.
-    unnamed : what acts and has no name: `rest`, `flexible`.
+    unnamed : what acts and has no name: `rest`, `flexible`, `proposal`. data : what the models were fitted to.
+    bodies : what the motion determines of bodies that are not known.
     false_alarm_probability : that chance alone makes the best suspect look as good as the weakest effect that was found
         (of an adequate model: as the best suspect); None where that cannot be told.
 
@@ -95,6 +98,8 @@ class Diagnosis:
     proof: Proof | None = None
     false_alarm_probability: float | None = None
     unnamed: Nameless = Nameless()
+    data: Data | None = None
+    bodies: tuple[Determined, ...] = ()
 
     @property
     def rest(self) -> Rest | None:
@@ -173,6 +178,7 @@ class Diagnosis:
             "rest": None if self.rest is None else self.rest.table(),
             "proposal": None if self.proposal is None else proposal_table(self.proposal),
             "flexible_law": None if self.flexible is None else self.flexible.table(),
+            "bodies": [vars(b) for b in self.bodies],
             "words": self.words,
         }
 
@@ -330,4 +336,5 @@ def finding(
         e.proof,
         e.chance,
         e.unnamed,
+        e.found.data,
     )
