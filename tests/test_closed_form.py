@@ -88,7 +88,7 @@ def test_a_proposal_can_be_accepted_into_the_user_s_model():
 @pytest.mark.parametrize(
     ("force", "size", "shape"),
     [
-        (lambda x, v: -(v**3), 8.0, Shape(((V, 3),))),
+        pytest.param(lambda x, v: -(v**3), 8.0, Shape(((V, 3),)), marks=pytest.mark.slow, id="cubic"),
         pytest.param(lambda x, v: -sm.sin(x / 0.03), 1.0, Shape((), (), "sin", X), marks=pytest.mark.slow, id="magnet"),
         pytest.param(lambda x, v: -(x**2) * v, 400.0, Shape(((X, 2), (V, 1))), marks=pytest.mark.slow, id="vdp"),
     ],

@@ -109,6 +109,7 @@ def test_the_scale_of_masses_does_not_matter():
         assert not same or a.value == pytest.approx(b.value, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_a_diagnosis_of_a_rig_of_unknown_bodies_names_the_law_and_what_is_determined(tmp_path):
     term = LIBRARY["quadratic_drag"].at("link1")
     drag = {term.parameter_name("coefficient_Nm_s2_rad2"): 2e-3}
