@@ -129,5 +129,5 @@ def test_a_refined_mesh_agrees_with_an_adaptive_integrator():
 
 @pytest.mark.parametrize("refine", [0, 1.5])
 def test_a_refinement_that_is_no_whole_number_is_refused(refine):
-    with pytest.raises(TranscriptionError, match="whole number of collocation intervals"):
+    with pytest.raises(TranscriptionError, match="collocation intervals .*give a whole number"):
         si.Identification(pendulum(), pendulum_recording(), refine=refine)

@@ -72,7 +72,7 @@ def refuse_wrong_types(problem: Identification) -> None:
             raise TranscriptionError(f"{name}={checked.shown(table)}: give a dictionary of output name -> number")
         for of, value in (table or {}).items():
             checked.number(value, f"{name} of '{of}'", TranscriptionError)
-    checked.whole(problem.refine, "refine", TranscriptionError, least=1)
+    checked.whole(problem.refine, "collocation intervals of a sample interval, refine", TranscriptionError, least=1)
     checked.number(problem.ridge, "ridge", TranscriptionError)
     if problem.window is not None and not _is_window(problem.window):
         raise TranscriptionError(

@@ -99,10 +99,6 @@ class Identification:
 
     def __post_init__(self) -> None:
         refuse_wrong_types(self)
-        if int(self.refine) != self.refine or self.refine < 1:
-            raise TranscriptionError(
-                f"refine={self.refine}: give a whole number of collocation intervals in a sample interval"
-            )
         if self.ridge_about not in ("zero", "start"):
             raise TranscriptionError(
                 f"ridge_about={self.ridge_about!r}: a ridge pulls towards 'zero' or towards the 'start'"

@@ -65,7 +65,8 @@ def _values(model: Model) -> Iterator[str]:
             if isnan(lo) or isnan(hi) or lo > hi:
                 yield f"the bounds {c.bounds} of '{c.name}' are not an interval; give (lower, upper)"
             elif isinstance(c, Parameter) and c.guess is not None and not lo <= _number(c.guess) <= hi:
-                yield f"the guess {c.guess} of parameter '{c.name}' is outside its bounds ({lo:g}, {hi:g}), or no number"
+                guess = f"{c.guess:g}" if isinstance(c.guess, Real) else repr(c.guess)
+                yield f"the guess {guess} of parameter '{c.name}' is outside its bounds ({lo:g}, {hi:g}), or no number"
 
 
 def _holds(part: Input | Control) -> tuple[str, ...]:
