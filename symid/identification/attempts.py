@@ -54,12 +54,22 @@ class Attempts:
         nlp = self.problem.nonlinear_program(z)
         return bool(nlp.objective(z) > TRACE * nlp.objective_scale)
 
-    def beside(self, z: np.ndarray) -> None:
+    def beside(self, z: np.ndarray, most: int = FEW) -> None:
         """By small steps, and as usual where these lose a start that was near to the recording."""
-        self.run(z, FEW, near=True)
+        self.run(z, most, near=True)
         lost = LOST * self.problem.transcription.program.objective(z)
         if not self.done and not far(self.t, z) and not (self.solved and self.best.objective <= lost):
             self.run(z, MANY)
+
+    def further(self, z: np.ndarray) -> None:
+        """From further starts, until one ends as near to the recording as it can be."""
+        for start, led in further_starts(self.t, z if self.best is None else self.best.z):
+            if led:
+                self.beside(start, MANY)
+            else:
+                self.run(start, MANY)
+            if self.done:
+                break
 
     @property
     def solved(self) -> bool:
@@ -83,19 +93,14 @@ def solve_default(problem: Identification, z: np.ndarray, on_iteration, options:
     if simulated:
         attempts.beside(z)
     else:
-        attempts.run(z)
+        attempts.run(z, MANY if problem.episodes.count == 1 else float("inf"))
+    ended = attempts.solved
     try:
         if problem.episodes.count == 1 and not attempts.done:
-            for further, led in further_starts(attempts.t, z if attempts.best is None else attempts.best.z):
-                if led:
-                    attempts.beside(further)
-                else:
-                    attempts.run(further, MANY)
-                if attempts.done:
-                    break
-        if simulated and not attempts.done and problem.episodes.count == 1:
+            attempts.further(z)
+        if simulated and not ended and not attempts.done:
             attempts.run(z, MANY, near=True)
-        if simulated and not attempts.solved:
+        if not attempts.solved:
             attempts.run(z)
     except TimeUp:
         if attempts.best is None:
