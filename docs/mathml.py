@@ -13,6 +13,8 @@ def on_page_content(html: str, **_) -> str:
 
     def mathml(found: re.Match) -> str:
         tag, opening, formula = found.groups()
-        return f"<{tag}>{convert(unescape(formula), display='block' if opening == '[' else 'inline')}</{tag}>"
+        if opening == "[":  # on a phone a long line is moved aside, not the page
+            return f'<{tag} style="overflow-x: auto">{convert(unescape(formula), display="block")}</{tag}>'
+        return f"<{tag}>{convert(unescape(formula), display='inline')}</{tag}>"
 
     return _FORMULA.sub(mathml, html)

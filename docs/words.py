@@ -4,7 +4,10 @@ import griffe
 
 
 class DescriptionsAfterColon(griffe.Extension):
-    """The text after the colon, which may run over several lines, becomes the description; types stand in the signature."""
+    """The text after the colon, which may run over several lines, becomes the description.
+
+    Types stand in the signature; the name before the colon of an exception is its type.
+    """
 
     def on_object(self, *, obj: griffe.Object, **_) -> None:
         if obj.docstring is None:
@@ -16,4 +19,8 @@ class DescriptionsAfterColon(griffe.Extension):
                     if isinstance(item.annotation, str):
                         item.description = f"{item.annotation} {item.description}".strip()
                         item.annotation = None
+            if section.kind.value == "raises":
+                for item in section.value:
+                    names, _, text = str(item.annotation).partition(" : ")
+                    item.annotation, item.description = names, f"{text} {item.description}".strip()
         vars(obj.docstring)["parsed"] = sections  # the cached property that the page is made from

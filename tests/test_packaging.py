@@ -28,3 +28,9 @@ def test_the_recipe_asks_for_what_the_package_asks_for():
         "python>=3.11",
         "c-compiler",
     }
+
+
+def test_the_worker_of_the_image_has_a_home_for_its_cache_and_no_environment_of_the_checkout():
+    image = (ROOT / "packaging" / "Dockerfile").read_text(encoding="utf-8")
+    assert "useradd --create-home worker" in image and "python -m symid.setup_ipopt" in image
+    assert ".venv" in (ROOT / ".dockerignore").read_text(encoding="utf-8").split()

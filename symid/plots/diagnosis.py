@@ -100,8 +100,9 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
     length = min(len(before.time), int(10 * rate))
     for axes, output, i in zip(panels, outputs, range(len(outputs)), strict=True):
         unit, factor = shown_unit(output.unit)
-        shown = [(before, WARN_PALE, 3.0, "model as given")]
-        shown += [(after, MODEL, 1.0, "improved")] if diagnosis.effects else []
+        shown = [(before, WARN, 1.0, "model as given")]
+        if diagnosis.effects:
+            shown = [(before, WARN_PALE, 3.0, "model as given"), (after, MODEL, 1.0, "improved")]
         for run, color, width, label in shown:  # where both agree the one shows below the other
             f, power = welch((run.recorded - run.simulated)[:, i] * factor, rate, nperseg=length, detrend=False)
             axes.loglog(f[1:], power[1:], color=color, lw=width, label=label)

@@ -7,13 +7,11 @@ from pathlib import Path
 from symid.discrepancy import Diagnosis
 from symid.discrepancy.locate.latent import latent_torques
 from symid.discrepancy.policy import POLICY
-from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import place_name
 from symid.discrepancy.say.rest import rest_words
 from symid.errors import RecordingError
 from symid.files import write_atomically
 from symid.identification.fit import common_unit, rms_text
-from symid.mechanics.laws import parameter_name
 from symid.model.show import latex_lines
 from symid.plots import plot_before_after, plot_latent, plot_rest, plot_scores, plot_spectra
 from symid.report.origin import CITATION, origin, written
@@ -94,7 +92,7 @@ def effects_table(d: Diagnosis) -> str:
     kept = {(s.name, s.location): "no" if s.reason else "yes" for s in d.halves}
     rows = []
     for e in d.effects:
-        values = "; ".join(f"{_said(k)} {quantity(v, s, _unit(d, e, k))}" for k, (v, s) in e.parameters.items())
+        values = "; ".join(f"{_said(k)} {quantity(v, s, d.unit_of(e, k))}" for k, (v, s) in e.parameters.items())
         when = "always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s"
         rows.append(
             [_plain(e.name), place_name(e.location), when, kept.get((e.name, e.location), ""), values or e.sentence]
@@ -108,12 +106,6 @@ def _said(key: str) -> str:
         return _plain(split_column_name(key)[0])
     except RecordingError:  # one without a unit
         return _plain(key)
-
-
-def _unit(d: Diagnosis, effect: Effect, key: str) -> str:
-    """Unit of one parameter of an effect, as the improved model declares it; "1" for what is no parameter of it."""
-    part = d.improved.parameters.get(parameter_name(effect.name, effect.location, key))
-    return part.unit if part is not None else "1"
 
 
 def _plain(name: str) -> str:
@@ -273,4 +265,6 @@ def _parameters(d: Diagnosis) -> str:
         error = float(d.final.errors.get(name, float("nan")))
         given = "" if before is None else quantity(float(before), unit=part.unit, digits=4)
         rows.append([(name, part.meaning), given, quantity(float(value), error, part.unit, digits=4)])
+    if not d.effects:
+        return table(["parameter", "value ± standard error"], [[name, value] for name, _, value in rows])
     return table(["parameter", "model as given", "improved ± standard error"], rows)

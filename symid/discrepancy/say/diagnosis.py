@@ -29,8 +29,9 @@ from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
 from symid.files import write_atomically
 from symid.identification.fit import common_unit
+from symid.mechanics.laws import parameter_name
 from symid.model import Model
-from symid.units import column_name
+from symid.units import column_name, quantity
 
 FORMAT = 1
 
@@ -280,12 +281,12 @@ class Diagnosis:
 
     def _repr_html_(self) -> str:
         cell = "style='text-align:left;padding:2px 14px 2px 0'"
-        rows = [["effect", "place", "value, SI (± standard error)"]] if self.effects else []
+        rows = [["effect", "place", "value (± standard error)"]] if self.effects else []
         rows += [
             [
                 e.name.replace("_", " "),
                 e.location,
-                ", ".join(f"{k} = {v:.4g} ± {s:.2g}" for k, (v, s) in e.parameters.items()) or e.sentence,
+                ", ".join(f"{k}: {quantity(*v, self.unit_of(e, k))}" for k, v in e.parameters.items()) or e.sentence,
             ]
             for e in self.effects
         ]
@@ -302,6 +303,11 @@ class Diagnosis:
             + (f"<table>{table}</table>" if rows else "")
             + "</div>"
         )
+
+    def unit_of(self, effect: Effect, key: str) -> str:
+        """Unit of one parameter of an effect, as the improved model declares it; "1" for what is no parameter of it."""
+        part = self.improved.parameters.get(parameter_name(effect.name, effect.location, key))
+        return "1" if part is None else part.unit
 
 
 def _value(value: float, error: float) -> dict[str, float | None]:
