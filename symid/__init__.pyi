@@ -6,6 +6,7 @@ from .analysis import (
     Uncertainty as Uncertainty,
     bootstrap as bootstrap,
     compare as compare,
+    design as design,
     identifiability as identifiability,
     profile as profile,
     stability as stability,
