@@ -23,7 +23,8 @@ from symid.estimation.data import Data, segments_between
 from symid.estimation.kalman import HOLD, kalman_gain
 from symid.mechanics import LIBRARY
 from symid.model import Constant, Equation, Input, Law, LawParameter, Model, Noise, Output, Parameter, Port, State
-from symid.simulation import Linearised, synthetic_recording
+from symid.recording import Recording
+from symid.simulation import Linearised, Simulator, synthetic_recording
 
 TRUE = {"stiffness": 30.0, "damping": 1.2}
 SENSOR = 2e-4
@@ -346,3 +347,25 @@ def test_a_solution_brings_its_model_recording_window_and_values():
 def test_a_model_alone_is_not_enough():
     with pytest.raises(DiagnosisError, match="give the recording"):
         diagnose(pendulum())
+
+
+def test_a_tank_without_places_where_a_force_could_act_is_diagnosed():
+    def tank(drained):
+        m = Model("tank")
+        m.level = State(unit="m")
+        m.inflow = Input(unit="m^3/s", channel="inflow", role="excitation", at="input")
+        m.outlet = Parameter(unit="m^2/s", bounds=(0, 1), guess=1e-3)
+        m.balance = Equation(0.02 * m.level.dot - m.inflow.symbol + m.outlet * drained(m.level.symbol))
+        m.shown = Output(m.level, channel="level", role="sensor", at="sensor:level")
+        return m
+
+    time = np.arange(0.0, 300.0, 1.0)
+    inflow = np.repeat(np.random.default_rng(7).uniform(2e-5, 2e-4, 10), 30)
+    truth = tank(lambda h: 0.4 * sm.sqrt(h))
+    run = Simulator(truth).simulate({"outlet": 1e-3}, [0.2], time, {"inflow": inflow})
+    level = run.y[:, 0] + 5e-4 * np.random.default_rng(0).standard_normal(len(time))
+    recording = Recording("tank", time, {"level": level, "inflow": inflow}, {"level": "m", "inflow": "m^3/s"})
+    found = diagnose(
+        tank(lambda h: h), recording, fit_window=(0, 200), held_out=(200, 299), driven=False, sensor_noise=5e-4
+    )
+    assert found.verdict == "unexplained" and found.effects[0].location == "sensor:level"

@@ -9,6 +9,7 @@ from functools import cache
 from symid.discrepancy.locate.audit import audit
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.model.dry import with_friction_speeds
+from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.model.suspects import suspects as suspects_of
 from symid.discrepancy.name.error_model import with_error_model
@@ -85,7 +86,8 @@ def diagnose(
     pool = list(suspects_of(task.model) if suspects is None else suspects)
 
     def searched(base: Fit, data: Data) -> Search:
-        flexible = cache(lambda: flexible_fits(base, data, flexible_terms(base, data))[0])
+        nothing = Hypothesis((), base, base, data)
+        flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
         return Search(base, data, pool, flexible, threads, progress)
 
     # Locate: what the recording can be trusted for, and what the model as given leaves of it.

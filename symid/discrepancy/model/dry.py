@@ -10,8 +10,8 @@ from symid.estimation.data import Segment, swing
 from symid.mechanics.laws import is_linear
 from symid.model import Constant, Model, Port
 
-PART = 0.02
-"""The smoothed jump of dry friction is so much of the usual speed wide: far below what a recording resolves."""
+PART = 0.005
+"""The jump of dry friction is smoothed over this part of the usual speed: what sticks creeps by no more than that."""
 
 
 def with_friction_speeds(model: Model, segments: Sequence[Segment]) -> Model:

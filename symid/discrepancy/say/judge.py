@@ -62,7 +62,7 @@ def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> boo
 
 def _voted(flexible: Hypothesis, effect: Effect, rest: Test | None) -> str:
     """Where most of what tells it say that the unknown acts; where they all differ, what a flexible law says."""
-    votes = [flexible.suspects[0].term.location, effect.location, *([rest.place] if rest else [])]
+    votes = [*(s.term.location for s in flexible.suspects[:1]), effect.location, *([rest.place] if rest else [])]
     return max(votes, key=votes.count)
 
 
