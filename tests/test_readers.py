@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from symid.cli import main
-from symid.errors import RecordingError
+from symid.errors import DiagnosisError, RecordingError
 from symid.recording import joint_angles, read_recording
 from symid.recording.readers import READERS, RawColumn
 
@@ -223,3 +223,35 @@ def test_the_command_line_reads_gaps_and_own_names(tmp_path, capsys):
     assert "--allow-gaps" in capsys.readouterr().err
     assert main([*command, "--allow-gaps"]) == 0
     assert "Solved" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", ["diagnose", "simulate"])
+def test_other_commands_read_gaps_and_own_names_too(tmp_path, capsys, monkeypatch, command):
+    """And a mistake of signs is told before a diagnosis looks for physics."""
+    data = read_recording("data/standing_synthetic/recording.csv").window(0, 20).frame.reset_index()
+    data["platform_acceleration_m_s2"] *= -1
+    names = {"time_s": "t", "ankle_angle_rad": "A", "hip_angle_rad": "H", "platform_acceleration_m_s2": "P"}
+    gappy = data[list(names)].rename(columns=names)
+    gappy.loc[20, "H"] = np.nan
+    gappy.to_csv(tmp_path / "own.csv", index=False)
+    (tmp_path / "map.toml").write_text("".join(f'{k} = "{v}"\n' for k, v in names.items()))
+    body = ["--body", "data/standing_synthetic/body.json", "--columns", str(tmp_path / "map.toml")]
+    if command == "diagnose":
+        reads = ["diagnose", str(tmp_path / "own.csv"), *body, "--window", "0", "15"]
+        reads += ["--controller", "fpd"]
+    else:
+        reads = ["simulate", str(tmp_path / "made.csv"), *body, "--platform", str(tmp_path / "own.csv")]
+        reads += ["--parameters", "data/standing_synthetic/truth.json"]
+    assert main(reads) == 2
+    assert "--allow-gaps" in capsys.readouterr().err
+
+    def stop(*_, **__):
+        raise DiagnosisError("read it all")
+
+    monkeypatch.setattr("symid.discrepancy.diagnose", stop)
+    ended = main([*reads, "--allow-gaps"])
+    said = capsys.readouterr().err
+    if command == "diagnose":
+        assert ended == 2 and "read it all" in said and "platform_acceleration has the opposite sign" in said
+    else:
+        assert ended == 0 and len(read_recording(tmp_path / "made.csv")) == 1001

@@ -115,6 +115,7 @@ def rig_case(
     held_out: Part | None = None,
     sensor_noise: float | None = None,
     allow_gaps: bool = False,
+    columns: Mapping[str, str] | str | os.PathLike[str] | None = None,
 ) -> Case:
     """A rig whose parameters are known, or ``null``, as a case: a chain of links that hangs from a mount.
 
@@ -124,7 +125,7 @@ def rig_case(
     fit_window, held_out : start and end [s] or labels of the column ``split``, whose labels for
         fitting and holding out are taken where these are left out. Segments begin each from a
         state of their own; a long motion is cut into pieces of a few swings.
-    sensor_noise : [rad]; told from the recording where left out. allow_gaps : as for `read_recording`.
+    sensor_noise : [rad]; told from the recording where left out. allow_gaps, columns : as for `read_recording`.
 
     Raises
     ------
@@ -134,7 +135,7 @@ def rig_case(
     --------
     >>> case = si.rig_case("swing.csv", "rig.json", fit_window=(0, 20), friction=["joint1"])    # doctest: +SKIP
     """
-    table = with_base_acceleration(read_recording(recording, allow_gaps=allow_gaps))
+    table = with_base_acceleration(read_recording(recording, allow_gaps=allow_gaps, columns=columns))
     fit, later = parts_of(table, fit_window, held_out, source=str(recording))
     model, given = rig_with_unknown_bodies(parameters, table, friction, fit)
     pieces = _pieces(model, table, fit)

@@ -6,13 +6,13 @@ import argparse
 import warnings
 from pathlib import Path
 
-from symid.cli.options import refuse_missing_folders, tell_files
+from symid.cli.options import add_recording_arguments, refuse_missing_folders, tell_files
 from symid.progress import say
 
 SUMMARY = "find the physics that a model leaves out: where, what, how much, and the proof"
 CONTROLLERS = ("pd", "fpd")
 PERSON = ("body", "controller", "window")
-OF_A_RECORDING = ("body", "controller", "rig", "friction", "window", "held_out", "sensor_noise")
+OF_A_RECORDING = ("body", "controller", "rig", "friction", "window", "held_out", "sensor_noise", "columns")
 EXAMPLES = (
     "symid diagnose recording.csv --body body.json --controller fpd --window 0 100 --held-out 100 200 --report a.html",
     "symid diagnose swing.csv --rig rig.json --window fit --held-out held_out --friction joint1 joint2",
@@ -36,9 +36,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="masses, lengths and inertias with units in their names: m1_kg, a1_m "
         "(joint to centre of mass), I1_kg_m2, L1_m (joint to joint), m2_kg ..., g_m_s2; null for what is not known; "
         "friction in it is ignored",
-    )
-    rig.add_argument(
-        "--allow-gaps", action="store_true", help="accept blank cells, missing rows and uneven times of a rig"
     )
     rig.add_argument(
         "--friction",
@@ -65,6 +62,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="RAD",
         help="rms of the angle sensors' noise (default: as the recording shows)",
     )
+    add_recording_arguments(parser)
     parser.add_argument(
         "--threads", type=int, default=2, metavar="N", help="suspects that are tried at once (default: 2)"
     )
@@ -118,7 +116,9 @@ def _of_case(directory: Path, arguments: argparse.Namespace):
         raise DiagnosisError(
             f"{directory} is a case directory, whose case.json says what {given[0]} would; leave it out"
         )
-    return diagnose_case(read_case(directory), threads=arguments.threads, progress=_tell)
+    case = read_case(directory)
+    _warn_of_mistakes(case.model, case.recording)
+    return diagnose_case(case, threads=arguments.threads, progress=_tell)
 
 
 def _of_rig(path: Path, arguments: argparse.Namespace):
@@ -137,7 +137,9 @@ def _of_rig(path: Path, arguments: argparse.Namespace):
         held_out=_part("--held-out", arguments.held_out),
         sensor_noise=arguments.sensor_noise,
         allow_gaps=arguments.allow_gaps,
+        columns=arguments.columns,
     )
+    _warn_of_mistakes(case.model, case.recording)
     if arguments.held_out_csv and case.held_out_window is None:
         raise DiagnosisError("--held-out-csv needs a held-out window; give --held-out T0 T1, or a label")
     return diagnose_case(case, threads=arguments.threads, progress=_tell)
@@ -158,7 +160,9 @@ def _of_person(path: Path, arguments: argparse.Namespace):
             "--friction belongs to --rig; a standing person's feedback holds any viscous friction already"
         )
     _refuse_odd_noise(arguments)
-    model, recording = build_model(arguments.body, arguments.controller), read_recording(path)
+    model = build_model(arguments.body, arguments.controller)
+    recording = read_recording(path, allow_gaps=arguments.allow_gaps, columns=arguments.columns)
+    _warn_of_mistakes(model, recording)
     fit, held_out = parts_of(
         recording, _part("--window", arguments.window), _part("--held-out", arguments.held_out), str(path)
     )
@@ -171,6 +175,15 @@ def _of_person(path: Path, arguments: argparse.Namespace):
         threads=arguments.threads,
         progress=_tell,
     )
+
+
+def _warn_of_mistakes(model, recording) -> None:
+    """A mistake of units, signs or columns is not a missing law."""
+    from symid.errors import RecordingWarning
+    from symid.plausibility import remarks
+
+    for remark in remarks(model, recording):
+        warnings.warn(remark, RecordingWarning, stacklevel=2)
 
 
 def _part(option: str, words: list[str] | None) -> tuple[float, float] | str | None:

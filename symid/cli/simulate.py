@@ -6,7 +6,7 @@ import argparse
 import json
 import math
 
-from symid.cli.options import add_model_arguments, build_model, refuse_missing_folders
+from symid.cli.options import add_model_arguments, add_recording_arguments, build_model, refuse_missing_folders
 from symid.errors import RecordingError
 
 SUMMARY = "simulate a standing person under a known controller and write a recording"
@@ -27,6 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="OTHER.csv",
         help="recording whose platform acceleration is used (default: random pulses from --seed)",
     )
+    add_recording_arguments(parser)
     parser.add_argument("--duration", type=float, metavar="S", help="s (default: 120, or that of --platform)")
     parser.add_argument(
         "--rate", type=float, metavar="HZ", help="samples per second (default: 50, or that of --platform)"
@@ -55,7 +56,7 @@ def run(arguments: argparse.Namespace) -> int:
     refuse_missing_folders(arguments.output)
     model = build_model(arguments.body, arguments.controller)
     parameters = read_parameters(arguments.parameters, model)
-    platform, duration, rate = _platform(arguments.platform)
+    platform, duration, rate = _platform(arguments)
     duration, rate = arguments.duration or duration, arguments.rate or rate
     for option, value in (
         ("--duration", duration),
@@ -83,14 +84,14 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _platform(path: str | None):
+def _platform(arguments: argparse.Namespace):
     """The motion to use, and duration [s] and rate [Hz] where the command line gives none."""
     from symid.recording import read_recording
     from symid.synthetic import DURATION, RATE, GivenPlatform
 
-    if path is None:
+    if arguments.platform is None:
         return None, DURATION, RATE
-    recording = read_recording(path)
+    recording = read_recording(arguments.platform, allow_gaps=arguments.allow_gaps, columns=arguments.columns)
     start, end = recording.interval
     moving = GivenPlatform(recording.time - start, recording["platform_acceleration"])
     return moving, end - start, 1 / recording.even_step("simulate --platform")

@@ -24,14 +24,14 @@ from symid.units import FloatArray
 PLAIN = (".csv", ".txt", "")
 """Endings of comma-separated text; an ending that no reader has is taken for it, too."""
 _CURES = {
-    "gap": "read with allow_gaps=True (symid identify --allow-gaps), which gives what is missing no weight (or mark "
-    "the parts in a 'segment' column)",
-    "uneven": "read with allow_gaps=True (symid identify --allow-gaps)",
+    "gap": "read with allow_gaps=True (--allow-gaps on the command line), which gives what is missing no weight "
+    "(or mark the parts in a 'segment' column)",
+    "uneven": "read with allow_gaps=True (--allow-gaps on the command line)",
     "repeated": "remove the row, or mark separate runs in a 'segment' column",
     "backwards": "sort the rows, or mark separate runs in a 'segment' column",
     "single": "record more, or remove the row",
 }
-_NO_WEIGHT = "read with allow_gaps=True (symid identify --allow-gaps), which gives it no weight"
+_NO_WEIGHT = "read with allow_gaps=True (--allow-gaps on the command line), which gives it no weight"
 _MISSING = {"", "nan", "na", "n/a", "null", "none"}
 
 

@@ -34,8 +34,9 @@ def random_start(t: Transcription, seed: int, number: int) -> np.ndarray:
 
 
 REGRESSION_INTERVALS = 1000  # enough for a start; more only cost time
-LAGS = np.arange(0.02, 0.5, 0.04)
-"""Values [s] among which the regression looks for unknown lags."""
+LAGS, SHARP = np.linspace(0, 1, 12) ** 2, 0.005
+"""Shares of the range between the bounds of an unknown lag at which the regression tries it first, closer where lags
+are small, and the one to which it is found then."""
 
 
 @one_blas_thread
@@ -90,11 +91,11 @@ def _equation_error_of_lags(t: Transcription) -> list[np.ndarray]:
         return equation_error(t, first)
 
     lo, hi = lower[lags].min(), upper[lags].max()
-    grid = np.array([lo, *LAGS[(LAGS > lo) & (LAGS < hi)], hi])
+    grid = lo + (hi - lo) * LAGS
     best = int(np.argmin([regress(lag)[1] for lag in grid]))
     near = grid[max(best - 1, 0)], grid[min(best + 1, len(grid) - 1)]
     found = scipy.optimize.minimize_scalar(
-        lambda lag: regress(lag)[1], bounds=near, method="bounded", options={"xatol": 0.002, "maxiter": 12}
+        lambda lag: regress(lag)[1], bounds=near, method="bounded", options={"xatol": SHARP * (hi - lo), "maxiter": 12}
     )
     return [regress(lag)[0] for lag in (found.x, lo)]
 
