@@ -94,7 +94,14 @@ def design(
 
     Examples
     --------
-    >>> best = si.design(plant, {"gain": 2.0}, duration=5, noise={"seen": 0.1}, rate=10)
+    >>> m = si.Model("motor")
+    >>> m.turn, m.volt = si.State(unit="rad"), si.Control(unit="V", bounds=(-1, 1))
+    >>> m.gain = si.Parameter(unit="rad/(s*V)", bounds=(0, 9))
+    >>> m.balance, m.seen = si.Equation(m.turn.dot - m.gain * m.volt), si.Output(m.turn)
+    >>> m.begin = si.Boundary(initial={m.turn: 0})
+    >>> best = si.design(m, {"gain": 2.0}, duration=1, noise={"seen": 0.1}, rate=10, start={"volt": 0.5}, nodes=11)
+    >>> print(f"{best.plan['volt'].min():.2f} {best.std_errors['gain']:.4f}")
+    1.00 0.0548
     """
     checked.kind(model, Model, "design", ModelError)
     for what, given, parts in (("values", values, model.parameters), ("noise", noise, model.outputs)):

@@ -22,7 +22,7 @@ def export(what: Solution | Model, path: str | Path) -> None:
     ``.c``: self-contained C99 with the functions rates, outputs and step. ``.py``: a module with the same functions,
     which needs NumPy alone. ``.tex``: equations and a table of the values, in the letters of `model.show`.
 
-    >>> si.export(solution, "loop.c")
+    >>> si.export(problem.solve(), "loop.c")  # doctest: +SKIP
 
     Parameters
     ----------
