@@ -13,7 +13,7 @@ import pandas as pd
 
 from symid import checked
 from symid.errors import ModelError
-from symid.identification import Solution, Solve, Study
+from symid.identification import Identification, Solution, Solve, Study
 from symid.identification.covariance import ParameterErrors
 from symid.identification.error_models import Errors, bandwidth
 from symid.identification.study import Finished, tell
@@ -21,6 +21,10 @@ from symid.recording import Recording
 
 LEAST_DRAWS = 20
 """Solved draws below which a spread is not given: its own error would be a sixth."""
+
+
+LEAST_RECORDINGS = 4
+"""Recordings from which is drawn: of fewer there are hardly a dozen different draws."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +58,7 @@ def bootstrap(
     count: int = 200,
     *,
     seed: int = 0,
+    over: str = "blocks",
     block: int | None = None,
     executor: Executor | None = None,
     store: str | Path | None = None,
@@ -63,10 +68,12 @@ def bootstrap(
 
     A draw is the fitted motion plus the residual in another order: circular blocks of it begin at random
     (Politis & Romano 1992), made as large as the noise by the degrees of freedom that the fit used up. Blocks keep
-    the noise's memory; channels stay together.
+    the noise's memory; channels stay together. Over recordings, a draw is as many of the recordings, with repetition:
+    that asks nothing of the noise, and counts what differs from recording to recording.
 
     Parameters
     ----------
+    over : "blocks" or "recordings".
     block : samples of a block; by default 1 where the solution's error model is white, else as many
         as the noise's memory asks for (`error_models.bandwidth`).
     executor, store, on_finished : as for `Study.run`.
@@ -74,7 +81,7 @@ def bootstrap(
     Raises
     ------
     ModelError
-        If the problem was not solved, or too few of the draws were.
+        If the problem was not solved, too few of the draws were, or there are too few recordings to draw from.
 
     Examples
     --------
@@ -86,12 +93,17 @@ def bootstrap(
     count = checked.whole(count, "bootstrap: count", ModelError, least=1)
     if not solution.solved:
         raise ModelError(f"bootstrap: the problem was not solved: {solution.message}")
+    if over not in ("blocks", "recordings"):
+        raise ModelError(f"bootstrap: over={over!r}: known are 'blocks' and 'recordings'")
     errors = cast("ParameterErrors", solution.errors)  # it was solved
     residuals = errors.residuals
     blocks = tuple(block or (1 if errors.model == "white" else max(1, bandwidth(r.error))) for r in residuals)
     rng = np.random.default_rng(seed)
     solves = {}
     for k in range(count):
+        if over == "recordings":
+            solves[f"draw {k + 1}"] = Solve(_chosen(solution, rng), solution.values, k)
+            continue
         drawn = [_drawn(solution, r, residuals[r], blocks[r], rng) for r in range(len(residuals))]
         solves[f"draw {k + 1}"] = Solve(replace(solution.problem, recordings=drawn), solution.result.z, k)
     study = Study(solves, store)
@@ -106,6 +118,23 @@ def bootstrap(
     low, high = draws.quantile(0.025), draws.quantile(0.975)
     parameters = pd.DataFrame({"value": solution.values, "std_error": draws.std(), "lower": low, "upper": high})
     return Bootstrap(draws, parameters.loc[list(solution.values)], count - len(draws), blocks)
+
+
+def _chosen(solution: Solution, rng: np.random.Generator) -> Identification:
+    """The problem of as many recordings, drawn from those that there are."""
+    p = solution.problem
+    if len(p.recordings) < LEAST_RECORDINGS or p.per_recording:
+        raise ModelError(
+            f"bootstrap: {len(p.recordings)} recordings{' with parameters of their own' if p.per_recording else ''} "
+            f"cannot be drawn from; give at least {LEAST_RECORDINGS} that share all parameters"
+        )
+    chosen = rng.integers(0, len(p.recordings), len(p.recordings))
+    return replace(
+        p,
+        recordings=[p.recordings[k] for k in chosen],
+        window=[p.windows[k] for k in chosen],
+        noise=p.noise and [p.noise[k] for k in chosen],
+    )
 
 
 def _drawn(solution: Solution, r: int, residual: Errors, block: int, rng: np.random.Generator) -> Recording:

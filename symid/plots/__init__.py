@@ -5,6 +5,7 @@ Each function returns a figure that shows itself in a notebook and has matplotli
 """
 
 from symid.plots.diagnosis import plot_before_after, plot_latent, plot_scores, plot_spectra
+from symid.plots.likelihood import plot_profile, plot_region
 from symid.plots.live import LivePlot
 from symid.plots.plan import plot_plan
 from symid.plots.rest import plot_rest
@@ -32,6 +33,8 @@ __all__ = [
     "plot_parameters",
     "plot_plan",
     "plot_poses",
+    "plot_profile",
+    "plot_region",
     "plot_residual_spectra",
     "plot_rest",
     "plot_scores",
