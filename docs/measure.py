@@ -79,7 +79,7 @@ def coverage(repeats: int = 200) -> dict:
     }
 
 
-def alarms(count: int = 30) -> dict:
+def alarms(count: int = 12) -> dict:
     """Rigs whose model is right: how often a diagnosis names something."""
     named = [_diagnosed(_drawn("rig", [], (77, k))) for k in range(count)]
     wrong = [f"{e.name} at {e.location}" for d in named for e in d.effects]
@@ -94,7 +94,7 @@ def alarms(count: int = 30) -> dict:
     }
 
 
-def found(count: int = 30) -> dict:
+def found(count: int = 12) -> dict:
     """Rigs with one concealed effect, drawn at random: how often it is found."""
     right, near = 0, 0
     for k in range(count):

@@ -2,6 +2,7 @@
 
 import doctest
 import inspect
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 
+DATA_FOLDER = Path(__file__).resolve().parents[1] / "data"
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEPTION_DETAIL
 PUBLIC = {name: getattr(si, name) for name in si.__all__ if name != "mechanics"}
 PUBLIC |= {f"mechanics.{name}": getattr(si.mechanics, name) for name in si.mechanics.__all__}
@@ -42,7 +44,9 @@ def prepared():
     recording, model = pendulum_recording(noise=0.01), pendulum()
     recording = recording.with_channel("velocity", recording["rate"], "rad/s")
     names = {n: getattr(si.mechanics, n) for n in si.mechanics.__all__} | {n: getattr(si, n) for n in si.__all__}
-    return names | {"si": si, "np": np, "sm": sm, "sympy": sm, "model": model, "recording": recording}
+    solution = si.Identification(model, recording).solve()
+    around = {"model": model, "recording": recording, "solution": solution}
+    return names | around | {"si": si, "np": np, "sm": sm, "sympy": sm}
 
 
 def a_model() -> si.Model:
@@ -64,7 +68,9 @@ def plannable() -> si.Model:
 
 
 @pytest.mark.parametrize("name", [n for n in PUBLIC if n not in DATA])
-def test_its_examples_are_true(name, prepared, monkeypatch):
+def test_its_examples_are_true(name, prepared, monkeypatch, tmp_path):
+    (tmp_path / "data").symlink_to(DATA_FOLDER)
+    monkeypatch.chdir(tmp_path)  # files that an example writes land there
     around = prepared | {"problem": si.Identification(prepared["model"], prepared["recording"]), "m": a_model()}
     if name in ("Free", "Optimization"):
         around["model"] = plannable()
