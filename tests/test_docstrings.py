@@ -67,6 +67,16 @@ def plannable() -> si.Model:
     return m
 
 
+def first_order() -> si.Model:
+    m = si.Model("first order")
+    m.x, m.u = si.State(unit="1"), si.Control(unit="1", bounds=(-1, 1))
+    m.gain = si.Parameter(unit="1/s", bounds=(0.1, 10))
+    m.motion = si.Equation(m.x.dot + m.gain * (m.x - m.u))
+    m.begin = si.Boundary(initial={m.x: 0})
+    m.seen = si.Output(m.x)
+    return m
+
+
 @pytest.mark.parametrize("name", [n for n in PUBLIC if n not in DATA])
 def test_its_examples_are_true(name, prepared, monkeypatch, tmp_path):
     (tmp_path / "data").symlink_to(DATA_FOLDER)
@@ -74,6 +84,8 @@ def test_its_examples_are_true(name, prepared, monkeypatch, tmp_path):
     around = prepared | {"problem": si.Identification(prepared["model"], prepared["recording"]), "m": a_model()}
     if name in ("Free", "Optimization"):
         around["model"] = plannable()
+    if name == "design":
+        around["plant"] = first_order()
     if name == "Objective":
         around["m"].force = si.Control(unit="N")
     if name.startswith("mechanics."):

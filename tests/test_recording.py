@@ -344,10 +344,12 @@ def test_times_counted_from_1970_are_held_to_the_same_grid(tmp_path):
     assert read_recording(written(tmp_path, csv_text(rows))).sampling_interval == pytest.approx(0.01)
 
 
-def test_degrees_called_radians_raise_a_warning(tmp_path):
+def test_a_shaft_that_turns_raises_no_warning(tmp_path):
+    """Whether degrees are called radians is told with the model (`symid.plausibility`), not from the size alone."""
     rows = [f"{0.01 * i:.2f},{20 * np.sin(0.1 * i):.4f}" for i in range(100)]
-    with pytest.warns(RecordingWarning, match="ankle_angle reaches 20 rad.*ankle_angle_deg"):
-        read_recording(written(tmp_path, csv_text(rows, "time_s,ankle_angle_rad")))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        read_recording(written(tmp_path, csv_text(rows, "time_s,shaft_angle_rad")))
 
 
 # -- spikes -----------------------------------------------------------------------------------

@@ -71,7 +71,7 @@ def read_recording(
     Warns
     -----
     RecordingWarning
-        For single samples that stand out (by row), and angles in rad that look like degrees.
+        For single samples that stand out (by row).
 
     Examples
     --------
