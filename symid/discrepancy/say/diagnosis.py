@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from html import escape
 from importlib import import_module
@@ -21,6 +21,7 @@ from symid.discrepancy.locate.rest import Rest
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.closed_form import Proposal, proposal_table
 from symid.discrepancy.prove.evidence import Evidence
+from symid.discrepancy.prove.experiment import Experiment, experiments
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.prove.held_out import Proof
@@ -126,6 +127,18 @@ class Diagnosis:
     def values(self) -> dict[str, float]:
         """Parameters of the improved model, SI."""
         return self.final.values
+
+    def experiments(self, progress: Callable[[str], None] = lambda text: None) -> list[Experiment]:
+        """For each of `equivalent` the experiment that would tell it from what was found, by simulation of both.
+
+        ``e.design.words`` says what to do, ``e.log_ratio`` what is to be expected of it, ``e.splits`` whether that is
+        enough, and ``e.recording(e.finding, seed=0)`` what would be recorded if the finding is true.
+        """
+        if self.data is None:
+            return []
+        finding = Hypothesis((), self.final, self.baseline, self.data)
+        tried = [experiments(finding, rival, self.data, progress) for rival in self.equivalent]
+        return [found[0] for found in tried if found]
 
     def answer(self) -> dict[str, Any]:
         """The finding as plain numbers and text, in the answer format."""
