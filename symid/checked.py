@@ -11,25 +11,28 @@ from symid.errors import SymidError
 
 def shown(value: Any) -> str:
     """The value where it is short, else its kind."""
-    return repr(value) if isinstance(value, (str, int, float, bool, type(None))) else f"a {type(value).__name__}"
+    text = repr(value) if isinstance(value, (str, int, float, bool, type(None))) else f"a {type(value).__name__}"
+    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def number(value: Any, what: str, error: type[SymidError], *, least: float = -inf) -> float:
     """`value` as a float of at least `least`; text is none, even where it spells one."""
     try:
         found = float("nan" if isinstance(value, (str, bytes)) else value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         found = float("nan")
     if isnan(found) or found < least:
         raise error(f"{what}={shown(value)}: give a number" + (f" of at least {least:g}" if least > -inf else ""))
     return found
 
 
-def whole(value: Any, what: str, error: type[SymidError], *, least: int = 0) -> int:
-    """`value` as an int of at least `least`."""
+def whole(value: Any, what: str, error: type[SymidError], *, least: int = 0, most: int = 2**31) -> int:
+    """`value` as an int from `least` to `most`."""
     found = number(value, what, error)
-    if found != found // 1 or found < least:
-        raise error(f"{what}={shown(value)}: give a whole number of at least {least}")
+    if found != found // 1 or not least <= found <= most:
+        raise error(
+            f"{what}={shown(value)}: give a whole number of at least {least}" + f", {most} at most" * (found > most)
+        )
     return int(found)
 
 

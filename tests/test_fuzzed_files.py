@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from fuzz import few, odd, told
+from hypothesis import given
 from hypothesis import strategies as st
 
 from symid.cases import read_case
@@ -18,19 +19,6 @@ ROOT = Path(__file__).parents[1] / "data"
 BODY = json.loads((ROOT / "standing_synthetic" / "body.json").read_text())
 CASES = [json.loads((ROOT / "concealed" / "cases" / name / "case.json").read_text()) for name in ("r01", "s01")]
 RIG = CASES[0]["parameters"]
-few = settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-
-odd = st.one_of(
-    st.none(),
-    st.booleans(),
-    st.integers(),
-    st.floats(),
-    st.text(max_size=8),
-    st.lists(st.integers(), max_size=3),
-    st.dictionaries(st.text(max_size=4), st.integers(), max_size=2),
-    st.just(10**400),
-    st.just("9" * 500),
-)
 
 
 @st.composite
@@ -48,13 +36,6 @@ def spoiled(draw, content):
     if kind != "left out":
         table[draw(st.text(max_size=12)) if kind == "renamed" else key] = value if kind == "renamed" else draw(odd)
     return content
-
-
-def told(function, *arguments):
-    try:
-        function(*arguments)
-    except SymidError as error:
-        assert 0 < len(str(error)) < 2000
 
 
 @few

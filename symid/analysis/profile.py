@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 import pandas as pd
@@ -77,7 +77,7 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
     return table
 
 
-def _several(values) -> list:
+def _several(values: Any) -> list[float]:
     """What was given as values; one number stands for itself."""
     return list(values) if np.ndim(values) else [values]
 

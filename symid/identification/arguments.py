@@ -6,13 +6,17 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from symid import checked
-from symid.errors import TranscriptionError
+from symid.errors import SolveError, TranscriptionError
 from symid.model import Model
 from symid.recording import Recording
 from symid.transcription import SCHEMES, Episodes, Scheme
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
+
+
+FINEST = 1000
+"""Intervals in a sample interval: a recording says nothing of a mesh with more."""
 
 
 class Recordings:
@@ -72,12 +76,23 @@ def refuse_wrong_types(problem: Identification) -> None:
             raise TranscriptionError(f"{name}={checked.shown(table)}: give a dictionary of output name -> number")
         for of, value in (table or {}).items():
             checked.number(value, f"{name} of '{of}'", TranscriptionError)
-    checked.whole(problem.refine, "collocation intervals of a sample interval, refine", TranscriptionError, least=1)
+    refine = "collocation intervals of a sample interval, refine"
+    checked.whole(problem.refine, refine, TranscriptionError, least=1, most=FINEST)
     checked.number(problem.ridge, "ridge", TranscriptionError)
+    for name in ("backend", "ridge_about"):
+        checked.kind(getattr(problem, name), str, name, TranscriptionError)
     if problem.window is not None and not _is_window(problem.window):
         raise TranscriptionError(
             f"window={checked.shown(problem.window)}: give (t0, t1) [s], or one such pair for each recording"
         )
+
+
+def refuse_wrong_options(options: Mapping[str, object]) -> None:
+    """SolveError at the first option of a solve that is not what it should be."""
+    if options.get("time_limit_s") is not None:
+        checked.number(options["time_limit_s"], "time_limit_s", SolveError, least=0.0)
+    if options.get("options") is not None:
+        checked.kind(options["options"], Mapping, "options of Ipopt", SolveError)
 
 
 def refuse_scheme(scheme) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 
 from symid import checked
 from symid.errors import RecordingWarning, SolveError, TranscriptionError
-from symid.identification.arguments import Recordings, refuse_wrong_types
+from symid.identification.arguments import Recordings, refuse_wrong_options, refuse_wrong_types
 from symid.identification.identity import problem_identity
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution
@@ -279,6 +279,7 @@ class Identification:
         SymidError
             If no start gave a result, or `store` belongs to another study or cannot be written.
         """
+        refuse_wrong_options(solver)
         seed = checked.whole(seed, "seed", SolveError)
         if executor is not None and not (hasattr(executor, "submit") or hasattr(executor, "get_executor")):
             raise SolveError(f"executor={checked.shown(executor)}: give an executor of concurrent.futures, or a Client")

@@ -22,6 +22,9 @@ _QUANTITIES = {  # quantity: role, unit, letter, meaning
     "length": ("length", "m", "l", "joint to joint of the {}"),
 }
 
+MOST_LINKS = 20
+"""Equations of longer chains take minutes to derive."""
+
 
 @dataclass(frozen=True)
 class ChainLink:
@@ -118,6 +121,10 @@ class Chain:
     @classmethod
     def uniform(cls, n: int, length: float = 1.0, mass: float = 1.0, **options: Any) -> Chain:
         """`n` equal slender rods of `length` [m] and `mass` [kg]; options as for `Chain`."""
+        if not isinstance(n, int) or not 1 <= n <= MOST_LINKS:
+            raise ModelError(f"a chain has 1 to {MOST_LINKS} links, not {str(n)[:20]}")
+        if not (0 < length < 1e300 and 0 < mass < 1e300):
+            raise ModelError(f"a rod has a positive length and mass, not {str(length)[:20]} m and {str(mass)[:20]} kg")
         rod: dict[str, Any] = {"mass": mass, "com": length / 2, "inertia": mass * length**2 / 12}
         return cls(
             tuple(ChainLink(f"link{i + 1}", length=length if i < n - 1 else None, **rod) for i in range(n)), **options

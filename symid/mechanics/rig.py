@@ -10,14 +10,12 @@ from math import inf
 from typing import Any, cast
 
 from symid.errors import ModelError, RecordingError
-from symid.mechanics.chain import Chain, ChainLink
+from symid.mechanics.chain import MOST_LINKS, Chain, ChainLink
 from symid.mechanics.terms import LIBRARY
 from symid.model import Input, Model
 from symid.recording import read_body
 from symid.recording.body import load_table
 
-MOST_LINKS = 20
-"""Equations of longer chains take minutes to derive."""
 BASES = ("base", "cart", "pivot", "platform", "mount")
 """Names by which a recording may call what the first joint is fixed to."""
 REACH = 0.3

@@ -10,11 +10,16 @@ import sympy as sm
 
 from symid.errors import ModelError
 from symid.model.conditions import Constraint, Objective
-from symid.model.declare import Component, Constant, Equation, Expression, Input, Output, Port
-from symid.model.quantity import AlongTime, sympified
+from symid.model.declare import Component, Equation, Expression, Input, Output, Port
+from symid.model.quantity import AlongTime, refuse_calculus, sympified
 
 if TYPE_CHECKING:
     from symid.model.model import Model
+
+TEXTS = ("unit", "meaning", "role", "at", "latex", "channel", "hold")
+NUMBERS = ("value", "size", "smooth", "guess", "lower", "upper", "soft")
+OPTIONAL = ("guess", "lower", "upper", "soft")
+"""Fields of parts by what they hold; the last may be None."""
 
 
 def hint(part: Any) -> str:
@@ -32,7 +37,6 @@ def completed(model: Model, part: Component, name: str) -> Component:
     """The part with its name, its expression as SymPy, and defaults taken from its state."""
     changes: dict[str, Any] = {"name": name}
     refuse_odd_name(model, name)
-    _refuse_wrong_types(model, part, name)
     if isinstance(part, (Expression, Equation, Output)):
         changes["expr"] = _expression(model, part.expr, name)
     if isinstance(part, Output):
@@ -67,22 +71,50 @@ def _short(text: str) -> str:
     return text if len(text) <= 60 else text[:57] + "..."
 
 
-def _refuse_wrong_types(model: Model, part: Component, name: str) -> None:
+def refuse_wrong_types(model: Model, part: Component, name: str) -> None:
+    """Texts where a text belongs, numbers where a number does; what is compared with others is for `check`."""
     kind = type(part).__name__
-    unit = getattr(part, "unit", "1")
-    if not isinstance(unit, str):
+    if not isinstance(getattr(part, "unit", "1"), str):
         raise ModelError(
             f"model '{model.name}': the {kind} '{name}' has no unit: write {kind}(..., unit=\"m\"), or "
             'unit="1" for a number without one'
         )
-    if isinstance(part, Constant) and not isinstance(part.value, (int, float)):
-        try:
-            float(part.value)
-        except (TypeError, ValueError):
+    for key in TEXTS:
+        if not isinstance(getattr(part, key, ""), str):
             raise ModelError(
-                f"model '{model.name}': the value of the Constant '{name}' is {part.value!r}; give a "
-                f"number [{part.unit}]"
-            ) from None
+                f"model '{model.name}': {key}={_shown(getattr(part, key))} of the {kind} '{name}' is no text"
+            )
+    for key, value in ((k, getattr(part, k)) for k in NUMBERS if hasattr(part, k)):
+        if not (_is_number(value) or (value is None and key in OPTIONAL)):
+            unit = f" [{part.unit}]" if getattr(part, "unit", "") else ""
+            raise ModelError(
+                f"model '{model.name}': the {key} of the {kind} '{name}' is {_shown(value)}; give a number{unit}"
+            )
+    if part.index is not None and not _are_indices(part.index):
+        raise ModelError(
+            f"model '{model.name}': index={_shown(part.index)} of the {kind} '{name}': give indices, as range(4)"
+        )
+
+
+def _are_indices(given: Any) -> bool:
+    try:
+        return not isinstance(given, str) and len(dict.fromkeys(given)) > 0
+    except TypeError:  # no sequence, or nothing by which a copy could be found
+        return False
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, (str, bytes)):
+        return False
+    try:
+        float(value)
+    except (TypeError, ValueError, OverflowError):
+        return False
+    return True
+
+
+def _shown(value: Any) -> str:
+    return _short(repr(value))
 
 
 def _expression(model: Model, expr, name: str) -> sm.Expr:
@@ -96,6 +128,7 @@ def _expression(model: Model, expr, name: str) -> sm.Expr:
             f"model '{model.name}': '{name}' is made of {expr!r}, which is no expression: write it with the "
             "model's parts, for instance m.x.dot - m.v (a comparison belongs into a Constraint)"
         )
+    refuse_calculus(found)
     return found
 
 

@@ -18,7 +18,7 @@ from symid import checked
 from symid.errors import ModelError
 from symid.model.declare import Component
 from symid.model.prior import Prior
-from symid.model.quantity import initial, sympified, terminal
+from symid.model.quantity import initial, refuse_calculus, sympified, terminal
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Constraint(Component):
     upper: float | None = field(default=None, kw_only=True)
     soft: float | None = field(default=None, kw_only=True)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for name in ("lower", "upper", "soft"):
             given = getattr(self, name)
             if given is not None:
@@ -82,7 +82,7 @@ class Constraint(Component):
         return below**2 + above**2
 
 
-COMMON: dict = {"meaning": "", "role": "", "at": "", "latex": "", "name": "", "index": None}
+COMMON: dict[str, Any] = {"meaning": "", "role": "", "at": "", "latex": "", "name": "", "index": None}
 """What every part may be given, with what stands where it is not."""
 
 
@@ -199,6 +199,7 @@ def row_of(condition: Any, lower: float | None = None, upper: float | None = Non
         condition = sympified(condition)
     except (sm.SympifyError, TypeError, AttributeError):
         raise ModelError(f"a condition must be a comparison or an expression, not {condition!r}") from None
+    refuse_calculus(condition)
     if condition in (sm.true, sm.false):
         raise ModelError(
             f"a condition is always {condition}: compare parts of the model, for instance m.x <= 1 "

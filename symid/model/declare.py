@@ -275,6 +275,8 @@ class Port(Component):
     unit: str = ""
 
     def __post_init__(self) -> None:
+        if not isinstance(self.into, Mapping):
+            raise ModelError(f"a Port's force enters equations: into={{name: coefficient}}, not {str(self.into)[:60]}")
         object.__setattr__(self, "into", MappingProxyType(dict(self.into)))
 
     def __reduce__(self) -> tuple[Any, ...]:

@@ -12,7 +12,7 @@ import sympy as sm
 
 from symid import checked
 from symid.errors import ModelError
-from symid.model.attach import completed, hint
+from symid.model.attach import completed, hint, refuse_wrong_types
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
     Algebraic,
@@ -31,7 +31,7 @@ from symid.model.declare import (
     Process,
     State,
 )
-from symid.model.quantity import Operand, symbol, sympified
+from symid.model.quantity import Operand, refuse_calculus, symbol, sympified
 
 if TYPE_CHECKING:
     from symid.model.term import Term
@@ -92,6 +92,7 @@ class Model:
             )
         if hasattr(type(self), name) or name in self.__dict__ or name == "t" or name.startswith("_"):
             raise ModelError(f"model '{self.name}': the name '{name}' is reserved; choose another")
+        refuse_wrong_types(self, part, name)
         copies = part.copies()
         if copies is None:
             self.components[name] = completed(self, part, name)
@@ -313,7 +314,9 @@ class Model:
     # ---- for the build function of a Law, which works on a fresh copy -----------------
     def redefine(self, name: str, expr: Operand) -> None:
         """Give the Expression or Output `name` another meaning, everywhere it is used."""
-        self.components[name] = replace(self._part(name, (Expression, Output)), expr=sympified(expr))
+        expr = sympified(expr)
+        refuse_calculus(expr)
+        self.components[name] = replace(self._part(name, (Expression, Output)), expr=expr)
 
     def add_effort(self, port: str, force: Operand) -> None:
         """Let `force` (along the port's rate) act: it enters each equation that the port names."""
@@ -389,7 +392,7 @@ class Model:
         return latex(self)
 
 
-def _number(name: str, value) -> float:
+def _number(name: str, value: Any) -> float:
     return checked.number(value, name, ModelError)
 
 

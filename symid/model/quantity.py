@@ -104,6 +104,16 @@ class AlongTime(Quantity):
         return terminal(self.symbol)
 
 
+def refuse_calculus(expr: sm.Basic) -> None:
+    """ModelError for what SymPy has not worked out: no number comes from it at a point."""
+    left = expr.atoms(sm.Derivative, sm.Integral, sm.Sum, sm.Product, sm.Limit, sm.Subs)
+    if left:
+        raise ModelError(
+            f"{str(expr)[:80]} contains a {type(next(iter(left))).__name__} that is not worked out: "
+            "call doit(), or write rates as m.x.dot"
+        )
+
+
 def sympified(other: Operand) -> sm.Expr:
     try:
         return sm.sympify(other, strict=True)

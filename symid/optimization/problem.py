@@ -20,6 +20,9 @@ from symid.optimization.guess import shaken, start_vector
 from symid.optimization.plan import Plan
 from symid.transcription import Episodes, HermiteSimpson, Measured, Scheme, Transcription, transcribe
 
+MOST_NODES = 10_000_000
+"""More do not fit into the memory of a large machine."""
+
 
 @dataclass(frozen=True, eq=False)
 class Optimization:
@@ -166,7 +169,7 @@ class Optimization:
 
 def _shares(nodes: int | Sequence[float]) -> np.ndarray:
     """(nodes,) places of the nodes as shares of the duration."""
-    if isinstance(nodes, (int, np.integer)) and nodes >= 3:
+    if isinstance(nodes, (int, np.integer)) and 3 <= nodes <= MOST_NODES:
         return np.linspace(0.0, 1.0, nodes)
     several = isinstance(nodes, (Sequence, np.ndarray)) and not isinstance(nodes, str)
     try:
@@ -175,6 +178,7 @@ def _shares(nodes: int | Sequence[float]) -> np.ndarray:
         shares = np.zeros(0)
     if shares.ndim != 1 or len(shares) < 3 or shares[0] != 0 or shares[-1] != 1 or not (np.diff(shares) > 0).all():
         raise TranscriptionError(
-            f"nodes={nodes!r}: give a whole number of at least 3, or shares of the duration that increase from 0 to 1"
+            f"nodes={str(nodes)[:60]}: give a whole number from 3 to {MOST_NODES}, or shares of the duration that "
+            "increase from 0 to 1"
         )
     return shares

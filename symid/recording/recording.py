@@ -19,6 +19,9 @@ from symid.units import FloatArray, IntArray, column_name, known_unit, nearest
 if TYPE_CHECKING:
     import pandas as pd
 
+LATEST = 1e15
+"""No time [s] is later: seconds of a floating-point number end to be told apart."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Recording:
@@ -162,6 +165,8 @@ class Recording:
             If the window is empty or reaches outside; the message gives the recorded range.
         """
         step = self.even_step("window")
+        if not max(abs(start), abs(end)) < LATEST:
+            raise RecordingError(f"{self.name}: a window from {str(start)[:20]} to {str(end)[:20]} s is none")
         if np.any(np.diff(self.time) <= 0):
             raise RecordingError(
                 f"{self.name}: time starts anew in each segment, so a window of time means "
@@ -327,7 +332,7 @@ def _frozen(values: Any, kind: type) -> np.ndarray:
     """The values as an array that nobody can write to; shared, not copied, where it is one."""
     try:
         array: np.ndarray = np.asarray(values, dtype=kind)
-    except (TypeError, ValueError) as problem:
+    except (TypeError, ValueError, OverflowError) as problem:
         raise RecordingError(f"a recording holds numbers: {problem}") from None
     owner = array if array.base is None else array.base
     if array.flags.writeable or getattr(getattr(owner, "flags", None), "writeable", True):
