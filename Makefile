@@ -8,7 +8,7 @@ READY := .venv/.ready
 export OMP_NUM_THREADS ?= 1
 export OPENBLAS_NUM_THREADS ?= 1
 
-.PHONY: demo test test-slow faults mutants coverage lint bench docs clean
+.PHONY: demo test test-slow faults fuzz mutants coverage lint bench docs clean
 
 demo: $(READY)
 	$(PY) -m symid.cli demo
@@ -22,6 +22,10 @@ test-slow: $(READY)
 # Faults on purpose, a list of them with what was not survived; half an hour.
 faults: $(READY)
 	$(PY) -m pytest -n 2 -m fault
+
+# Ten minutes of odd input of each kind: readers, JSON, declarations, expressions, arguments.
+fuzz: $(READY)
+	SYMID_FUZZ=4000 $(PY) -m pytest -n 2 tests/test_fuzzed_files.py tests/test_fuzzed_models.py
 
 # Of lines and branches, by the normal test run; processes that tests start are counted, too.
 coverage: $(READY)

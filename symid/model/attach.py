@@ -10,16 +10,14 @@ import sympy as sm
 
 from symid.errors import ModelError
 from symid.model.conditions import Constraint, Objective
-from symid.model.declare import Component, Equation, Expression, Input, Output, Port
+from symid.model.declare import Component, Constant, Equation, Expression, Input, Output, Port
 from symid.model.quantity import AlongTime, refuse_calculus, sympified
 
 if TYPE_CHECKING:
     from symid.model.model import Model
 
 TEXTS = ("unit", "meaning", "role", "at", "latex", "channel", "hold")
-NUMBERS = ("value", "size", "smooth", "guess", "lower", "upper", "soft")
-OPTIONAL = ("guess", "lower", "upper", "soft")
-"""Fields of parts by what they hold; the last may be None."""
+"""Fields of parts that hold a text."""
 
 
 def hint(part: Any) -> str:
@@ -84,12 +82,11 @@ def refuse_wrong_types(model: Model, part: Component, name: str) -> None:
             raise ModelError(
                 f"model '{model.name}': {key}={_shown(getattr(part, key))} of the {kind} '{name}' is no text"
             )
-    for key, value in ((k, getattr(part, k)) for k in NUMBERS if hasattr(part, k)):
-        if not (_is_number(value) or (value is None and key in OPTIONAL)):
-            unit = f" [{part.unit}]" if getattr(part, "unit", "") else ""
-            raise ModelError(
-                f"model '{model.name}': the {key} of the {kind} '{name}' is {_shown(value)}; give a number{unit}"
-            )
+    if isinstance(part, Constant) and not _is_number(part.value):
+        raise ModelError(
+            f"model '{model.name}': the value of the Constant '{name}' is {_shown(part.value)}; "
+            f"give a number [{part.unit}]"
+        )
     if part.index is not None and not _are_indices(part.index):
         raise ModelError(
             f"model '{model.name}': index={_shown(part.index)} of the {kind} '{name}': give indices, as range(4)"
