@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from symid import checked
 from symid.errors import ModelError, SolveError
-from symid.identification import Solution
+from symid.identification import Identification, Solution
 from symid.recording import Recording
 
 
@@ -56,7 +58,7 @@ def cross_validate(solution: Solution, folds: int = 5) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _parts(solution: Solution, folds: int):
+def _parts(solution: Solution, folds: int) -> Iterator[tuple[Recording, tuple[float, float], list[Recording]]]:
     """What is left out, its window, and the recordings that remain."""
     recordings, measured = solution.problem.recordings, solution.transcription.measured
     if len(recordings) > 1:
@@ -83,7 +85,7 @@ def _without(solution: Solution, recording: Recording, first: int, last: int) ->
     return recording
 
 
-def _windows(problem, rest: list[Recording]):
+def _windows(problem: Identification, rest: list[Recording]) -> Any:
     """The windows of what remains, where several recordings have their own."""
     if len(problem.recordings) == 1:
         return problem.window
