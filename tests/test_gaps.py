@@ -5,9 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import pendulum, pendulum_recording
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 import symid as si
-from symid.errors import TranscriptionError
+from symid.errors import RecordingError, TranscriptionError
 from symid.nlp import check_derivatives
 
 
@@ -71,3 +73,37 @@ def test_what_cannot_be_missing_is_refused_in_words():
         si.Identification(pendulum(), replace(recording, channels=dict(recording.channels) | {"drive": drive})).solve()
     with pytest.raises(TranscriptionError, match="no output 'angel'"):
         si.Identification(pendulum(), recording, loss={"angel": 1}).solve()
+
+
+@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.data(), st.integers(8, 25), st.sampled_from(["", "nan", "NaN"]))
+def test_every_cell_that_is_there_is_read_in_its_place(tmp_path, data, rows, blank):
+    """Whichever cells are blank and rows left out; NaN stands where nothing stood."""
+    values = np.round(np.sin(np.arange(3 * rows)).reshape(rows, 3), 6)
+    missing = np.array(data.draw(st.lists(st.booleans(), min_size=3 * rows, max_size=3 * rows))).reshape(rows, 3)
+    missing[[0, -1]] = False
+    gone = data.draw(st.sets(st.integers(2, rows - 3), max_size=2))
+    kept = [k for k in range(rows) if k not in gone]
+    cells = [[blank if m else f"{x:.6f}" for x, m in zip(values[k], missing[k], strict=True)] for k in kept]
+    lines = [",".join([f"{0.1 * k:.1f}", *row]) for k, row in zip(kept, cells, strict=True)]
+    path = tmp_path / "gaps.csv"
+    path.write_text("\n".join(["time_s,a_m,b_m,c_m", *lines]) + "\n")
+    recording = si.read_recording(path, allow_gaps=True)
+    at = {round(t, 6): i for i, t in enumerate(recording.time)}
+    for j, name in enumerate(("a", "b", "c")):
+        read = np.array([recording[name][at[round(0.1 * k, 6)]] for k in kept])
+        assert np.array_equal(read, np.where(missing[kept, j], np.nan, values[kept, j]), equal_nan=True)
+    if missing[kept].any():
+        with pytest.raises(RecordingError, match="--allow-gaps"):
+            si.read_recording(path)
+
+
+@settings(max_examples=40, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(st.integers(1, 8), st.sampled_from([-2, -1, 1, 2]), st.booleans())
+def test_rows_of_another_length_than_the_header_are_refused_in_every_mode(tmp_path, row, more, gaps):
+    lines = [[f"{0.1 * k:.1f}", "1.0", "2.0", "3.0"] for k in range(10)]
+    lines[row] = lines[row][:more] if more < 0 else [*lines[row], *["9.0"] * more]
+    path = tmp_path / "ragged.csv"
+    path.write_text("time_s,a_m,b_m,c_m\n" + "\n".join(",".join(cells) for cells in lines) + "\n")
+    with pytest.raises(RecordingError, match=rf"(row|line) {row + 1}\b|line {row + 2}\b"):
+        si.read_recording(path, allow_gaps=gaps)

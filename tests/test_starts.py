@@ -3,7 +3,10 @@
 import numpy as np
 import pytest
 import small_systems
-from small_systems import PRACTISED, UNSEEN
+from more_systems import OTHERS
+from small_systems import PRACTISED, UNSEEN, lotka_volterra
+
+import symid as si
 
 DRAWS = 200
 
@@ -21,8 +24,46 @@ def test_the_default_start_leads_to_the_noise(name):
     assert failures(getattr(small_systems, name), range(2)) == {}
 
 
+@pytest.mark.parametrize(
+    ("name", "drawn"),
+    [("lorenz", 0), ("duffing", 3), ("lotka_volterra", 1), ("two_tanks", 29), ("michaelis_menten", 4)],
+)
+def test_where_simulations_lose_the_recording_other_starts_are_tried(name, drawn):
+    """Draws that ended in another optimum before there were further starts, or were driven away by the barrier."""
+    assert failures(getattr(small_systems, name), [drawn]) == {}
+
+
+@pytest.mark.parametrize(("size", "time"), [(1e-9, 1.0), (1e9, 1.0), (1.0, 1e-9), (1e6, 1e9)])
+def test_units_change_neither_the_answer_nor_the_way_to_it(size, time):
+    """Two species that eat each other, counted in other numbers and other units of time."""
+
+    def solved(size, time):
+        system = lotka_volterra(np.random.default_rng([1, 7]))
+        (r,) = system.recordings
+        channels = {name: size * x for name, x in r.channels.items()}
+        problem = si.Identification(
+            unbounded(), si.Recording(r.name, time * r.time, channels, r.units), scheme=si.HermiteSimpson()
+        )
+        solution = problem.solve(check=False)
+        factor = {"a": time, "b": time * size, "c": time, "d": time * size}
+        return solution.result.iterations, np.array([v * factor[k] for k, v in solution.values.items()])
+
+    (steps, values), (other_steps, others) = solved(1.0, 1.0), solved(size, time)
+    assert others == pytest.approx(values, rel=1e-6) and abs(steps - other_steps) <= 1
+
+
+def unbounded() -> si.Model:
+    m = si.Model("Lotka-Volterra")
+    m.prey, m.hunters = si.State(unit="1"), si.State(unit="1")
+    for name in "abcd":
+        setattr(m, name, si.Parameter(unit="1/s"))
+    m.one = si.Equation(m.prey.dot - m.a * m.prey + m.b * m.prey * m.hunters)
+    m.two = si.Equation(m.hunters.dot + m.c * m.hunters - m.d * m.prey * m.hunters)
+    m.y, m.z = si.Output(m.prey), si.Output(m.hunters)
+    return m
+
+
 @pytest.mark.slow
-@pytest.mark.parametrize("system", [*PRACTISED, *UNSEEN], ids=lambda f: f.__name__)
-def test_the_default_start_hardly_ever_fails(system):
-    found = failures(system, range(DRAWS))
-    assert len(found) <= DRAWS // 50, found
+@pytest.mark.parametrize("system", [*PRACTISED, *UNSEEN, *OTHERS], ids=lambda f: f.__name__)
+def test_the_default_start_does_not_fail(system):
+    assert failures(system, range(DRAWS)) == {}
