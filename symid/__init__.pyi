@@ -57,6 +57,7 @@ from .model import (
     Process as Process,
     State as State,
     Term as Term,
+    table as table,
 )
 from .optimization import Free as Free, Optimization as Optimization, Plan as Plan
 from .plots import LivePlot as LivePlot

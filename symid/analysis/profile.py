@@ -74,6 +74,7 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
     table["deviance"] = (table["objective"] - solution.result.objective) * profiled.worth
     table.attrs["interval"] = _interval(table["deviance"], solution.values[parameter])
     table.attrs["errors"] = errors.model
+    table.attrs["unit"] = solution.parameters["unit"][parameter]
     return table
 
 

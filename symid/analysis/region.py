@@ -70,5 +70,10 @@ def likelihood_region(solution: Solution, one: str, other: str, points: int = 9)
         if fit.solved:
             found[i, j] = (fit.objective - solution.result.objective) * np.sqrt(worth[0] * worth[1])
     region = pd.DataFrame(found, pd.Index(axes[0], name=one), pd.Index(axes[1], name=other))
-    region.attrs |= {"limit": LIMIT, "values": (table["value"][one], table["value"][other]), "errors": errors.model}
+    region.attrs |= {
+        "limit": LIMIT,
+        "values": (table["value"][one], table["value"][other]),
+        "errors": errors.model,
+        "units": tuple(table["unit"][[one, other]]),
+    }
     return region

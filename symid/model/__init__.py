@@ -20,6 +20,7 @@ from symid.model.declare import (
 from symid.model.model import TIME, Model, nearest
 from symid.model.prior import LogNormal, Normal, Prior
 from symid.model.quantity import initial, symbol, terminal
+from symid.model.table import table
 from symid.model.term import Law, LawParameter, Term
 
 __all__ = [
@@ -52,5 +53,6 @@ __all__ = [
     "initial",
     "nearest",
     "symbol",
+    "table",
     "terminal",
 ]

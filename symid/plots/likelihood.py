@@ -18,7 +18,7 @@ def plot_profile(profile: pd.DataFrame) -> Picture:
     for end in profile.attrs["interval"]:
         if np.isfinite(end):
             axes.axvline(end, color=QUIET, lw=1, ls=":")
-    axes.set_xlabel(profile.index.name)
+    axes.set_xlabel(f"{profile.index.name} [{profile.attrs['unit']}]")
     axes.set_ylabel("deviance (95 % below 3.84)")
     axes.set_ylim(bottom=0)
     opened(axes)
@@ -31,10 +31,10 @@ def plot_region(region: pd.DataFrame) -> Picture:
     axes, limit = figure.subplots(), region.attrs["limit"]
     x, y, z = region.columns.to_numpy(), region.index.to_numpy(), np.ma.masked_invalid(region.to_numpy())
     axes.contourf(x, y, z, levels=[-np.inf, limit], colors=[MODEL], alpha=0.25)
-    lines = axes.contour(x, y, z, levels=[1, 2.3, limit, 12], colors=[MODEL], linewidths=1)
+    lines = axes.contour(x, y, z, levels=[2.3, limit, 12], colors=[MODEL], linewidths=1)
     axes.clabel(lines, fmt="%.3g", fontsize=8)
     axes.plot(*region.attrs["values"][::-1], "+", color=MODEL)
-    axes.set_xlabel(region.columns.name)
-    axes.set_ylabel(region.index.name)
+    axes.set_xlabel(f"{region.columns.name} [{region.attrs['units'][1]}]")
+    axes.set_ylabel(f"{region.index.name} [{region.attrs['units'][0]}]")
     opened(axes)
     return figure
