@@ -64,11 +64,11 @@ def speed() -> dict:
 def coverage(repeats: int = 200) -> dict:
     """How often a 95 % interval holds the truth, by the systems of tests/coverage_systems.py that are quick."""
     sys.path.insert(0, str(ROOT / "tests"))
-    from test_coverage import counted
+    from test_coverage import counted, repeat
 
     rows = []
     for name in ("integrator", "oscillator", "algebraic, channels together"):
-        found = counted(name, range(1000, 1000 + repeats))
+        found = counted([repeat(name, seed) for seed in range(1000, 1000 + repeats)])
         shares = ", ".join(f"{n} {100 * c:.0f}" for n, c in zip(found["names"], found["coverage"], strict=True))
         rows.append([name, repeats, shares])
     return {

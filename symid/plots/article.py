@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from symid.plots.style import MODEL, RECORDED, Picture, opened
+from symid.plots.style import MODEL, RECORDED, Picture, opened, plain_ticks
 
 TESTS = (("eigenvalue_percent", "by eigenvalues"), ("forward_percent", "by forward simulation"))
 
@@ -54,6 +54,7 @@ def plot_starts_spread(findings: Sequence) -> Picture:
         axis.plot([i + 0.12] * len(solved), solved, "x", color=MODEL, ms=5, label="symid" if not i else None)
     axis.set_xticks(range(len(findings)), [f.case.name for f in findings], rotation=45, fontsize=8)
     axis.set_yscale("log")
+    plain_ticks(axis.yaxis)
     axis.set_ylabel("RMS [deg]")
     axis.legend(
         frameon=False, fontsize=8, ncols=2, loc="lower right", bbox_to_anchor=(1, 1)

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
-from symid.plots.style import INK, MODEL, RECORDED, WARN, Picture, opened
+from symid.plots.style import INK, MODEL, RECORDED, Picture, opened, plain_ticks
 
 
 def plot_growth(found: Mapping[str, Sequence[Mapping]]) -> Picture:
@@ -72,11 +72,12 @@ def plot_formulations(rows: pd.DataFrame) -> Picture:
                 continue
             shown = 100 * values if column == "gain_error" else values
             axis.plot(shown, np.full(len(shown), i), "|", color=RECORDED, ms=9, mew=1.2)
-            axis.plot([shown.median()], [i], "o", color=WARN if column == "held_out_deg" else MODEL, ms=6)
+            axis.plot([shown.median()], [i], "o", color=MODEL, ms=6)
         if column == "stable":
             axis.set_xlim(0, 105)
         else:
             axis.set_xscale("log")
+            plain_ticks(axis.xaxis)
         axis.set_xlabel(words, fontsize=8.5)
     axes = picture.axes
     axes[0].set_yticks(range(len(names)), names, fontsize=8.5)

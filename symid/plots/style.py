@@ -38,3 +38,11 @@ def opened(*all_axes) -> None:
         axes.tick_params(labelsize=8.5)
         axes.grid(True, axis="x", color="#eeeeee", lw=0.8)
         axes.set_axisbelow(True)
+
+
+def plain_ticks(axis) -> None:
+    """A logarithmic axis whose ticks are plain numbers: 0.5, 2, 100."""
+    axis.set_major_formatter(lambda x, _: f"{x:g}")
+    axis.set_minor_formatter(lambda x, _: "")
+    if axis.get_view_interval()[0] > 0 and axis.get_view_interval()[1] < 10 * axis.get_view_interval()[0]:
+        axis.set_minor_formatter(lambda x, _: f"{x:.3g}")
