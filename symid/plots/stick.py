@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 POSES = 6
 SECONDS = 10.0
 """Of an animation, where no window is given."""
-FRAMES_PER_SECOND = 15
+FRAME_S = 0.08
+"""A GIF counts time in hundredths of a second."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +90,7 @@ def animate(
     """
     time, model, recorded = _motion(solution, episode, window)
     end = time[-1] if window is not None else min(time[-1], time[0] + SECONDS)
-    shown = np.arange(time[0], end, speed / FRAMES_PER_SECOND)
+    shown = np.arange(time[0], end, speed * FRAME_S)
     rows = np.minimum(np.searchsorted(time, shown), len(time) - 1)
     figure = Picture(figsize=(5.2, 3.2), dpi=80)
     canvas = FigureCanvasAgg(figure)
@@ -108,7 +109,7 @@ def animate(
         clock.set_text(f"{time[row]:.1f} s")
         canvas.draw()
         frames.append(Image.fromarray(np.asarray(canvas.buffer_rgba())).convert("RGB").quantize(32))
-    buffer, each = io.BytesIO(), round(1000 / FRAMES_PER_SECOND)
+    buffer, each = io.BytesIO(), round(1000 * FRAME_S)
     frames[0].save(buffer, format="gif", save_all=True, append_images=frames[1:], duration=each, loop=0)
     return Animation(buffer.getvalue())
 
