@@ -61,7 +61,7 @@ def explore(
         worth = [s for s in chosen[POLICY.always_refitted :] if _reach(s) > POLICY.beam_share * best]
         first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
         first.sort(key=lambda c: -c.log_ratio)
-        others = {s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast] for s in chosen}
+        others = {s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast][:2] for s in chosen}
         good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
         found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), good))
         rest = first[len(good) :]
@@ -73,7 +73,7 @@ def explore(
 
 def _reach(starts: list[Start]) -> float:
     """What the best of these starts may come to explain."""
-    return starts[0].forecast * (BEYOND if starts[0].suspect.bypasses else 1.0)
+    return max(s.forecast for s in starts) * (BEYOND if starts[0].suspect.bypasses else 1.0)
 
 
 def by_score(found: Sequence[Hypothesis]) -> list[Hypothesis]:
@@ -103,7 +103,8 @@ def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> l
     # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
     finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
     finite = [v for here, v in finite if np.isfinite(here)][:2]
-    forecast = found[0].forecast if found else max((_promise(fitter, fit, suspect, v) for v in finite), default=0.0)
+    promised = [_promise(fitter, fit, suspect, v) for v in suspect.starts(off=False)]
+    forecast = max([s.forecast for s in found] + promised, default=0.0)
     return found[:1] + [Start(forecast, suspect, v) for v in finite]
 
 
