@@ -5,8 +5,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import symid as si
+from symid.discrepancy.model.dry import PART, with_friction_speeds
 from symid.estimation.data import Segment
 from symid.estimation.pieces import FEW, MANY, free_pieces
+from symid.mechanics import LIBRARY
 
 STEP, PERIOD = 0.02, 1.3
 TIME = np.arange(0, 26, STEP)
@@ -52,3 +55,29 @@ def test_time_that_begins_anew_or_a_long_gap_begins_a_new_piece():
     again = cut([600], time=np.where(np.arange(len(TIME)) < 600, TIME, TIME - 12.0))
     later = cut([600], time=np.where(np.arange(len(TIME)) < 600, TIME, TIME + 5.0))
     assert len(free_pieces(again, 2)) == len(free_pieces(later, 2)) == 2
+
+
+# ---- how slow is slow ----------------------------------------------------------------------------
+def slide() -> si.Model:
+    m = si.Model("slide")
+    m.x, m.v = si.State(unit="m"), si.State(unit="m/s")
+    m.kinematics, m.balance = si.Equation(m.x.dot - m.v), si.Equation(m.v.dot + 20 * m.x)
+    m.rail = si.Port(position=m.x, rate=m.v, into={"balance": -1}, role="joint", at="rail", unit="N")
+    m.shown = si.Output(m.x, channel="x", role="sensor", at="sensor:rail")
+    return m
+
+
+@pytest.mark.parametrize("size", [1e-4, 0.3])
+def test_dry_friction_is_as_sharp_as_the_motion_asks_for(size):
+    even = np.cos(2 * np.pi * TIME / PERIOD)
+    model = with_friction_speeds(slide(), cut([], x=size * even))
+    (width,) = model.find("friction_speed", "rail")
+    assert width.value == pytest.approx(PART * size * 2 * np.pi / PERIOD / np.sqrt(2), rel=0.02)
+    friction = model.with_term(LIBRARY["coulomb_friction"].at("rail"))
+    assert width.symbol in friction.residual()[1].free_symbols
+
+
+def test_a_stated_friction_speed_is_kept():
+    model = slide()
+    model.slow = si.Constant(0.02, unit="m/s", role="friction_speed")
+    assert with_friction_speeds(model, cut([])) is model
