@@ -58,3 +58,20 @@ def test_the_unit_of_what_a_sensor_shows_is_told_from_its_expression():
         "acceleration": "m/s^2",
         "ratio": "",
     }
+
+
+def test_a_free_run_elsewhere_knows_no_disturbance_and_no_boundary_of_the_fitted_window():
+    recording = pendulum_recording(duration=6, noise=0.01)
+    plain = si.Identification(pendulum(), recording, (0, 4)).solve()
+    m = pendulum()
+    m.gust = si.Process(unit="1/s^2", size=0.05)
+    m.components["balance"] = si.Equation(m.balance.expr - m.gust, name="balance")
+    m.begin = si.Boundary(initial={m.angle: (0.25, 0.35)})
+    gusty = si.Identification(m, recording, (0, 4)).solve()
+    run = gusty.free_run((4, 6))
+    assert not run.model.controls and not run.model.boundaries
+    values = {"damping": gusty.values["damping"]}
+    alike = si.Identification(pendulum().fixed(**values), recording, (4, 6), noise=run.problem.noise).solve(check=False)
+    assert run.fit["rms"]["all"] == pytest.approx(alike.fit["rms"]["all"], rel=1e-5)
+    assert run.fit["rms"]["all"] == pytest.approx(plain.fit_on((4, 6))["rms"]["all"], rel=0.1)
+    assert gusty.free_run((0, 2)).model.boundaries

@@ -231,8 +231,9 @@ class Solution:
     def free_run(self, window: tuple[float, float], recording: Recording | None = None) -> Solution:
         """The model on another window, or another recording, with all parameters kept.
 
-        It runs freely over the window, driven by the recorded inputs only; its initial state, and
-        nothing else, is fitted to that window.
+        It runs freely over the window, driven by the recorded inputs only; its initial state, and nothing else, is
+        fitted to that window. Estimated disturbances (Control, Process) are zero; a Boundary holds where the window
+        begins with its recording, as the fitted one did, and is left out elsewhere.
 
         Raises
         ------
@@ -243,10 +244,12 @@ class Solution:
         known = {name: value for name, value in self.values.items() if "[" not in name}
         if len(known) < len(self.values):
             raise SolveError("fit_on: parameters differ between recordings; fix those you mean with model.fixed()")
-        p = self.problem
+        p, run = self.problem, recording or self.problem.recordings[0]
+        fitted = self.transcription.measured[0].first == 0
+        bound = fitted and isinstance(run, Recording) and window[0] <= run.time[0]
         other = Identification(
-            self.model.fixed(**known),
-            recording or p.recordings[0],
+            self.model.fixed(**known).undisturbed(bound),
+            run,
             window,
             scheme=p.scheme,
             weights=p.weights,

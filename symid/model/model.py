@@ -278,6 +278,16 @@ class Model:
             )
         return self._with(parts)
 
+    def undisturbed(self, bound: bool) -> Model:
+        """A new model whose controls are zero, and without its Boundary parts unless they are `bound` to hold.
+
+        What an identification estimated of a disturbance it knows of its own window alone.
+        """
+        new = self._with({k: Constant(0.0, unit=u.unit, meaning=u.meaning, name=k) for k, u in self.controls.items()})
+        for name in () if bound else self.boundaries:
+            del new.components[name]
+        return new
+
     def controlled(self, *names: str, **bounds: Bounds) -> Model:
         """A new model in which these inputs are controls, to be chosen by an Optimization.
 
