@@ -51,6 +51,8 @@ COLUMNS = {
     "m": ("m", 1.0, 7),
     "m/s": ("m_s", 1.0, 7),
     "m/s^2": ("m_s2", 1.0, 6),
+    "N*m": ("Nm", 1.0, 9),
+    "N": ("N", 1.0, 7),
 }
 """SI unit -> suffix in the file, factor to it, decimals: what the sensors resolve, and far above rounding errors."""
 
@@ -157,11 +159,15 @@ def csv_text(recording: Recording) -> str:
     formats = [COLUMNS[unit] for unit in recording.units.values()]
     names = [f"{name}_{suffix}" for name, (suffix, _, _) in zip(recording.channels, formats, strict=True)]
     columns = [[f"{x:.6g}" for x in recording.time]]
+    if recording.segment is not None:
+        columns.insert(0, [str(k) for k in recording.segment])
     for values, (_, factor, decimals) in zip(recording.channels.values(), formats, strict=True):
         # + 0.0 turns a rounded -0.0 into 0.0
         columns.append([f"{x:.{decimals}f}" for x in np.round(values * factor, decimals) + 0.0])
     rows = (",".join(row) for row in zip(*columns, strict=True))
-    return "\n".join([",".join(["time_s", *names]), *rows]) + "\n"
+    return (
+        "\n".join([",".join([*(["segment"] if recording.segment is not None else []), "time_s", *names]), *rows]) + "\n"
+    )
 
 
 def body_table(body: DoubleLinkPendulum) -> dict[str, float]:

@@ -1,5 +1,7 @@
 """The experiment that tells equivalent answers apart: it does, with about the likelihood ratio that was forecast."""
 
+import json
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -8,13 +10,16 @@ import sympy as sm
 from test_discrepancy import cart, data_of, recorded
 from test_rest import ROD, law_of
 
+from symid.cli import main
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import hypothesis
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.experiment import DRIVEN, FREE, experiments, likelihood_ratio
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data, segments_between
-from symid.mechanics import rig_model
+from symid.discrepancy.prove.plan import plan_of
+from symid.estimation.data import Data, segments_between, segments_of
+from symid.mechanics import LIBRARY, rig_model
+from symid.recording import read_recording
 from symid.simulation import synthetic_recording
 
 FORCES = {
@@ -117,6 +122,42 @@ def test_several_releases_are_several_runs_of_one_recording():
     recording = best.recording(best.rival, seed=1)
     assert len(recording.runs) == best.design.repeats and np.all(np.diff(recording.time) > 0)
     assert {d.start for d in FREE} >= {0.5, 1.0, 2.0}
+
+
+def test_simulate_makes_the_recording_and_it_splits(tmp_path, capsys):
+    model = rig_model(ROD, ["link1_angle"], ["joint1"])
+    spring, cubic = LIBRARY["torsional_spring"].at("joint1"), LIBRARY["cubic_stiffness"].at("joint1")
+    made = synthetic_recording(
+        model.with_term(spring),
+        {"viscous_friction_joint1_coefficient_Nms_rad": 1e-3, spring.parameter_name("k_Nm_rad"): 1e-3},
+        duration=12,
+        rate=50,
+        seed=2,
+        warm_up=0,
+        sensor_noise={"link1_angle": 1e-3},
+        initial_state={"link1_angle": 0.5},
+    )
+    segments = segments_between(model, made.time, dict(made.channels), (0.0, 12.0), 4.0)
+    data = Data(segments, np.array([1e-3]), False)
+    base = fit_model(model, data)
+    answers = [
+        hypothesis([s], base, base, data, s.named(v))
+        for s, v in ((Suspect(spring), {"k_Nm_rad": 1e-3}), (Suspect(cubic), {"k3_Nm_rad3": 8e-3}))
+    ]
+    best = experiments(*answers, data)[0]
+    plan = {"system": {"rig": ROD, "friction": ["joint1"]}, "channels": ["link1_angle"], "experiments": [plan_of(best)]}
+    (tmp_path / "plan.json").write_text(json.dumps(plan))
+    for truth, pair_ in (("finding", answers), ("rival", answers[::-1])):
+        out = tmp_path / f"{truth}.csv"
+        options = ["--experiment", str(tmp_path / "plan.json"), "--truth", truth, "--seed", "9"]
+        assert main(["simulate", str(out), *options]) == 0
+        assert f"as if the {truth} were true" in capsys.readouterr().out
+        seen = read_recording(out)
+        pieces = segments_of(model, seen, seen.interval, 4.0)
+        ratio = likelihood_ratio(*pair_, replace(data, segments=pieces, sensor_noise=best.sensor_noise))
+        assert ratio > POLICY.equivalent and best.splits
+    assert main(["simulate", str(out), "--experiment", str(tmp_path / "plan.json"), "--number", "2"]) == 2
+    assert main(["simulate", str(out)]) == 2
 
 
 @pytest.mark.slow

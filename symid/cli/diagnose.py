@@ -67,6 +67,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--threads", type=int, default=2, metavar="N", help="suspects that are tried at once (default: 2)"
     )
     parser.add_argument("--json", metavar="OUT.json", help="write the finding as JSON")
+    parser.add_argument(
+        "--experiment",
+        metavar="PLAN.json",
+        help="for each answer that explains the recording as well, write the experiment that would tell it apart; "
+        "`symid simulate --experiment` makes its recording",
+    )
     parser.add_argument("--report", metavar="OUT.html", help="write a report with figures")
     parser.add_argument("--held-out-csv", metavar="OUT.csv", help="write the prediction of the held-out window")
 
@@ -85,15 +91,39 @@ def run(arguments: argparse.Namespace) -> int:
         finding = reader(source, arguments)
     if arguments.json:
         finding.to_json(arguments.json)
+    if arguments.experiment:
+        _plan(finding, source, arguments)
     if arguments.held_out_csv:
         finding.held_out_csv(arguments.held_out_csv)
     if arguments.report:
         from symid.report import write_diagnosis_report
 
         write_diagnosis_report(finding, arguments.report, f"Diagnosis of {source.name}", _provenance(source, finding))
-    tell_files(report=arguments.report, json=arguments.json, held_out_csv=arguments.held_out_csv)
+    tell_files(
+        report=arguments.report,
+        json=arguments.json,
+        experiment=arguments.experiment,
+        held_out_csv=arguments.held_out_csv,
+    )
     print(finding)  # after the files: a reader that has enough closes the pipe
     return 0
+
+
+def _plan(finding, source: Path, arguments: argparse.Namespace) -> None:
+    """Write the experiments, with what `symid simulate` needs to build the model again."""
+    from symid.discrepancy.prove.plan import plan_of
+    from symid.files import read_json, write_json
+
+    if source.is_dir():
+        facts = read_json(source / "case.json")
+    elif arguments.rig:
+        facts = {"rig": read_json(arguments.rig), "friction": arguments.friction or []}
+    else:
+        facts = {"person": read_json(arguments.body), "controller": arguments.controller}
+    model = finding.baseline.model
+    channels = [c.channel for c in (*model.outputs.values(), *model.inputs.values())]
+    plans = [plan_of(e) for e in finding.experiments(_tell)]
+    write_json(arguments.experiment, {"system": facts, "channels": channels, "experiments": plans})
 
 
 def _provenance(source: Path, finding) -> dict[str, str]:
@@ -220,7 +250,7 @@ def _refuse_missing_folders(arguments: argparse.Namespace) -> None:
     """Before the work, not after it."""
     from symid.errors import DiagnosisError
 
-    refuse_missing_folders(arguments.json, arguments.report, arguments.held_out_csv)
+    refuse_missing_folders(arguments.json, arguments.experiment, arguments.report, arguments.held_out_csv)
     if arguments.held_out_csv and not (arguments.held_out or arguments.rig or Path(arguments.source).is_dir()):
         raise DiagnosisError("--held-out-csv needs a held-out window; give --held-out T0 T1")
 

@@ -63,8 +63,10 @@ def add_recording_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_model_arguments(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--body", metavar="BODY.json", required=True, help="body parameters with units in their names")
+def add_model_arguments(parser: argparse.ArgumentParser, required: bool = True) -> None:
+    parser.add_argument(
+        "--body", metavar="BODY.json", required=required, help="body parameters with units in their names"
+    )
     parser.add_argument("--controller", choices=CONTROLLERS, default="fpd", help="feedback law (default: fpd)")
 
 

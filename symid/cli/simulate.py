@@ -1,4 +1,4 @@
-"""`symid simulate`: make a recording of a standing person whose controller is known."""
+"""`symid simulate`: make a recording of a standing person whose controller is known, or of a planned experiment."""
 
 from __future__ import annotations
 
@@ -10,16 +10,29 @@ from symid.cli.options import add_model_arguments, add_recording_arguments, buil
 from symid.errors import RecordingError
 
 SUMMARY = "simulate a standing person under a known controller and write a recording"
-EXAMPLES = ("symid simulate made.csv --body body.json --controller fpd --parameters gains.json",)
+EXAMPLES = (
+    "symid simulate made.csv --body body.json --controller fpd --parameters gains.json",
+    "symid simulate next.csv --experiment plan.json --truth rival",
+)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("output", metavar="RECORDING.csv", help="file to write")
-    add_model_arguments(parser)
+    add_model_arguments(parser, required=False)
+    parser.add_argument(
+        "--experiment",
+        metavar="PLAN.json",
+        help="make the recording of an experiment that `symid diagnose --experiment` planned, of any system",
+    )
+    parser.add_argument(
+        "--number", type=int, default=1, metavar="K", help="which experiment of the plan (default: the first, 1)"
+    )
+    parser.add_argument(
+        "--truth", choices=("finding", "rival"), default="finding", help="which answer is true (default: finding)"
+    )
     parser.add_argument(
         "--parameters",
         metavar="PARAMETERS.json",
-        required=True,
         help="name: SI value of each parameter; what `symid identify --json` writes will do",
     )
     parser.add_argument(
@@ -54,6 +67,10 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.synthetic import csv_text, standing_recording
 
     refuse_missing_folders(arguments.output)
+    if arguments.experiment:
+        return _planned(arguments)
+    if arguments.body is None or arguments.parameters is None:
+        raise RecordingError("simulate: give --body and --parameters, or --experiment with a plan")
     model = build_model(arguments.body, arguments.controller)
     parameters = read_parameters(arguments.parameters, model)
     platform, duration, rate = _platform(arguments)
@@ -82,6 +99,42 @@ def run(arguments: argparse.Namespace) -> int:
         f"{model.name}, seed {arguments.seed}"
     )
     return 0
+
+
+def _planned(arguments: argparse.Namespace) -> int:
+    """Make the recording of a planned experiment."""
+    from symid.discrepancy.prove.plan import recording_of
+    from symid.files import read_json, write_atomically
+    from symid.synthetic import csv_text
+
+    plan = read_json(arguments.experiment)
+    plans = plan.get("experiments") if isinstance(plan, dict) else None
+    if not isinstance(plans, list) or "system" not in plan:
+        raise RecordingError(f"{arguments.experiment}: is no plan; give a file of `symid diagnose --experiment`")
+    if not 1 <= arguments.number <= len(plans):
+        raise RecordingError(
+            f"{arguments.experiment}: has {len(plans)} experiments, so --number {arguments.number} is none of them"
+        )
+    chosen = plans[arguments.number - 1]
+    model = _model_of_plan(plan["system"], plan["channels"])
+    recording = recording_of(chosen, model, arguments.truth, arguments.seed)
+    write_atomically(arguments.output, csv_text(recording))
+    print(
+        f"{arguments.output}: {len(recording)} samples, {chosen['words']}, as if the {arguments.truth} were true, "
+        f"seed {arguments.seed}"
+    )
+    return 0
+
+
+def _model_of_plan(system: dict, channels: list[str]):
+    """The model that was diagnosed: of a case, a rig or a person."""
+    from symid.mechanics import model_of, rig_model
+
+    if "rig" in system:
+        return rig_model(system["rig"], channels, system["friction"])
+    if "person" in system:
+        return build_model(system["person"], system["controller"])
+    return model_of(system, channels)
 
 
 def _platform(arguments: argparse.Namespace):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -15,7 +15,9 @@ from symid.errors import SymidError
 from symid.estimation.data import Data, Segment
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.kalman import HOLD
+from symid.model import Model
 from symid.recording import Recording
+from symid.simulation import Simulator
 from symid.units import known_unit
 
 DRAWS = 3
@@ -76,8 +78,8 @@ class Experiment:
     Attributes
     ----------
     design : what to do. finding, rival : the two answers. data : what was recorded, whose inputs and sensors it takes.
-    log_ratios : growth of twice the log-likelihood that is to be expected, if the finding is true and if the rival is.
-        log_ratio : the smaller one.
+    log_ratios : growth of twice the log-likelihood that is to be expected, if the finding is true and if the rival is;
+        NaN where no experiment shows it, because the other law can be as good as nothing. log_ratio : the smaller one.
     duration : seconds of the recording. sensor_noise : (m,) [SI].
     """
 
@@ -89,7 +91,7 @@ class Experiment:
 
     @property
     def log_ratio(self) -> float:
-        return min(self.log_ratios)
+        return float(np.nanmin(self.log_ratios))
 
     @property
     def splits(self) -> bool:
@@ -98,7 +100,7 @@ class Experiment:
 
     @property
     def duration(self) -> float:
-        return float(_course(self.data, self.design)[0][-1])
+        return float(course(self.data, self.design)[0][-1])
 
     @property
     def sensor_noise(self) -> np.ndarray:
@@ -118,7 +120,7 @@ class Experiment:
         data = self.simulated(truth, seed)
         if data is None:
             raise SymidError(f"the motion of '{truth.fit.model.name}' leaves all bounds with {self.design.words}")
-        return as_recording(data, truth.fit, self.design)
+        return as_recording(data.segments, truth.fit.model, data.sensor_noise, self.design.words)
 
     def __str__(self) -> str:
         return f"{self.design.words}: twice the log-likelihood ratio {self.log_ratio:.0f}"
@@ -146,13 +148,26 @@ def experiments(
     found = [e for design in (FREE if _is_free(data) else DRIVEN) for e in tried(design, range(1))]
     if not found:
         return []
+    # A law that the other one holds as a special case is never told from it where it is true.
+    hopeless = [max(e.log_ratios[d] for e in found) < POLICY.equivalent for d in (0, 1)]
+    if any(hopeless) and not all(hopeless):
+        found = [_without(e, hopeless) for e in found]
     best = min(found, key=_preference)
     draws = range(1, 1 + DRAWS)
     again = tried(best.design, draws) if best.splits else []
-    if not (again and again[0].splits):
+    if not (again and _without(again[0], hopeless).splits):
         again += tried(_longer(again[0] if again else best), draws)
+    again = [_without(e, hopeless) for e in again] if not all(hopeless) else again
     others = [e for e in found if all(e.design is not a.design for a in again)]
     return sorted(others + again, key=_preference)
+
+
+def _without(e: Experiment, hopeless: Sequence[bool]) -> Experiment:
+    """The experiment judged by the ratios that can be anything, if one can."""
+    if all(hopeless):
+        return e
+    first, second = (np.nan if h else r for r, h in zip(e.log_ratios, hopeless, strict=True))
+    return replace(e, log_ratios=(first, second))
 
 
 def _longer(e: Experiment) -> Design:
@@ -212,7 +227,7 @@ def _is_free(data: Data) -> bool:
     return not any(np.ptp(u) > 0 for s in data.segments for u in s.inputs.values())
 
 
-def _course(data: Data, design: Design) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+def course(data: Data, design: Design) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Times from zero [s] and inputs of an experiment, those that were recorded scaled and played anew."""
     step = data.segments[0].step / data.segments[0].ratio
     length = sum(s.time[-1] - s.time[0] for s in data.segments) * design.longer
@@ -228,7 +243,7 @@ def _course(data: Data, design: Design) -> tuple[np.ndarray, dict[str, np.ndarra
 def simulated(truth: Hypothesis, data: Data, design: Design, seed: int) -> Data | None:
     """A recording of an experiment, cut as the recorded one was; None where the motion leaves all bounds."""
     rng, segments = np.random.default_rng(seed), []
-    time, inputs = _course(data, design)
+    time, inputs = course(data, design)
     lengths = [(len(s.time) - 1) * s.ratio + 1 for s in data.segments]
     pieces = max(1, round(len(time) / float(np.median(lengths)))) if len(data.segments) > 1 else 1
     edges = np.linspace(0, len(time), pieces + 1).astype(int)
@@ -244,50 +259,72 @@ def simulated(truth: Hypothesis, data: Data, design: Design, seed: int) -> Data 
 
 def _sensed(fit: Fit, data: Data, design: Design, time, inputs, rng) -> np.ndarray | None:
     """(N, m) outputs with noise of one run of an experiment; None where it leaves all bounds."""
-    step = time[1] - time[0]
-    holds = max(1, round(step / HOLD))
-    fine = np.arange((len(time) - 1) * holds + 1) * step / holds
+    noise = data.sensor_noise * design.noise
+    return sensed(fit.simulator, fit.values, start_of(fit, data, design), time, inputs, forces_of(fit), noise, rng)
+
+
+def start_of(fit: Fit, data: Data, design: Design) -> np.ndarray:
+    """(n,) state at the start: of the recorded segment that began farthest from the mean motion, as far as designed."""
     path = fitted_path(fit, data)
     middle = path.mean(axis=0) if _is_free(data) else np.zeros(path.shape[1])
     size = np.maximum(path.std(axis=0), 1e-300)
     far = max(range(len(fit.initial)), key=lambda k: float(np.sum(((fit.initial[k] - middle) / size) ** 2)))
-    noises = dict(zip(fit.model.noises, fit.process, strict=False)) if fit.kalman_gain is not None else {}
+    return middle + design.start * (fit.initial[far] - middle)
+
+
+def forces_of(fit: Fit) -> dict[str, float]:
+    """Standard deviation of the random force at each noise, held for `HOLD` [SI]."""
+    return dict(zip(fit.model.noises, map(float, fit.process), strict=False)) if fit.kalman_gain is not None else {}
+
+
+def sensed(
+    simulator: Simulator,
+    values: Mapping[str, float],
+    start: np.ndarray,
+    time: np.ndarray,
+    inputs: Mapping[str, np.ndarray],
+    forces: Mapping[str, float],
+    sensor_noise: np.ndarray,
+    rng: np.random.Generator,
+) -> np.ndarray | None:
+    """(N, m) what sensors show of a run under random forces; None where it leaves all bounds."""
+    step = time[1] - time[0]
+    holds = max(1, round(step / HOLD))
+    fine = np.arange((len(time) - 1) * holds + 1) * step / holds
     try:
-        run = fit.simulator.simulate(
-            fit.values,
-            middle + design.start * (fit.initial[far] - middle),
+        run = simulator.simulate(
+            values,
+            start,
             fine,
             {k: np.interp(fine, time, u) for k, u in inputs.items()},
-            noise={k: s * rng.standard_normal(len(fine)) for k, s in noises.items()},
+            noise={k: s * rng.standard_normal(len(fine)) for k, s in forces.items()},
             substeps=max(1, int(np.ceil(step / holds / 0.005))),
         )
     except SymidError:
         return None
-    if run.diverged or _outside(fit, run.x):
+    if run.diverged or _outside(simulator.model, run.x):
         return None
-    return run.y[::holds] + data.sensor_noise * design.noise * rng.standard_normal((len(time), run.y.shape[1]))
+    return run.y[::holds] + sensor_noise * rng.standard_normal((len(time), run.y.shape[1]))
 
 
-def _outside(fit: Fit, path: np.ndarray) -> bool:
-    bounds = np.array([s.bounds for s in fit.model.states.values()], dtype=float)
+def _outside(model: Model, path: np.ndarray) -> bool:
+    bounds = np.array([s.bounds for s in model.states.values()], dtype=float)
     return bool(np.any(path < bounds[:, 0]) or np.any(path > bounds[:, 1]))
 
 
-def as_recording(data: Data, fit: Fit, design: Design) -> Recording:
-    """The segments as one recording, with its inputs; it shows what a laboratory would get."""
+def as_recording(segments: Sequence[Segment], model: Model, sensor_noise: np.ndarray, words: str) -> Recording:
+    """Segments as one recording, with their inputs, as a laboratory would get it."""
     channels, units = {}, {}
-    for i, y in enumerate(fit.model.outputs.values()):
-        channels[y.channel] = np.concatenate([s.recorded[:, i] for s in data.segments])
+    for i, y in enumerate(model.outputs.values()):
+        channels[y.channel] = np.concatenate([s.recorded[:, i] for s in segments])
         units[y.channel] = known_unit(y.unit).si
-    for name, u in fit.model.inputs.items():
-        channels[u.channel] = np.concatenate([s.inputs[name] for s in data.segments])
+    for name, u in model.inputs.items():
+        channels[u.channel] = np.concatenate([s.inputs[name] for s in segments])
         units[u.channel] = known_unit(u.unit).si
-    noise = dict(zip([y.channel for y in fit.model.outputs.values()], map(float, data.sensor_noise), strict=True))
-    time = np.concatenate([s.time for s in data.segments])
+    noise = dict(zip([y.channel for y in model.outputs.values()], map(float, sensor_noise), strict=True))
+    time = np.concatenate([s.time for s in segments])
     # Pieces that follow each other without a pause are one run.
-    starts = [b.time[0] - a.time[-1] > PAUSE / 2 for a, b in pairwise(data.segments)]
-    run = np.repeat(np.cumsum([False, *starts]), [len(s.time) for s in data.segments])
-    history = (f"simulated: {design.words}",)
-    return Recording(
-        design.words, time, channels, units, noise=noise, history=history, segment=run if run[-1] else None
-    )
+    starts = [b.time[0] - a.time[-1] > PAUSE / 2 for a, b in pairwise(segments)]
+    run = np.repeat(np.cumsum([False, *starts]), [len(s.time) for s in segments])
+    history = (f"simulated: {words}",)
+    return Recording(words, time, channels, units, noise=noise, history=history, segment=run if run[-1] else None)
