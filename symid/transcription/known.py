@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from symid.transcription.data import Measured
 from symid.transcription.guesses import guesses
 from symid.transcription.layout import Layout
 from symid.transcription.program import EpisodeData
-from symid.transcription.scales import INCREMENT, equation_scale
+from symid.transcription.scales import INCREMENT, equation_scale, scale_in_equations
 from symid.transcription.schemes import Scheme
 
 
@@ -106,14 +107,15 @@ def interval_constants(
     states = [measured[r].on_mesh(measured[r].states[measured[r].nodes], layout.refine) for r in recording_of]
     equation, step = equation_of_rows(model, scheme)[interval.jacobian_rows], first.step / layout.refine
     counted = (interval.jacobian_cols < interval.n_local) & (equation >= 0)
+    by_motion = replace(layout, state_scale=scale_in_equations(measured, layout.state_scale))
 
     def largest(at):
-        z = layout.fill(states, at)
+        z = by_motion.fill(states, at)
         slopes = interval.jacobian(
-            layout.local_view(z, 0),
-            z[layout.parameter_columns(0)],
+            by_motion.local_view(z, 0),
+            z[by_motion.parameter_columns(0)],
             data[0].interval,
-            interval_constants_of(model, layout, data[0], np.ones(len(over)), graded),
+            interval_constants_of(model, by_motion, data[0], np.ones(len(over)), graded),
         )
         steps = data[0].interval[:, -1:] if graded else np.full((len(slopes), 1), step)
         typical = steps if first.targets is None else 1 / INCREMENT

@@ -12,17 +12,18 @@ from symid.codegen.interval import late_signals
 from symid.model import Model
 from symid.transcription.data import Measured
 from symid.transcription.guesses import first_guess, parameter_guesses
-from symid.transcription.known import equation_of_rows, interval_constants_of
+from symid.transcription.known import equation_of_rows, error_constants, interval_constants_of
 from symid.transcription.layout import Layout
 from symid.transcription.program import EpisodeData
 from symid.transcription.scales import (
-    RANGE,
     Sizes,
     hidden_scale,
     natural_size,
     parameter_scale,
     rate_scale,
+    seen_scale,
     state_scale,
+    variation,
 )
 from symid.transcription.schemes import Scheme
 
@@ -31,13 +32,18 @@ def scaled_by_data(
     model: Model,
     scheme: Scheme,
     interval: Kernel,
+    error: Kernel,
     layout: Layout,
     measured: Sequence[Measured],
     data: Sequence[EpisodeData],
     recording_of: Sequence[int],
+    weights: np.ndarray,
     graded: bool,
 ) -> Layout:
-    """`layout`, whose states have no scale yet, with scales of states and parameters as the recordings suggest."""
+    """`layout`, whose states have no scale yet, with the scales of states and parameters that the recordings suggest.
+
+    weights : (recordings, m) of the time integrals of the squared output errors.
+    """
     layout = replace(layout, parameter_scale=np.ones(len(layout.parameter_names)))
     bounds = np.array([s.bounds for s in model.states.values()], dtype=float).reshape(-1, 2)
 
@@ -45,16 +51,39 @@ def scaled_by_data(
         return _sizes(model, scheme, interval, layout, measured, data, recording_of, graded, hidden, parameters)
 
     hidden, states = first_guess(bounds), state_scale(measured)
+    shown = np.isfinite(states)
     if np.isnan(states).any():
         hidden = states = hidden_scale(sizes(hidden, parameter_guesses(model)).states, states)
     natural = natural_size(sizes(hidden, parameter_guesses(model, small=True)), rate_scale(measured, states))
     parameters = np.ones(len(layout.parameter_names))
     parameters[layout.parameter_index] = parameter_scale(model.parameters.values(), natural)
-    by_name = dict(zip(model.states, RANGE * states, strict=True))
+    curvature = _curvature(model, error, layout, measured, data, recording_of, weights, hidden)
+    scale = seen_scale(states, shown * curvature, float(np.mean(variation(measured, weights))) / len(model.outputs))
+    by_name = dict(zip(model.states, scale, strict=True))
     late = [
         by_name.get(str(model.delays[y].of), s) for y, s in zip(late_signals(model), layout.late_scale, strict=True)
     ]
-    return replace(layout, state_scale=RANGE * states, parameter_scale=parameters, late_scale=np.array(late))
+    return replace(layout, state_scale=scale, parameter_scale=parameters, late_scale=np.array(late))
+
+
+def _curvature(
+    model: Model, error: Kernel, layout: Layout, measured, data, recording_of, weights, hidden
+) -> np.ndarray:
+    """(n,) second derivatives of a recording's objective to a state at all its samples, in the mean of recordings."""
+    n, total = layout.n, np.zeros(layout.n + 1)  # the last entry takes what is no second derivative of a state
+    own = np.where((error.hessian_rows == error.hessian_cols) & (error.hessian_rows < n), error.hessian_rows, n)
+    for r, m in enumerate(measured):
+        known, states = data[recording_of.index(r)], m.states[m.nodes]
+        local = np.zeros((len(states), layout.width))
+        local[:, :n] = np.where(np.any(states != 0, axis=0), states, hidden)
+        shown, of_outputs = (
+            np.hstack([known.node, known.loss]),
+            np.concatenate([error_constants(model, layout), weights[r]]),
+        )
+        index = np.ascontiguousarray(np.broadcast_to(own, (len(states), len(own))), dtype=np.int32)
+        steps = np.full((len(states), 1), m.step / len(measured))
+        error.hessian_into(total, index, local, parameter_guesses(model), shown, of_outputs, steps)
+    return np.nan_to_num(total[:n], nan=0.0, posinf=0.0)
 
 
 def _sizes(

@@ -105,14 +105,14 @@ def transcribe(
     recorded = all(m.targets is not None for m in measured)
     error = compile_program(objective_program(model, gaps, loss), backend=backend) if recorded else None
     layout, recording_of = _lay_out(model, measured, scheme, episodes, per_recording, refine)
+    weights = np.asarray(weights)
     data = [
         episode_data(model, scheme, measured[r], noise, refine, graded, gaps, loss)
         for r in range(len(measured))
         for noise in episodes.draw(model, measured[r].intervals)
     ]
     if measured[0].targets is not None:
-        layout = scaled_by_data(model, scheme, interval, layout, measured, data, recording_of, graded)
-    weights = np.asarray(weights)
+        layout = scaled_by_data(model, scheme, interval, error, layout, measured, data, recording_of, weights, graded)
     seconds = {k: sum(kernel.seconds.get(k, 0.0) for kernel in (interval, error) if kernel) for k in interval.seconds}
     demands = Demands(
         model, scheme, layout, tuple(measured), recording_of, duration, graded, information, backend, seconds
