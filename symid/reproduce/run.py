@@ -14,6 +14,7 @@ from symid import mechanics
 from symid.analysis import Stability, stability_of
 from symid.errors import SolveError
 from symid.identification import Finished, Identification, Solution, Solve, StartRow, Study
+from symid.identification.starts.search import EXPLODED
 from symid.identification.starts.stable import SOLVED_SURVIVES, survival
 from symid.model import Model
 from symid.recording import Recording
@@ -26,7 +27,8 @@ NETWORK_RIDGE = 4e-4
 START_RIDGE = 0.1
 """Weight of their squared distance from the start where there is process noise: they stay near a surviving loop."""
 SOLVER = {
-    kind: {"max_iterations": 200, "dual_limit": 1e6, "time_limit_s": 3600.0} for kind in ("search", "relaxed", "stable")
+    kind: {"max_iterations": 200, "dual_limit": EXPLODED, "time_limit_s": 3600.0}
+    for kind in ("search", "relaxed", "stable")
 } | {"random": {"max_iterations": 500}}
 DRAWS = 1000
 """Draws of process noise that belong to one seed: start k has number seed * DRAWS + k."""
