@@ -60,7 +60,7 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str], threads: int = 2) -> Fi
 def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
     """Parameters fitted to one simulation of `fit` with noise of its sizes; None where that fails."""
     rng, sim, segments, data = np.random.default_rng(seed), fit.simulator, [], data.remembering(data.memory)
-    fitter = Fitter(fit.model, data)
+    fitter = Fitter.of(fit, data)
     for e, x0 in zip(data.segments, fit.initial, strict=True):
         holds = max(1, round(e.step / HOLD))
         time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)

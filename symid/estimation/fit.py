@@ -9,6 +9,7 @@ the fit is plain output error. The covariance of the innovations is concentrated
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -28,6 +29,9 @@ LONGEST_STEP = {True: 0.01, False: 0.005}
 """Longest step of the integrator [s], with random forces and without: free motion shows dry friction's corners."""
 STEPS_A_SWING = 300
 """Free motion that is slower than that takes longer steps: so many of Runge and Kutta's a swing err by 1e-9 of it."""
+ERRS, MOST_SUBSTEPS = 0.2, 32
+"""Part of the innovations' rms by which the integrator may err in a free motion; its steps are halved until then. The
+error of every step stays in a shaft that turns freely, and the corners of dry friction make it large."""
 PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
 SHARPEST = 4.0
@@ -49,6 +53,7 @@ class Fit:
     kalman_gain : (n, m) or None. innovations : per segment (N, m), recorded minus predicted.
     whitening : makes the innovations white. loglik2 : twice the log-likelihood.
     errors : parameter -> standard error, zero for what was held; empty where not asked for.
+    substeps : of the integrator in each sample.
     """
 
     model: Model
@@ -62,6 +67,7 @@ class Fit:
     errors: dict[str, float] = field(default_factory=dict)
     iterations: int = 0
     converged: bool = False
+    substeps: int = 1
 
     @property
     def simulator(self) -> Simulator:
@@ -98,7 +104,7 @@ class Fitter:
     fixed : parameters that keep their start value.
     """
 
-    def __init__(self, model: Model, data: Data, fixed=()):
+    def __init__(self, model: Model, data: Data, fixed: Sequence[str] = ()):
         self.model, self.data = model, data
         self.sim = simulator(model)
         self.free = [p for p in self.sim.parameters if p not in fixed]
@@ -209,6 +215,10 @@ class Fitter:
         self.bounded = False
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
+        while self.substeps < MOST_SUBSTEPS and self._too_coarse(at):
+            self.substeps *= 2
+            at.value = self.evaluate(at.p, at.x0, at.kalman_gain, at.process)
+            k, converged = self._descend(at, iterations, tolerance)
         if self.driven and runs_away(self, at.p, at.x0):
             self.bounded = True
             at.value -= self._growth_penalty(at.p, at.path)
@@ -235,6 +245,20 @@ class Fitter:
                 break
         return k, converged
 
+    def _too_coarse(self, at: _Point) -> bool:
+        """Whether steps half as long change a free motion by more than `ERRS` of what it leaves of the recording."""
+        if self.driven:
+            return False  # each sample corrects the state
+        coarse = self.run(at.p, at.x0, at.kalman_gain, False, process=at.process)
+        self.substeps *= 2
+        fine = self.run(at.p, at.x0, at.kalman_gain, False, process=at.process)
+        self.substeps //= 2
+        if coarse is None or fine is None:
+            return False
+        change = np.vstack([a.y - b.y for a, b in zip(coarse, fine, strict=True)])
+        left = np.vstack(self.innovations(coarse, at.process))
+        return bool(np.any(np.mean(change**2, axis=0) > ERRS**2 * np.mean(left**2, axis=0)))
+
     def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
         """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).
 
@@ -251,6 +275,13 @@ class Fitter:
         samples = self.data.samples * len(self.data.sensor_noise)
         explained = damped_step(system, 0.0, self.bounds[self.index], at.p[self.index]) @ system[1] / samples
         return at.value - samples * np.log1p(-min(float(explained), 0.999))
+
+    @classmethod
+    def of(cls, fit: Fit, data: Data, fixed: Sequence[str] = ()) -> Fitter:
+        """For the model of a fit, with steps of the integrator as small as that fit came to need."""
+        fitter = cls(fit.model, data, fixed)
+        fitter.substeps = max(fitter.substeps, fit.substeps)
+        return fitter
 
     def again(self, fit: Fit, iterations: int = 40) -> Fit:
         """A fit that goes on from where `fit` of the same model ended, perhaps with another error model."""
@@ -386,4 +417,5 @@ class Fitter:
             errors,
             iterations,
             converged,
+            self.substeps,
         )

@@ -67,7 +67,7 @@ def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
     sharpness = float(fit.process[-1]) if data.cutoff_free else 1.0
     more = data.sharpened(sharpness).remembering(memory)
     # The fit that took its innovations for white leaves the model something to correct, and then more to remember.
-    return with_memory(Fitter(fit.model, more).again(fit), more)
+    return with_memory(Fitter.of(fit, more).again(fit), more)
 
 
 def _undone(

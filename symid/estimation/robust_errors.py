@@ -21,7 +21,7 @@ def with_robust_errors(fit: Fit, data: Data) -> Fit:
     independent even where neighbouring innovations are not (White 1980; Liang & Zeger 1986): their
     squares add up to the variance. Blocks are segments, or stretches of a long one.
     """
-    fitter = Fitter(fit.model, data)
+    fitter = Fitter.of(fit, data)
     p = np.array([fit.values[k] for k in fitter.sim.parameters])
     runs = fitter.run(p, fit.initial, fit.kalman_gain, sensitivities=True)
     if runs is None or not fitter.free or not fit.errors:

@@ -12,6 +12,9 @@ from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 from symid.simulation import Simulator
 
+RUNS_AWAY = 1e100
+"""A response as large is that of a motion which grows without end; its square is no number."""
+
 
 class Projection:
     """The innovations of one fit with everything that its own unknowns could explain taken out.
@@ -23,7 +26,7 @@ class Projection:
 
     def __init__(self, fit: Fit, data: Data, known: Sequence[str] = ()):
         self.fit, self.data, self.bases = fit, data, []
-        fitter = Fitter(fit.model, data, known)
+        fitter = Fitter.of(fit, data, known)
         self.substeps = fitter.substeps
         runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.kalman_gain, sensitivities=True)
         self.outputs = len(data.sensor_noise)
@@ -85,4 +88,5 @@ class Projection:
             if t.diverged:
                 return None
             out.append(self.whiten(t.dy))
-        return np.vstack(out)
+        found = np.vstack(out)
+        return found if np.abs(found).max(initial=0.0) < RUNS_AWAY else None

@@ -161,7 +161,7 @@ def polished(found: Hypothesis) -> Hypothesis:
     """The same hypothesis fitted until nothing moves."""
     if not found.suspects:
         return found
-    fit = Fitter(found.fit.model, found.data).again(found.fit)
+    fit = Fitter.of(found.fit, found.data).again(found.fit)
     return Hypothesis(found.suspects, fit, found.base, found.data, found.forecast)
 
 

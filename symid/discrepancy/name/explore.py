@@ -166,7 +166,7 @@ def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start]) -> H
 
 def _continued(fit: Fit, data: Data, begun: Hypothesis) -> Hypothesis:
     """The same candidate after more iterations, with standard errors."""
-    new = Fitter(begun.fit.model, data).again(begun.fit, CONVERGING_ITERATIONS)
+    new = Fitter.of(begun.fit, data).again(begun.fit, CONVERGING_ITERATIONS)
     return Hypothesis(begun.suspects, new, fit, data, begun.forecast)
 
 
@@ -185,7 +185,7 @@ def _profiled(best: Hypothesis, data: Data) -> Start | None:
 def moment_profile(fit: Fit, data: Data, name: str, within: tuple[float, float], spacing: float):
     """Moments of a lasting change and twice the log-likelihood of each, all else as fitted."""
     t0, t1 = data.span
-    fitter = Fitter(fit.model, data)
+    fitter = Fitter.of(fit, data)
     at = fitter.sim.parameters.index(name)
     p = np.array([fit.values[k] for k in fitter.sim.parameters])
     moments, values = np.arange(max(t0 + spacing, within[0]), min(t1 - spacing, within[1]), spacing), []

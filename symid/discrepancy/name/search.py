@@ -54,6 +54,8 @@ class Search:
         single = self._added(best)
         while len(best.suspects) < POLICY.most_effects:
             more = self._preferred(best, self._added(best) if best.suspects else single)
+            if more is None and not best.suspects and not self.explained(best):
+                more = self._preferred(best, self._other_pairs(best, single, alone=False))
             if more is None:
                 break
             if len(more.suspects) == 2 and not self.quiet(more) and not self.beaten(more):
@@ -180,16 +182,20 @@ class Search:
         )
         return [Hypothesis((*best.suspects, h.suspect), h.fit, self.base, self.data, h.forecast) for h in found]
 
-    def _other_pairs(self, best: Hypothesis, single: list[Hypothesis]) -> list[Hypothesis]:
-        """Pairs that begin with any of the other good suspects: the best single one may belong to none."""
-        rivals = [
-            h
-            for h in single
-            if h.established
-            and h.suspect != best.suspect
-            and h.score > POLICY.beam_share * best.score
-            and self._worth(h, Hypothesis((), self.base, self.base, self.data))
-        ]
+    def _other_pairs(self, best: Hypothesis, single: list[Hypothesis], alone: bool = True) -> list[Hypothesis]:
+        """Pairs that begin with any of the other good suspects: the best single one may belong to none.
+
+        alone : whether the first of a pair must be worth its price by itself. A stiffness that grows shows only where
+            the motion also dies away, and that it dies away only where the frequency that goes with it is right.
+        """
+        rivals = [h for h in single if h.established and h.suspect.kind != "clock"]
+        if alone:
+            nothing = Hypothesis((), self.base, self.base, self.data)
+            rivals = [
+                h
+                for h in rivals
+                if h.suspect != best.suspect and h.score > POLICY.beam_share * best.score and self._worth(h, nothing)
+            ]
         pairs = []
         for h in rivals[: POLICY.beam]:
             self.progress(f"looking for what would complete {h.suspect.term}")

@@ -123,7 +123,7 @@ def _states(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
     if len(data.segments) > 1:
         n = len(data.segments) // 2
         return fit.initial[:n], fit.initial[n:]
-    fitter = Fitter(fit.model, data)
+    fitter = Fitter.of(fit, data)
     p = np.array([fit.values[k] for k in fitter.sim.parameters])
     (run,) = fitter.run(p, fit.initial, fit.kalman_gain, sensitivities=False, keep="states")
     return fit.initial, run.x[[len(run.x) // 2]]

@@ -32,7 +32,7 @@ def output_error_fit(fit: Fit, data: Data) -> list[Fit]:
     try:
         # Prediction corrects the state: a free run begins where a fit of its state alone ends.
         begin = Fitter(fit.model, free, fixed=tuple(fit.values)).fit(fit.values, fit.initial, fit.process, errors=False)
-        found = Fitter(fit.model, free).fit(fit.values, begin.initial, fit.process, MOST_ITERATIONS, errors=False)
+        found = Fitter.of(begin, free).fit(fit.values, begin.initial, fit.process, MOST_ITERATIONS, errors=False)
     except SymidError:
         return []
     return [with_values(fit, found.values)]
