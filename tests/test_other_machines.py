@@ -64,4 +64,4 @@ def test_a_spring_that_stiffens_and_is_damped_although_neither_explains_much_alo
     found = si.diagnose(m, recording, fit_window=(0, 10), held_out=(10, 20))
     assert found.verdict == "missing_physics"
     assert {e.name for e in found.effects} == {"viscous_friction", "cubic_stiffness"}
-    assert "N/m³" in found.words and "deg" not in found.words
+    assert "with the cube of its position" in found.words and "N/m³" in found.words and "deg" not in found.words

@@ -29,6 +29,10 @@ def law_name(name: str, location: str = "") -> str:
     return said if location in ("", "global", "input", "base") else f"{said} at {place_name(location)}"
 
 
+_STRAIGHT = {"torque": "force", "angle": "position", "turns": "moves", "inertia": "mass"}
+"""Words of the laws, for a place that moves along a line."""
+
+
 def sentence(suspect: Suspect, parameters: Mapping[str, tuple[float, float]], model: Model | None = None) -> str:
     """The law's own sentence with place, values and standard errors put in, in the units that it has in `model`.
 
@@ -45,6 +49,8 @@ def sentence(suspect: Suspect, parameters: Mapping[str, tuple[float, float]], mo
         lambda the: place if the[1] == "t" else place[:1].upper() + place[1:],
         " and ".join(_sure_clauses(suspect, parameters)),
     )
+    if model is not None and any(p.at == suspect.term.location and p.unit == "N" for p in model.ports.values()):
+        template = re.sub(r"\b(torque|angle|turns|inertia)\b", lambda word: _STRAIGHT[word[0]], template)
     return template.format(place=place.removeprefix("the "), **filled)
 
 
