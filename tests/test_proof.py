@@ -13,7 +13,11 @@ from symid.estimation.independence import independent_share
 def run(error, lengths=None):
     time, recorded = np.arange(len(error)) * 0.02, np.sin(np.arange(len(error)) * 0.05)[:, None]
     return FreeRun(
-        time, recorded, recorded + error[:, None], float(np.sqrt(np.mean(error**2))), lengths or (len(error),)
+        time,
+        recorded,
+        recorded + error[:, None],
+        np.sqrt(np.mean(error[:, None] ** 2, axis=0)),
+        lengths or (len(error),),
     )
 
 
@@ -60,3 +64,21 @@ def test_coloured_errors_hold_fewer_independent_samples():
         slow[k] = a * slow[k - 1] + white[k, :1]
     # For r_k = a^k: 1 / (1 + 2 a^2 / (1 - a^2)) = (1 - a^2) / (1 + a^2).
     assert independent_share([slow]) == pytest.approx((1 - a**2) / (1 + a**2), rel=0.35)
+
+
+def test_outputs_of_other_units_count_by_how_much_they_move():
+    rng = np.random.default_rng(0)
+    recorded = rng.standard_normal((600, 2)) * [1e-3, 2.0]
+
+    def of(small, large, unit=1.0):
+        errors = rng.standard_normal((600, 2)) * [small, large]
+        scale = np.array([unit, 1.0])
+        rms = np.sqrt(np.mean(errors**2, axis=0))
+        return FreeRun(0.05 * np.arange(600), recorded * scale, (recorded + errors) * scale, rms * scale, (600,))
+
+    before, after = of(1e-3, 0.1), of(1e-5, 0.1)
+    assert compare(before, after).confirmed and after.relative < 0.1 * before.relative
+    rng = np.random.default_rng(1)
+    metres = of(1e-3, 0.1)
+    rng = np.random.default_rng(1)
+    assert of(1e-3, 0.1, unit=1e3).relative == pytest.approx(metres.relative)

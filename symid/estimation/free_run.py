@@ -13,16 +13,26 @@ from symid.estimation.fit import Fit, Fitter
 
 @dataclass(frozen=True, eq=False)
 class FreeRun:
-    """Time, recorded and simulated outputs of a window; `rms` over all outputs, without `settling` seconds.
+    """Time, recorded and simulated outputs of a window; errors are those without `settling` seconds.
 
-    `lengths` are the samples of each segment, which begins with a state of its own.
+    `lengths` are the samples of each segment, which begins with a state of its own; `errors` (m,) the rms of each
+    output.
     """
 
     time: np.ndarray
     recorded: np.ndarray
     simulated: np.ndarray
-    rms: float
+    errors: np.ndarray
     lengths: tuple[int, ...]
+
+    @property
+    def rms(self) -> float:
+        return float(np.sqrt(np.mean(self.errors**2)))
+
+    @property
+    def relative(self) -> float:
+        """Rms over all outputs, each in units of how much it moves, whatever those are measured in."""
+        return float(np.sqrt(np.mean((self.errors / moves(self.recorded)) ** 2)))
 
     def of_segments(self) -> list[tuple[float, float]]:
         """Start [s] and rms of each segment."""
@@ -31,6 +41,11 @@ class FreeRun:
             (float(self.time[a]), float(np.sqrt(np.mean((self.simulated - self.recorded)[a:b] ** 2))))
             for a, b in zip([0, *ends[:-1]], ends, strict=True)
         ]
+
+
+def moves(recorded: np.ndarray) -> np.ndarray:
+    """(m,) how much each output moves, its standard deviation."""
+    return np.maximum(recorded.std(axis=0), 1e-12)
 
 
 def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
@@ -43,13 +58,15 @@ def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
     runs = [r for r in (_run(fitter, fit, x0) for x0 in _beginnings(fit, data)) if r is not None]
     time = np.concatenate([e.time for e in data.segments])
     recorded = np.vstack([e.recorded for e in data.segments])
-    simulated = min(runs, key=lambda y: float(np.sum((y - recorded) ** 2))) if runs else np.full_like(recorded, np.nan)
+    size = moves(recorded)
+    nothing = np.full_like(recorded, np.nan)
+    simulated = min(runs, key=lambda y: float(np.sum(((y - recorded) / size) ** 2))) if runs else nothing
     use = np.arange(len(time)) >= int(settling / data.segments[0].step + 0.5)
     return FreeRun(
         time,
         recorded,
         simulated,
-        float(np.sqrt(np.mean((simulated - recorded)[use] ** 2))),
+        np.sqrt(np.mean((simulated - recorded)[use] ** 2, axis=0)),
         tuple(len(e.time) for e in data.segments),
     )
 

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.special import stdtr, stdtrit
 
 from symid.discrepancy.policy import POLICY
-from symid.estimation.free_run import FreeRun
+from symid.estimation.free_run import FreeRun, moves
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ def compare(before: FreeRun, after: FreeRun) -> Proof:
     """
     cut = _blocks(before)
     ratios = np.array([np.log(_power(before, b) / _power(after, b)) for b in cut])
-    margin = 1.0 - after.rms / before.rms
+    margin = 1.0 - after.relative / before.relative
     seconds = sum(float(before.time[b][-1] - before.time[b][0]) for b in cut)
     n, mean = len(ratios), float(ratios.mean())
     if n < 2 or not np.isfinite(ratios).all():
@@ -78,5 +78,4 @@ def _blocks(run: FreeRun) -> list[slice]:
 
 def _power(run: FreeRun, block: slice) -> float:
     """Mean square error over all outputs, each in units of how much it moves in the whole window."""
-    scale = np.maximum(run.recorded.std(axis=0), 1e-12)
-    return float(np.mean(((run.simulated - run.recorded)[block] / scale) ** 2)) + 1e-30
+    return float(np.mean(((run.simulated - run.recorded)[block] / moves(run.recorded)) ** 2)) + 1e-30

@@ -59,4 +59,4 @@ def free_runs(
 
 
 def _error(run: FreeRun) -> float:
-    return run.rms if np.isfinite(run.rms) else np.inf
+    return run.relative if np.isfinite(run.relative) else np.inf

@@ -98,9 +98,17 @@ class Story:
     def model(self) -> Model:
         return self.base.model
 
-    def error(self, value: float) -> str:
-        """An error of the outputs with their unit, where they share one."""
-        return rms_text(value, common_unit(y.unit for y in self.model.outputs.values()), digits=3)
+    def error(self, errors: np.ndarray) -> str:
+        """The rms errors (m,) of the outputs, as one number where they share a unit."""
+        unit = common_unit(y.unit for y in self.model.outputs.values())
+        if unit is not None:
+            return rms_text(float(np.sqrt(np.mean(np.square(errors)))), unit, digits=3)
+        return _listed(
+            [
+                f"{quantity(e, unit=y.unit)} of {y.channel}"
+                for e, y in zip(errors, self.model.outputs.values(), strict=True)
+            ]
+        )
 
     def channels(self, values: np.ndarray) -> str:
         """One number for each output, with its unit."""
@@ -173,11 +181,11 @@ def _losses(s: Story) -> list[str]:
     alone = next((c for c in s.ranking if c.suspect.term.name in LOSSES), None)
     if alone is None:
         return [f"{text}."]
-    left = float(np.sqrt(np.mean(np.vstack(alone.fit.innovations) ** 2)))
+    left = np.sqrt(np.mean(np.vstack(alone.fit.innovations) ** 2, axis=0))
     name = law_name(alone.suspect.term.name, alone.suspect.term.location)
     return [
         f"{text}, and one law is not enough: the best alone, {name}, leaves an error of {s.error(left)} in the fit "
-        f"window, all that was found together {s.error(s.runs['augmented_train'].rms)}."
+        f"window, all that was found together {s.error(s.runs['augmented_train'].errors)}."
     ]
 
 
@@ -194,10 +202,10 @@ def _alike(s: Story) -> list[str]:
 def _proof(s: Story) -> list[str]:
     if "augmented_heldout" not in s.runs:
         return _chance(s)
-    before, after = s.runs["baseline_heldout"].rms, s.runs["augmented_heldout"].rms
+    before, after = s.runs["baseline_heldout"].errors, s.runs["augmented_heldout"].errors
     if np.all(s.runs["baseline_heldout"].recorded.std(axis=0) < STILL * s.audit.noise):
         return ["In the held-out window nothing moves, so that it proves nothing.", *_chance(s)]
-    if not s.effects or before == after or s.proof is None:
+    if not s.effects or np.array_equal(before, after) or s.proof is None:
         return [f"The error of free simulation on the held-out window is {s.error(before)}.", *_chance(s)]
     text = f"The error of free simulation on the held-out window goes from {s.error(before)} to {s.error(after)}"
     return [text + _confirmation(s.proof) + ".", *_chance(s)]
@@ -286,12 +294,13 @@ def _rest(s: Story) -> list[str]:
                 f"{10 ** min(worst.minus_log10_p, 15):,.0f} by chance."
             ]
         )
-    floor_, rms = float(np.sqrt(np.mean(s.audit.noise**2))), s.runs["augmented_train"].rms
-    if s.driven or s.verdict != "unexplained" or not rms > ABOVE * floor_:
+    errors = s.runs["augmented_train"].errors
+    times = float(np.sqrt(np.mean((errors / s.audit.noise) ** 2)))
+    if s.driven or s.verdict != "unexplained" or not times > ABOVE:
         return []
     return [
-        f"In the fit window an error of {s.error(rms)} remains, {rms / floor_:.0f} times the noise of the sensors "
-        f"({s.error(floor_)}): unexplained."
+        f"In the fit window an error of {s.error(errors)} remains, {times:.0f} times the noise of the sensors "
+        f"({s.error(s.audit.noise)}): unexplained."
     ]
 
 
