@@ -82,8 +82,6 @@ def diagnose(
     )
     pieces = segments_of(task.model, task.recording, task.fit_window, task.segment_length)
     pieces = pieces if driven else free_pieces(pieces, len(task.model.states))
-    task = replace(task, model=with_friction_speeds(task.model, pieces))
-    pool = list(suspects_of(task.model) if suspects is None else suspects)
 
     def searched(base: Fit, data: Data) -> Search:
         nothing = Hypothesis((), base, base, data)
@@ -92,6 +90,8 @@ def diagnose(
 
     # Locate: what the recording can be trusted for, and what the model as given leaves of it.
     checked = audit(task.model, task.recording, pieces, sensor_noise, filter)
+    task = replace(task, model=with_friction_speeds(task.model, pieces, checked.noise))
+    pool = list(suspects_of(task.model) if suspects is None else suspects)
     plain = Data(pieces, checked.noise, driven, checked.rounding).thinned()
     window = task.fit_window, task.segment_length
     possible = fits_of(

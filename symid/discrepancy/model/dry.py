@@ -10,20 +10,25 @@ from symid.estimation.data import Segment, swing
 from symid.mechanics.laws import is_linear
 from symid.model import Constant, Model, Port
 
-PART = 0.005
-"""The jump of dry friction is smoothed over this part of the usual speed: what sticks creeps by no more than that."""
+PARTS = 1e-4, 0.005
+"""Narrowest and widest jump of smoothed dry friction, as parts of the usual speed: the integrator can resolve the one,
+and a motion that dies away shows the other. Between them what sticks creeps by no more than the sensors'
+noise in half a swing: a smoothed jump lets it creep at up to its width, and the angle of a shaft keeps that."""
 
 
-def with_friction_speeds(model: Model, segments: Sequence[Segment]) -> Model:
-    """The model with a `friction_speed` at each joint whose motion is recorded, where it states none."""
+def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.ndarray) -> Model:
+    """The model with a `friction_speed` at each joint whose motion is recorded, where it states none.
+
+    noise : (m,) standard deviation of each output's sensor.
+    """
     if model.find("friction_speed"):
         return model
     new = model.copy()
     for port in (p for p in model.ports.values() if p.role == "joint"):
-        speed = _usual_speed(model, port, segments)
-        if speed > 0:
+        weights = _weights(model, port)
+        if weights is not None:
             width = Constant(
-                PART * speed,
+                _width(segments, weights, noise),
                 unit="m/s" if is_linear(model, port.at) else "rad/s",
                 role="friction_speed",
                 at=port.at,
@@ -33,13 +38,20 @@ def with_friction_speeds(model: Model, segments: Sequence[Segment]) -> Model:
     return new
 
 
-def _usual_speed(model: Model, port: Port, segments: Sequence[Segment]) -> float:
-    """Rms rate at a port, of a sine that moves as far and as fast as what is recorded; 0 where it is not recorded."""
+def _weights(model: Model, port: Port) -> np.ndarray | None:
+    """(m,) of the outputs in the position of a port; None where it is not recorded."""
     shown = {str(y.expr): i for i, y in enumerate(model.outputs.values())}
     if not {str(s) for s in port.position.free_symbols} <= shown.keys():
-        return 0.0
+        return None
     weights = np.zeros(len(model.outputs))
     for s in model.states.values():
         if s.name in shown:
             weights[shown[s.name]] = float(port.position.coeff(s.symbol))
-    return float(np.median([2 * np.pi * np.std(e.recorded @ weights) / swing(e) for e in segments]))
+    return weights if weights.any() else None
+
+
+def _width(segments: Sequence[Segment], weights: np.ndarray, noise: np.ndarray) -> float:
+    """Speed; the usual one is the rms rate of a sine that moves as far and as fast as what is recorded."""
+    usual = float(np.median([2 * np.pi * np.std(e.recorded @ weights) / swing(e) for e in segments]))
+    creep = 2 * float(np.linalg.norm(weights * noise)) / float(np.median([swing(e) for e in segments]))
+    return float(np.clip(creep, *(part * usual for part in PARTS))) or 1.0

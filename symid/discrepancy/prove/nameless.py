@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import log
 
+import numpy as np
+
 from symid.discrepancy.locate.flexible_law import FlexibleLaw, flexible_law
 from symid.discrepancy.locate.rest import Rest, rest_of
 from symid.discrepancy.model.hypothesis import Hypothesis, refit
@@ -29,13 +31,13 @@ class Nameless:
     ----------
     rest : what the model lacks, given the effects that are named (without these, where a flexible law explains more
         in their place). flexible : the flexible law. proposal : the simplest closed form that does as well.
-    errors : rms of the free runs on the held-out window of ``flexible`` and ``proposal``; empty without one.
+    errors : rms (m,) of the free runs on the held-out window of ``flexible`` and ``proposal``; empty without one.
     """
 
     rest: Rest | None = None
     flexible: FlexibleLaw | None = None
     proposal: Proposal | None = None
-    errors: dict[str, float] = field(default_factory=dict)
+    errors: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def fits(self) -> list[Fit]:
@@ -60,12 +62,12 @@ def nameless(
     if held_out is None:
         return Nameless(rest, flexible, proposal)
     run = free_run(flexible.fit, held_out)
-    errors = {"flexible": run.rms}
+    errors = {"flexible": run.errors}
     if proposal is not None:
         other = free_run(proposal.fit, held_out)
-        as_well = other.rms <= WORSE * run.rms or compare(other, run).probability < POLICY.confirm
+        as_well = other.relative <= WORSE * run.relative or compare(other, run).probability < POLICY.confirm
         proposal = proposal if as_well else None
-        errors |= {"proposal": other.rms} if as_well else {}
+        errors |= {"proposal": other.errors} if as_well else {}
     return Nameless(rest, flexible, proposal, errors)
 
 

@@ -25,12 +25,12 @@ MOSTLY = 0.7
 """Part of the samples from which on they are called small or large."""
 
 
-def nameless_words(unnamed: Nameless, error: Callable[[float], str]) -> list[str]:
+def nameless_words(unnamed: Nameless, error: Callable[[np.ndarray], str]) -> list[str]:
     """Sentences on a rest, on the flexible law that was fitted in its place, and on the closed form that does as well.
 
     Parameters
     ----------
-    error : an error of the outputs as text.
+    error : errors (m,) of the outputs as text.
     """
     out = rest_words(unnamed.rest) if unnamed.rest is not None else []
     tested = {k: f" (held-out error {error(e)})" for k, e in unnamed.errors.items()}
