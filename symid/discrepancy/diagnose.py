@@ -13,6 +13,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.model.suspects import suspects as suspects_of
 from symid.discrepancy.name.error_model import with_error_model
+from symid.discrepancy.name.jump import with_likeliest_jumps
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.evidence import tested
 from symid.discrepancy.say.diagnosis import Diagnosis, finding
@@ -97,6 +98,7 @@ def diagnose(
     possible = fits_of(
         task.model, task.recording, *window, plain, checked.filter, checked.inputs, task.start, checked.known
     )
+    possible = [(data, with_likeliest_jumps(fit, data)) for data, fit in possible]
     progress(f"the model as given is fitted ({possible[0][1].iterations} iterations)")
 
     # Name: the laws that explain it.

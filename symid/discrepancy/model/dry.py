@@ -16,6 +16,11 @@ and a motion that dies away shows the other. Between them what sticks creeps by 
 noise in half a swing: a smoothed jump lets it creep at up to its width, and the angle of a shaft keeps that."""
 
 
+WIDER = 0.05, 0.15, 0.5
+"""Parts of the usual speed over which friction may set in that does not jump: of rubber, grease or skin."""
+MEANING = "width of the smoothed jump of dry friction"
+
+
 def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.ndarray) -> Model:
     """The model with a `friction_speed` at each joint whose motion is recorded, where it states none.
 
@@ -25,20 +30,20 @@ def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.nd
         return model
     new = model.copy()
     for port in (p for p in model.ports.values() if p.role == "joint"):
-        weights = _weights(model, port)
+        weights = weights_of(model, port)
         if weights is not None:
             width = Constant(
-                _width(segments, weights, noise),
+                widths(segments, weights, noise)[0],
                 unit="m/s" if is_linear(model, port.at) else "rad/s",
                 role="friction_speed",
                 at=port.at,
-                meaning="width of the smoothed jump of dry friction",
+                meaning=MEANING,
             )
             setattr(new, f"{port.name}_friction_speed", width)
     return new
 
 
-def _weights(model: Model, port: Port) -> np.ndarray | None:
+def weights_of(model: Model, port: Port) -> np.ndarray | None:
     """(m,) of the outputs in the position of a port; None where it is not recorded."""
     shown = {str(y.expr): i for i, y in enumerate(model.outputs.values())}
     if not {str(s) for s in port.position.free_symbols} <= shown.keys():
@@ -50,8 +55,9 @@ def _weights(model: Model, port: Port) -> np.ndarray | None:
     return weights if weights.any() else None
 
 
-def _width(segments: Sequence[Segment], weights: np.ndarray, noise: np.ndarray) -> float:
-    """Speed; the usual one is the rms rate of a sine that moves as far and as fast as what is recorded."""
+def widths(segments: Sequence[Segment], weights: np.ndarray, noise: np.ndarray) -> tuple[float, ...]:
+    """Speeds, the sharpest first; the usual one is the rms rate of a sine that moves as far and as fast as recorded."""
     usual = float(np.median([2 * np.pi * np.std(e.recorded @ weights) / swing(e) for e in segments]))
     creep = 2 * float(np.linalg.norm(weights * noise)) / float(np.median([swing(e) for e in segments]))
-    return float(np.clip(creep, *(part * usual for part in PARTS))) or 1.0
+    sharp = float(np.clip(creep, *(part * usual for part in PARTS))) or 1.0
+    return (sharp, *(part * usual for part in WIDER))
