@@ -63,7 +63,7 @@ class Attempts:
 
     def further(self, z: np.ndarray) -> None:
         """From further starts, until one ends as near to the recording as it can be."""
-        for start, led in further_starts(self.t, z if self.best is None else self.best.z):
+        for start, led in further_starts(self.t, z if self.best is None else self.best.z, self.solved):
             if led:
                 self.beside(start, MANY)
             else:

@@ -46,16 +46,21 @@ def far(t: Transcription, z: np.ndarray) -> bool:
 
 
 @one_blas_thread
-def further_starts(t: Transcription, z: np.ndarray) -> Iterator[tuple[np.ndarray, bool]]:
-    """Free vectors from which a better end than `z` may be found, and whether they are simulations (led ones)."""
+def further_starts(t: Transcription, z: np.ndarray, solved: bool) -> Iterator[tuple[np.ndarray, bool]]:
+    """Free vectors from which a better end than `z` may be found, and whether they are simulations (led ones).
+
+    solved : whether `z` is a solution. Of a large problem it must be in doubt then, for more to be tried.
+    """
+    shooting = Shooting(t) if can_shoot(t) else None
+    large, seen = sum(m.intervals for m in t.measured) > SMALL, shooting is not None and not shooting.hidden
+    if large and solved and not seen:
+        return
     motion = smooth_motion(t)
     regressed = equation_error(t, guesses(t), motion)[0]
-    shooting = Shooting(t) if can_shoot(t) else None
-    large = sum(m.intervals for m in t.measured) > SMALL and shooting is not None and not shooting.hidden
-    if large and _doubt(shooting, z, regressed) < PULLED:
+    if large and solved and _doubt(shooting, z, regressed) < PULLED:
         return
     yield t.start(regressed, motion if shooting is None else shooting.with_hidden(motion)), False
-    if shooting is not None:
+    if seen or (shooting is not None and not large):
         others = [regressed, equation_error(t, guesses(t))[0]]
         for found in shooting.tracked([shooting.unknowns(p) for p in others]):
             yield t.start(*found), True
@@ -64,7 +69,7 @@ def further_starts(t: Transcription, z: np.ndarray) -> Iterator[tuple[np.ndarray
 def _doubt(shooting: Shooting, z: np.ndarray, regressed: np.ndarray) -> float:
     """How much better simulations that are led along the recording follow it with the regressed parameters."""
     here, there = shooting.of_solution(z), shooting.unknowns(regressed)
-    return max(shooting.led_error(here, g) / shooting.led_error(there, g) for g in LED)
+    return max(shooting.led_error(here, g) / max(shooting.led_error(there, g), np.finfo(float).tiny) for g in LED)
 
 
 def asked_for(t: Transcription, z: np.ndarray) -> np.ndarray | None:
