@@ -88,12 +88,13 @@ def segments(seed):
     return si.Identification(model, recordings, scheme=si.HermiteSimpson()), {"k": 4.0, "c": 0.3}
 
 
-def standing(duration: float, **noise):
+def standing(duration: float, scheme, **noise):
+    """At 50 Hz and without process noise the midpoint rule shifts kp_ha by 0.65 standard errors, and says so."""
     model = BODY.with_feedback(FullStatePD())
 
     def problem(seed):
         recording = standing_recording(model, GAINS, seed=seed, duration=duration, **noise)
-        return si.Identification(model, recording), GAINS
+        return si.Identification(model, recording, scheme=scheme), GAINS
 
     return problem
 
@@ -118,8 +119,8 @@ SYSTEMS = {
     "two rates and noises": two_rates,
     "algebraic, channels together": algebraic,
     "segments, coloured noise": segments,
-    "standing, sensor noise": standing(30, torque_noise=0.0, sensor_noise=SENSOR),
-    "standing, process noise": standing(60),
+    "standing, sensor noise": standing(30, si.HermiteSimpson(), torque_noise=0.0, sensor_noise=SENSOR),
+    "standing, process noise": standing(60, si.Midpoint()),
 }
 WHITE = {
     "integrator": [NOISE],

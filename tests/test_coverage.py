@@ -19,8 +19,7 @@ NORMAL = 1.96
 def repeat(name: str, seed: int) -> dict:
     """One identification: error and standard error of each parameter, what the latter should be, the error model."""
     problem, truth = SYSTEMS[name](seed)
-    begin = truth | {n: 1.0 for n in problem.model.parameters if n not in truth}  # no study of starts
-    solution = problem.solve(start=begin, check=False)
+    solution = problem.solve(check=False)
     assert solution.solved, solution.message
     table = solution.parameters.loc[[n for n in solution.values if n in truth]]
     expected = expected_errors(solution, WHITE[name]) if name in WHITE else {}
