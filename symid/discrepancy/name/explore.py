@@ -19,7 +19,7 @@ from symid.estimation.fit import Fit, Fitter
 
 FIRST_ITERATIONS, CONVERGING_ITERATIONS = 6, 20
 SMALL = 0.15
-"""A law that no value switches off nearly does nothing at this part of its usual sizes."""
+"""A law that no value switches off nearly does nothing at this part of its usual sizes (a lag) or beyond (a limit)."""
 BEYOND = 3.0
 """A slope at zero may see but a third of what a delay, a lag or an integral explains."""
 KEPT = 0.5
@@ -115,9 +115,11 @@ def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) 
 
 
 def _promise(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
-    """Growth of twice the log-likelihood that one step promises from a small part of these values."""
-    small = fit.values | suspect.named({k: SMALL * v for k, v in values.items()})
-    return fitter.promise(small, extended(fit.initial, fitter.sim), fit.process) - fit.loglik2
+    """Growth of twice the log-likelihood that one step promises from where the law nearly does nothing."""
+    initial = extended(fit.initial, fitter.sim)
+    weak = [SMALL] if suspect.strength is not None else [SMALL, 1 / SMALL]
+    starts = [fit.values | suspect.named({k: part * v for k, v in values.items()}) for part in weak]
+    return max(fitter.promise(start, initial, fit.process) for start in starts) - fit.loglik2
 
 
 def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothesis | None:
