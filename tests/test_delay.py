@@ -111,3 +111,21 @@ def test_delay_is_within_three_standard_errors_in_forty_seeds(model, delay):
     assert np.median(np.abs(error)) < 0.005
     # Standard errors far too large would pass the first line.
     assert np.sqrt(np.mean((error / std_error) ** 2)) > 0.5
+
+
+def test_delays_of_a_state_and_of_an_input_are_found_together():
+    m = si.Model("late in two ways")
+    m.x, m.u = si.State(unit="m"), si.Input(unit="m/s")
+    m.pull = si.Parameter(unit="1/s", bounds=(0.1, 5), guess=1.5)
+    m.late_x, m.late_u = si.Parameter(unit="s", bounds=(0, 0.6)), si.Parameter(unit="s", bounds=(0, 0.6))
+    m.balance = si.Equation(m.x.dot + m.pull * m.delayed(m.x, m.late_x) - m.delayed(m.u, m.late_u))
+    m.seen = si.Output(m.x)
+    time, rng = np.arange(0, 20, 0.02), np.random.default_rng(2)
+    u = sum(np.sin(w * time + p) for w, p in ((0.7, 0), (1.9, 1), (3.1, 2)))
+    true = {"pull": 2.0, "late_x": 0.3, "late_u": 0.15}
+    motion = simulator(m).simulate(true, {"x": 0.0}, time, {"u": u}, substeps=4)
+    seen = motion.outputs["seen"] + 0.002 * rng.standard_normal(len(time))
+    recording = si.Recording("two delays", time, {"u": u, "x": seen}, {"u": "m/s", "x": "m"})
+    solution = si.Identification(m, recording, (1, 19.5)).solve(start={"late_x": 0.2, "late_u": 0.2}, check=False)
+    for name, value in true.items():
+        assert abs(solution.values[name] - value) < 4 * solution.parameters["std_error"][name] < 0.05
