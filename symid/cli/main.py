@@ -45,6 +45,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         place = "" if error.filename is None else f": {error.filename}"
         print(f"symid: error: {error.strerror or error}{place}", file=sys.stderr)
         return BAD_INPUT
+    except ModuleNotFoundError as absent:
+        print(f"symid: error: {absent}: the installation is not whole; install symid again", file=sys.stderr)
+        return BAD_INPUT
     except (MemoryError, ImportError) as failure:  # a library that finds no memory cannot be imported
         said = " ".join(str(failure).split())[:300]
         print(f"symid: error: {type(failure).__name__}: {said}. Is there memory enough?", file=sys.stderr)
