@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import inf, isnan
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,13 @@ def shown(value: Any) -> str:
     """The value where it is short, else its kind."""
     text = repr(value) if isinstance(value, (str, int, float, bool, type(None))) else f"a {type(value).__name__}"
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+def listed(sentences: Sequence[str], most: int = 5, letters: int = 300) -> str:
+    """The first sentences, none longer than so many letters, and how many more there are."""
+    said = [s if len(s) <= letters else s[: letters - 3] + "..." for s in sentences[:most]]
+    more = f"; and {len(sentences) - most} more" if len(sentences) > most else ""
+    return "; ".join(said) + more
 
 
 def number(value: Any, what: str, error: type[SymidError], *, least: float = -inf) -> float:

@@ -38,6 +38,7 @@ def diagnose(folder: Path) -> int:
 
 def reproduce(folder: Path) -> int:
     """Two starts of the article's first case, on a made-up person and a few seconds."""
+    import_module("symid.fetch").standing = Path  # the folder as it is given, though it is not the article's
     run = import_module("symid.reproduce.run")
     run.WINDOW, run.RANGE, run.HELD_OUT = dict.fromkeys(run.WINDOW, (0.0, 5.0)), (0.0, 8.0), (5.0, 8.0)
     read_recording(STANDING / "recording.csv").window(0, 8).to_csv(folder / "recording_50hz.csv")

@@ -154,3 +154,32 @@ def test_numbers_beyond_all_use_are_refused_at_once(arguments, capsys):
     told = capsys.readouterr().err
     assert "is not possible; give" in told or "are more than" in told
     assert len(told) < 200
+
+
+@pytest.mark.parametrize(
+    ("header", "words"),
+    [
+        (",".join(["time_s"] + [f"channel {i} without any unit at all" for i in range(40)]), "and 35 more"),
+        (",".join(["time_s"] + ["a_m"] * 300), "occurs twice.*and 294 more"),
+        ("time_s," + "x" * 5000, r"\.\.\."),
+    ],
+)
+def test_a_header_with_many_mistakes_is_told_briefly(tmp_path, header, words):
+    columns = header.count(",") + 1
+    (tmp_path / "r.csv").write_text("\n".join([header, *(",".join([str(k)] * columns) for k in range(2))]))
+    with pytest.raises(RecordingError, match=words) as told:
+        si.read_recording(tmp_path / "r.csv")
+    assert len(str(told.value)) < 2000
+
+
+def test_many_violations_and_many_channels_are_told_briefly():
+    model = si.Model("m")
+    for i in range(300):
+        setattr(model, f"p{i}", si.Parameter(unit="m"))
+    with pytest.raises(ModelError, match="and .* more") as told:
+        model.check()
+    assert len(str(told.value)) < 3000 and len(told.value.violations) > 300
+    time = np.arange(10.0)
+    recording = si.Recording("r", time, {f"c{i}": time for i in range(500)}, {f"c{i}": "m" for i in range(500)})
+    with pytest.raises(RecordingError, match="and 488 more"):
+        recording["zzz"]

@@ -38,6 +38,8 @@ if TYPE_CHECKING:
 
 Part = TypeVar("Part", bound=Component)
 TIME = symbol("t")
+MOST_TOLD = 20
+"""Violations in a message; the exception has them all."""
 FREE_FACTOR = 10.0
 """What was written down as known is rarely wrong by more than an order of magnitude."""
 
@@ -375,7 +377,8 @@ class Model:
 
         found = tuple(violations(self, units))
         if found:
-            lines = "\n".join(f"  - {v}" for v in found)
+            more = [f"and {len(found) - MOST_TOLD} more"] if len(found) > MOST_TOLD else []
+            lines = "\n".join(f"  - {v}" for v in (*found[:MOST_TOLD], *more))
             raise ModelError(f"model '{self.name}' cannot be used yet:\n{lines}", found)
         return self
 

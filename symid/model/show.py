@@ -96,7 +96,7 @@ def html(model: Model) -> str:
     """Name, equations and a table of all parts with their letters in the equations, for a notebook."""
     names, rows = letters(model), []
     for kind, c, value in _parts(model):
-        letter = f"${names[c.symbol]}$" if kind != "output" else ""
+        letter = f"${escape(names[c.symbol], quote=False)}$" if kind != "output" else ""
         cells = (kind, letter, f"<code>{escape(c.name)}</code>", value, escape(c.unit), escape(c.meaning))
         rows.append("".join(f'<td style="text-align:left">{cell}</td>' for cell in cells))
     head = "".join(

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 
+from symid import checked
 from symid.errors import RecordingError, SymidError
 from symid.units import KnownUnit, known_unit, nearest, split_column_name
 
@@ -56,7 +57,7 @@ def read_header(path: Path) -> list[Column]:
         raise RecordingError(f"{path}: there is a header but no row with samples")
     columns, problems = _parse(cells)
     if problems:
-        raise RecordingError(f"{path}: " + "; ".join(problems))
+        raise RecordingError(f"{path}: {checked.listed(problems)}")
     return columns
 
 

@@ -291,7 +291,8 @@ class Recording:
 
     def _unknown(self, name: str) -> str:
         close = nearest(name, self.channels) or list(self.channels)
-        return f"has no channel '{name}'; it has {', '.join(close)}"
+        more = f" and {len(close) - 12} more" if len(close) > 12 else ""
+        return f"has no channel '{name}'; it has {', '.join(close[:12])}{more}"
 
     def rows(self, rows: slice, note: str | None = None) -> "Recording":
         """Some of the rows, without looking at their times."""
