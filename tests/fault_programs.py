@@ -20,15 +20,21 @@ OUTPUTS = {
 }
 
 
+def prepare(folder: Path) -> None:
+    """Inputs of both."""
+    swing = pendulum_recording(damping=0.05, duration=12.0, noise=1e-3, strength=0.0)
+    swing.select("angle").rename({"angle": "link1_angle"}).to_csv(folder / "swing.csv")
+    (folder / "rig.json").write_text(RIG)
+    read_recording(STANDING / "recording.csv").window(0, 8).to_csv(folder / "recording_50hz.csv")
+    (folder / "body.json").write_text((STANDING / "body.json").read_text())
+
+
 def diagnose(folder: Path) -> int:
     """A free swing with damping, of a rig that is said to have none; one suspect."""
     from symid.discrepancy import suspects
 
     few = lambda model: [s for s in suspects(model) if s.term.name == "viscous_friction"]  # noqa: E731
     import_module("symid.discrepancy.diagnose").suspects_of = few
-    swing = pendulum_recording(damping=0.05, duration=12.0, noise=1e-3, strength=0.0)
-    swing.select("angle").rename({"angle": "link1_angle"}).to_csv(folder / "swing.csv")
-    (folder / "rig.json").write_text(RIG)
     outputs = [str(folder / name) for name in OUTPUTS["diagnose"]]
     options = zip(("--json", "--report", "--held-out-csv"), outputs, strict=True)
     source = [str(folder / "swing.csv"), "--rig", str(folder / "rig.json")]
@@ -41,8 +47,6 @@ def reproduce(folder: Path) -> int:
     import_module("symid.fetch").standing = Path  # the folder as it is given, though it is not the article's
     run = import_module("symid.reproduce.run")
     run.WINDOW, run.RANGE, run.HELD_OUT = dict.fromkeys(run.WINDOW, (0.0, 5.0)), (0.0, 8.0), (5.0, 8.0)
-    read_recording(STANDING / "recording.csv").window(0, 8).to_csv(folder / "recording_50hz.csv")
-    (folder / "body.json").write_text((STANDING / "body.json").read_text())
     places = [f"--{name}={folder / name}" for name in ("store", "output")]
     return main(["reproduce", "--only", "PD-1", "--starts", "2", f"--recordings={folder}", *places])
 

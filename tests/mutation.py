@@ -26,7 +26,7 @@ ROOT = Path(__file__).parents[1]
 PARTS = {
     "transcription": ("symid/transcription", "test_transcription.py test_conditions.py test_delay.py test_scales.py"),
     "estimation": ("symid/estimation", "test_error_model.py test_bias.py test_audit.py"),
-    "covariance": ("symid/identification/covariance.py", "test_error_models.py test_priors.py"),
+    "covariance": ("symid/identification/covariance.py", "test_error_models.py test_priors.py test_uncertainty.py"),
     "codegen": ("symid/codegen", "test_codegen.py test_regenerate.py"),
 }
 """Part -> its code, and the tests that should notice."""

@@ -15,7 +15,7 @@ import time
 from pathlib import Path
 
 import pytest
-from fault_programs import OUTPUTS
+from fault_programs import OUTPUTS, prepare
 from study_problems import numbers, study
 
 from symid.identification.store import StudyDirectory
@@ -33,6 +33,7 @@ class Program:
     def __init__(self, kind: str, folder: Path, limits: dict[int, int] | None = None, **environment: str):
         self.kind, self.folder, self.mark = kind, folder, f"{folder}-{random.random()}"
         (folder / "tmp").mkdir(parents=True, exist_ok=True)
+        prepare(folder)
         own = {"SYMID_FAULT": self.mark, "TMPDIR": str(folder / "tmp"), "OMP_NUM_THREADS": "1"}
         with open(folder / "said", "wb") as said:
             self.process = subprocess.Popen(
