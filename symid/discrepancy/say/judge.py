@@ -51,10 +51,10 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
 
 
 def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> bool:
-    """Whether a rest beside a confirmed finding is less than noise of sensors of which nobody said how they err."""
+    """Whether a rest beside a finding that held-out data do not contradict is less than noise of sensors of which nobody said how they err."""
     found = evidence.found
-    confirmed = evidence.proof is None or evidence.proof.confirmed
-    if audit.stated or search.data.driven or not (found.suspects and found.established and confirmed):
+    better = evidence.proof is None or evidence.proof.margin > 0
+    if audit.stated or search.data.driven or not (found.suspects and found.established and better):
         return False
     left = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
     return bool(np.all(left < np.sqrt(2) * audit.noise))
