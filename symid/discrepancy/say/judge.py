@@ -51,7 +51,7 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
 
 
 def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> bool:
-    """Whether a rest is less than the noise of sensors of which nobody said how they err, beside a finding that helps."""
+    """Whether a rest beside a finding that helps is less than the noise of sensors that nobody stated."""
     found = evidence.found
     better = evidence.proof is None or evidence.proof.margin > 0
     if audit.stated or search.data.driven or not (found.suspects and found.established and better):
