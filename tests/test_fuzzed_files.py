@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from fuzz import few, odd, told
+from fuzz import few, of_json, told
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -34,7 +34,7 @@ def spoiled(draw, content):
     kind = draw(st.sampled_from(["exchanged", "renamed", "left out"]))
     value = table.pop(key)
     if kind != "left out":
-        table[draw(st.text(max_size=12)) if kind == "renamed" else key] = value if kind == "renamed" else draw(odd)
+        table[draw(st.text(max_size=12)) if kind == "renamed" else key] = value if kind == "renamed" else draw(of_json)
     return content
 
 

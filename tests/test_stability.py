@@ -14,6 +14,7 @@ from symid.analysis import Stability, stability, stability_of
 from symid.analysis.eigenvalues import complete, growth
 from symid.analysis.forward import Drive, forward_rms
 from symid.analysis.points import grid
+from symid.identification import Solution
 from symid.codegen import compile_program
 from symid.codegen.rates import slopes_program, step_program
 from symid.errors import CodegenError, ModelError
@@ -186,8 +187,9 @@ def test_without_gains_nothing_is_stable():
 @pytest.mark.parametrize("window", [(0.0, 2.0), None])
 def test_a_solution_is_judged_on_its_own_recording_and_window(window):
     model, waves = BODY.with_feedback(PD()), recording()
-    problem = SimpleNamespace(recordings=(waves,), windows=[window])
-    solution = SimpleNamespace(problem=problem, model=model, values=GAINS)
+    solution = object.__new__(Solution)  # as much of one as is read
+    problem = SimpleNamespace(recordings=(waves,), windows=[window], model=model)
+    solution.__dict__.update(problem=problem, values=GAINS)
     found = stability(solution, per_state=2)
     direct = stability_of(model, GAINS, waves, window=window or waves.interval, per_state=2)
     assert np.array_equal(found.growth, direct.growth)

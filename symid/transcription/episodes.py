@@ -64,8 +64,7 @@ class Episodes:
         shared_initial_state: bool = True,
         **by_word: float,
     ):
-        if int(count) != count or count < 1:
-            raise TranscriptionError(f"episodes: the count must be a whole number of at least 1, not {count}")
+        checked.whole(count, "episodes: the count", TranscriptionError, least=1)
         if distribution not in DISTRIBUTIONS:
             raise TranscriptionError(f"episodes: no distribution '{distribution}'; known: {', '.join(DISTRIBUTIONS)}")
         for word, value in {"amplitude": amplitude, **by_word}.items():

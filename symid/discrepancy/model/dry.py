@@ -18,7 +18,7 @@ noise in half a swing: a smoothed jump lets it creep at up to its width, and the
 
 WIDER = 0.05, 0.15, 0.5
 """Parts of the usual speed over which friction may set in that does not jump: of rubber, grease or skin."""
-MEANING = "width of the smoothed jump of dry friction"
+MEANING = "width of the smoothed jump of dry friction, as the recording asks for"
 
 
 def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.ndarray) -> Model:
