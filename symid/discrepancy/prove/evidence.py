@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.search import Search
@@ -66,7 +68,7 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
     nameless_too = bool(left and left[0].minus_log10_p > POLICY.remainder) or not found.established
     windows = _windows(task, plain)
     unnamed = nameless(found, data, windows.get("heldout"), search.progress) if nameless_too else Nameless()
-    final = improved(found, unnamed) if unnamed.fits else found.fit
+    final = improved(found, unnamed) if unnamed.fits and not near_noise(found, data) else found.fit
     runs = _runs(final, base, task, windows, refitted=final is found.fit)
     return Evidence(
         found,
@@ -82,6 +84,17 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
         unnamed,
         final,
     )
+
+
+def near_noise(found: Hypothesis, data: Data) -> bool:
+    """Whether laws with names leave little more of a free motion than sensors do: as much again, in power, at most.
+
+    Splines that follow such a rest in the fitted window need not do so elsewhere.
+    """
+    if data.driven or not (found.suspects and found.established):
+        return False
+    left = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
+    return bool(np.all(left < np.sqrt(2) * data.sensor_noise))
 
 
 def rivals(found: Hypothesis, ranking: Sequence[Hypothesis]) -> list:

@@ -13,7 +13,7 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.explore import moment_profile
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
-from symid.discrepancy.prove.evidence import Evidence
+from symid.discrepancy.prove.evidence import Evidence, near_noise
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import sentence
 from symid.estimation.data import Data
@@ -52,12 +52,8 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
 
 def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> bool:
     """Whether a rest beside a finding that helps is less than the noise of sensors that nobody stated."""
-    found = evidence.found
     better = evidence.proof is None or evidence.proof.margin > 0
-    if audit.stated or search.data.driven or not (found.suspects and found.established and better):
-        return False
-    left = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
-    return bool(np.all(left < np.sqrt(2) * audit.noise))
+    return better and not audit.stated and near_noise(evidence.found, search.data)
 
 
 def _voted(flexible: Hypothesis, effect: Effect, rest: Test | None) -> str:
