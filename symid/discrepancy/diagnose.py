@@ -91,14 +91,15 @@ def diagnose(
 
     # Locate: what the recording can be trusted for, and what the model as given leaves of it.
     checked = audit(task.model, task.recording, pieces, sensor_noise, filter)
-    task = replace(task, model=with_friction_speeds(task.model, pieces, checked.noise))
+    given = task.model
+    task = replace(task, model=with_friction_speeds(given, pieces, checked.noise))
     pool = list(suspects_of(task.model) if suspects is None else suspects)
     plain = Data(pieces, checked.noise, driven, checked.rounding).thinned()
     window = task.fit_window, task.segment_length
     possible = fits_of(
         task.model, task.recording, *window, plain, checked.filter, checked.inputs, task.start, checked.known
     )
-    possible = [(data, with_likeliest_jumps(fit, data)) for data, fit in possible]
+    possible = [(data, with_likeliest_jumps(given, fit, data)) for data, fit in possible]
     progress(f"the model as given is fitted ({possible[0][1].iterations} iterations)")
 
     # Name: the laws that explain it.

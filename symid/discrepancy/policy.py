@@ -37,6 +37,8 @@ class Policy:
     remainder : likewise, above which a rest counts as systematic.
     located : likewise, above which a test tells the place of a rest.
     far : errors so many times the sensors' noise are not explained by whatever acts at one place alone.
+    sensors : laws with names explain a free motion where they leave no more than so many times the sensors' rms
+        noise: as much again, in power. A judgement, looked at on an air-track glider.
     sure : an effect not so many honest standard errors from nothing is left out.
     apart : values of two halves that differ by so many standard errors contradict each other.
     confirm : probability that the held-out data must give to the improvement.
@@ -67,6 +69,7 @@ class Policy:
     remainder: float = 4.5
     located: float = 2.0
     far: float = 5.0
+    sensors: float = 2**0.5
     sure: float = 2.0
     apart: float = 3.0
     confirm: float = 0.95
@@ -85,6 +88,7 @@ class Policy:
     near: float = 50.0
     near_share: float = 0.1
     rivals: int = 5
+    rivals_on_halves: int = 3
     beam: int = 3
     beam_share: float = 0.3
 

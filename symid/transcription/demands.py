@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -113,18 +114,22 @@ class Demands:
 
     def _ends(self, rows: list[tuple[str, Row]], name: str) -> Iterator[Block]:
         if rows:
-            kernel = self._compiled(ends_program(self.model, [r.expr for _, r in rows], name, self.duration), "numpy")
-            for e in range(len(self.recording_of)):
-                yield Block(
-                    kernel,
-                    self._both_ends(e),
-                    self.layout.parameter_columns(e),
-                    self._end_data(e),
-                    self._constants(e),
-                    self.layout.size,
-                    **_bounds_and_names(rows),
-                    where=f" of episode {e + 1}",
-                )
+            blocks = self._at_ends([r.expr for _, r in rows], name, **_bounds_and_names(rows))
+            yield from (replace(b, where=f" of episode {e + 1}") for e, b in enumerate(blocks))
+
+    def _at_ends(self, expressions: list, name: str, **more) -> Iterator[Block]:
+        """Expressions of both ends of each episode; `more` goes to each Block."""
+        kernel = self._compiled(ends_program(self.model, expressions, name, self.duration), "numpy")
+        for e in range(len(self.recording_of)):
+            yield Block(
+                kernel,
+                self._both_ends(e),
+                self.layout.parameter_columns(e),
+                self._end_data(e),
+                self._constants(e),
+                self.layout.size,
+                **more,
+            )
 
     def _parameters(self) -> Iterator[Block]:
         rows = parameter_rows(self.model)
@@ -193,18 +198,8 @@ class Demands:
 
     def _terminal(self, total, name: str, weight: float, likelihood: bool = False) -> Iterator[Block]:
         if total != 0:
-            kernel = self._compiled(ends_program(self.model, [total], name, self.duration), "numpy")
-            for e in range(len(self.recording_of)):
-                yield Block(
-                    kernel,
-                    self._both_ends(e),
-                    self.layout.parameter_columns(e),
-                    self._end_data(e),
-                    self._constants(e),
-                    self.layout.size,
-                    weights=np.full((1, 1), weight),
-                    likelihood=np.array([likelihood]),
-                )
+            weights, counted = np.full((1, 1), weight), np.array([likelihood])
+            yield from self._at_ends([total], name, weights=weights, likelihood=counted)
 
     def _both_ends(self, e: int):
         columns = self.layout.node_view(np.arange(self.layout.size), e)[[0, -1]].reshape(1, -1)

@@ -14,11 +14,8 @@ PARTS = 1e-4, 0.005
 """Narrowest and widest jump of smoothed dry friction, as parts of the usual speed: the integrator can resolve the one,
 and a motion that dies away shows the other. Between them what sticks creeps by no more than the sensors'
 noise in half a swing: a smoothed jump lets it creep at up to its width, and the angle of a shaft keeps that."""
-
-
 WIDER = 0.05, 0.15, 0.5
 """Parts of the usual speed over which friction may set in that does not jump: of rubber, grease or skin."""
-MEANING = "width of the smoothed jump of dry friction, as the recording asks for"
 
 
 def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.ndarray) -> Model:
@@ -37,7 +34,7 @@ def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.nd
                 unit="m/s" if is_linear(model, port.at) else "rad/s",
                 role="friction_speed",
                 at=port.at,
-                meaning=MEANING,
+                meaning="width of the smoothed jump of dry friction",
             )
             setattr(new, f"{port.name}_friction_speed", width)
     return new

@@ -22,9 +22,6 @@ from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
 
-RIVALS = 3
-"""So many suspects are compared with the finding on each half."""
-
 
 @dataclass(frozen=True, eq=False)
 class Evidence:
@@ -94,13 +91,15 @@ def near_noise(found: Hypothesis, data: Data) -> bool:
     if data.driven or not (found.suspects and found.established):
         return False
     left = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
-    return bool(np.all(left < np.sqrt(2) * data.sensor_noise))
+    return bool(np.all(left < POLICY.sensors * data.sensor_noise))
 
 
 def rivals(found: Hypothesis, ranking: Sequence[Hypothesis]) -> list:
     """The best named suspects that were not chosen."""
     taken = {s.term for s in found.suspects}
-    return [c.suspect for c in ranking if c.suspect.established and c.suspect.term not in taken][:RIVALS]
+    return [c.suspect for c in ranking if c.suspect.established and c.suspect.term not in taken][
+        : POLICY.rivals_on_halves
+    ]
 
 
 def _windows(task: Task, plain: Data) -> dict[str, Data]:
