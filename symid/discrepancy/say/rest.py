@@ -90,7 +90,7 @@ def _force(rest: Rest) -> str:
     follows = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
     largest = float(np.quantile(np.abs(rest.force), 0.99))
     return (
-        f"What is left is like a {what} at {place_name(rest.port.at)} of {quantity(rest.whole.rms, unit=unit)} "
+        f"What no established law explains is like {'an' if what[0] in 'aeiou' else 'a'} {what} at {place_name(rest.port.at)} of {quantity(rest.whole.rms, unit=unit)} "
         f"(rms; up to {quantity(largest, unit=unit)}) that follows the {follows}."
     )
 
