@@ -89,9 +89,10 @@ def _force(rest: Rest) -> str:
     names = list(dict.fromkeys(signal_name(rest.model, rest.port, s) for s in rest.signals))
     follows = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
     largest = float(np.quantile(np.abs(rest.force), 0.99))
+    article = "an" if what == "acceleration" else "a"
     return (
-        f"What no established law explains is like {'an' if what[0] in 'aeiou' else 'a'} {what} at {place_name(rest.port.at)} of {quantity(rest.whole.rms, unit=unit)} "
-        f"(rms; up to {quantity(largest, unit=unit)}) that follows the {follows}."
+        f"What no established law explains is like {article} {what} at {place_name(rest.port.at)} of "
+        f"{quantity(rest.whole.rms, unit=unit)} (rms; up to {quantity(largest, unit=unit)}) that follows the {follows}."
     )
 
 
