@@ -16,10 +16,17 @@ import symid.cli as cli
 from symid.cli.options import add_level_arguments, refuse_absurd
 from symid.errors import SymidError
 from symid.progress import NORMAL, QUIET, VERBOSE, alive, set_level
+from symid.threads import room_for
 
 # Every module of this package but these is a command: SUMMARY, EXAMPLES, add_arguments(parser), run(arguments) -> code.
 NOT_COMMANDS = ("__main__", "main", "options")
 SOLVED, NOT_SOLVED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+LEAST_BYTES = 700 * 2**20
+"""Addresses that the libraries take before the first number is read: 510 to 600 MB, and a small problem's."""
+TOO_LITTLE = (
+    f"this process may take less than {LEAST_BYTES / 1e6:.0f} MB more memory; symid needs that much to begin with. "
+    "Raise the limit (`ulimit -v`, the memory of the container or of the job), or free memory"
+)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -27,6 +34,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parsed = build_parser().parse_args(arguments)
     set_level(QUIET if parsed.quiet else VERBOSE if parsed.verbose else NORMAL)
     warnings.showwarning = _show_warning
+    if not room_for(LEAST_BYTES):
+        print(f"symid: error: {TOO_LITTLE}", file=sys.stderr)
+        return BAD_INPUT
     try:
         refuse_absurd(parsed)
         with alive(lambda: f"symid {parsed.command} is at work"):

@@ -28,7 +28,7 @@ from symid.estimation.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.model import Model
 from symid.recording import Recording
-from symid.threads import one_blas_thread
+from symid.threads import hold_blas_memory, one_blas_thread
 
 
 @one_blas_thread
@@ -78,6 +78,7 @@ def diagnose(
     >>> found                                                                                    # doctest: +SKIP
     <Diagnosis: missing_physics: coulomb_friction at joint2>
     """
+    hold_blas_memory(threads)
     task = task_of(
         subject, recording, fit_window, start, held_out=held_out, segment_length=segment_length, settling=settling
     )
