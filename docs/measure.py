@@ -63,7 +63,7 @@ def speed() -> dict:
 
 def coverage(repeats: int = 60) -> dict:
     """How often a 95 % interval holds the truth, by the systems of tests/coverage_systems.py that are quick."""
-    sys.path.insert(0, str(ROOT / "tests"))
+    sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tests" / "identification")]
     from test_coverage import counted, repeat
 
     rows = []

@@ -46,7 +46,7 @@ def hold_blas_memory(threads: int) -> None:
 
     need = BLAS_BYTES * (threads + 1) + STACK_BYTES * threads  # SciPy's copy computes under Python's lock: one buffer
     if not room_for(need):
-        raise MemoryError(f"linear algebra in {threads} threads needs {need / 1e6:.0f} MB")
+        raise MemoryError(f"linear algebra in {threads} thread{'s' * (threads > 1)} needs {need / 1e6:.0f} MB more")
     square, together = np.eye(200), threading.Barrier(threads)
     dgemm(1.0, square, square)
 

@@ -10,7 +10,9 @@ import sympy as sm
 import symid.model as si
 from symid.recording import Recording
 
-SHARED = Path(__file__).resolve().parents[2] / "shared"
+TESTS = Path(__file__).resolve().parent
+ROOT = TESTS.parent
+SHARED = ROOT.parent / "shared"
 if SHARED.is_dir():  # for the notebooks, too, which run in processes of their own
     os.environ.setdefault("SYMID_STANDING", str(SHARED / "recordings" / "standing_subject05"))
 
@@ -70,6 +72,48 @@ def pendulum_recording(
         {"angle": angle, "rate": x[1], "drive": drive(time)},
         {"angle": "rad", "rate": "rad/s", "drive": "rad/s^2"},
     )
+
+
+@pytest.fixture(scope="module")
+def empty_cache(tmp_path_factory):
+    """A cache of kernels of the module's own, empty at first."""
+    folder = tmp_path_factory.mktemp("cache")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("SYMID_CACHE_DIR", str(folder))
+        yield folder
+
+
+@pytest.fixture(scope="module")
+def pool():
+    """Two workers of studies."""
+    from symid.identification import LocalPool
+
+    with LocalPool(2) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def undisturbed(pool):
+    """The numbers of a study that nothing happened to."""
+    from study_problems import numbers, study
+
+    return numbers(study().run(pool, on_finished=None))
+
+
+@pytest.fixture
+def solved(monkeypatch) -> list[str]:
+    """Grows by the key of every solve of a study that is done in this process."""
+    from symid.identification import dispatch
+
+    done = []
+
+    def note(solve, on_iteration=None):
+        done.append(solve.key)
+        return original(solve, on_iteration)
+
+    original = dispatch.solve_here
+    monkeypatch.setattr(dispatch, "solve_here", note)
+    return done
 
 
 def pytest_terminal_summary(terminalreporter) -> None:

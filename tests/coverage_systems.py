@@ -8,7 +8,6 @@ from symid.mechanics import FullStatePD
 from symid.simulation import simulator
 from symid.synthetic import BODY, GAINS, standing_recording
 
-
 ALGEBRAIC = np.array([[1e6, 3.0], [3.0, 1e-4]])
 """Covariance of the noise of the two channels of `algebraic`."""
 SENSOR = 3e-3

@@ -54,6 +54,10 @@ def kept(store: Path) -> dict[str, int]:
     return {f.stem: f.stat().st_mtime_ns for f in store.glob("*.json") if f.name != "study.json"}
 
 
+def numbers_of(undisturbed, starts):
+    return {name: n for name, n in undisturbed.items() if int(name.rsplit("/", 1)[1]) < starts}
+
+
 if __name__ == "__main__":
     place = sys.argv[2]
     with LocalPool(int(place)) if place.isdigit() else Cluster(place) as executor:

@@ -60,7 +60,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return BAD_INPUT
     except (MemoryError, ImportError) as failure:  # a library that finds no memory cannot be imported
         said = " ".join(str(failure).split())[:300]
-        print(f"symid: error: {type(failure).__name__}: {said}. Is there memory enough?", file=sys.stderr)
+        print(f"symid: error: {type(failure).__name__}: {said}. Is there memory enough (`ulimit -v`)?", file=sys.stderr)
         return BAD_INPUT
     except KeyboardInterrupt:
         print("symid: interrupted", file=sys.stderr)

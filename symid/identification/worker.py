@@ -17,6 +17,7 @@ from symid.identification.start_row import StartRow
 from symid.ipopt_solver import Iteration, SolverResult
 from symid.ipopt_solver.bounded import LEAVE
 from symid.ipopt_solver.status import STATUS, WALL_TIME
+from symid.threads import hold_blas_memory
 
 if TYPE_CHECKING:
     import numpy as np
@@ -59,6 +60,7 @@ def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | 
     """
     limit = solve.time_limit_s
     try:
+        hold_blas_memory(1)
         transcription = solve.problem.transcription
         began = time.perf_counter()
         with deadline(limit):

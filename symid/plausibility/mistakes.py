@@ -22,8 +22,8 @@ BETTER = 1.5
 """A mistake is named where undoing it leaves so many times less unexplained ...
 
 Chosen on 24 recordings of standing: none that was right is blamed, 215 of 240 planted mistakes are named. The others
-are in recordings in which process noise or missing physics dominates. `tests/test_plausibility.py` asks for remarks on
-such recordings.
+are in recordings in which process noise or missing physics dominates. `tests/recording/test_plausibility.py` asks for
+remarks on such recordings.
 """
 CLEAR = 0.5
 """... and no more than this: where nothing explains the motion, nothing is blamed."""

@@ -1,0 +1,96 @@
+"""Every public name says what it is, with an example, and the examples are true."""
+
+import doctest
+import inspect
+
+import numpy as np
+import pytest
+import sympy as sm
+from conftest import ROOT, pendulum, pendulum_recording
+
+import symid as si
+
+DATA_FOLDER = ROOT / "data"
+FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEPTION_DETAIL
+PUBLIC = {name: getattr(si, name) for name in si.__all__ if name != "mechanics"}
+PUBLIC |= {f"mechanics.{name}": getattr(si.mechanics, name) for name in si.mechanics.__all__}
+DATA = ("mechanics.CANONICAL", "mechanics.LIBRARY")
+"""Tables, described where they are defined."""
+
+
+def methods(kind: type) -> dict[str, str | None]:
+    """Public methods and properties that a class defines itself -> docstring."""
+    found = {}
+    for name, thing in vars(kind).items():
+        inner = getattr(thing, "fget", None) or getattr(thing, "func", None) or getattr(thing, "__func__", thing)
+        if not name.startswith("_") and inspect.isfunction(inner):
+            found[name] = thing.__doc__ if isinstance(thing, property) else inspect.getdoc(getattr(kind, name))
+    return found
+
+
+@pytest.mark.parametrize("name", [n for n in PUBLIC if n not in DATA])
+def test_a_public_name_has_a_docstring_with_an_example(name):
+    thing = PUBLIC[name]
+    assert thing.__doc__ and ">>>" in thing.__doc__ or "::" in thing.__doc__, name
+    if inspect.isclass(thing):
+        silent = [n for n, text in methods(thing).items() if not text]
+        assert not silent, f"{name} has methods that say nothing: {silent}"
+
+
+@pytest.fixture(scope="module")
+def prepared():
+    """What the examples take for granted: a model, a recording, and `m`, which has a few parts already."""
+    recording, model = pendulum_recording(noise=0.01), pendulum()
+    recording = recording.with_channel("velocity", recording["rate"], "rad/s")
+    names = {n: getattr(si.mechanics, n) for n in si.mechanics.__all__} | {n: getattr(si, n) for n in si.__all__}
+    solution = si.Identification(model, recording).solve()
+    around = {"model": model, "recording": recording, "solution": solution}
+    return names | around | {"si": si, "np": np, "sm": sm, "sympy": sm}
+
+
+def a_model() -> si.Model:
+    m = si.Model("example")
+    for name in ("x", "y", "speed", "angle", "left", "right", "clock"):
+        setattr(m, name, si.State(unit="m"))
+    for name in ("c", "p1", "p2"):
+        setattr(m, name, si.Parameter(unit="1", bounds=(0, 1)))
+    return m
+
+
+def plannable() -> si.Model:
+    m = si.Model("cart")
+    m.x, m.v, m.force = si.State(unit="m"), si.State(unit="m/s"), si.Control(unit="m/s^2")
+    m.motion = si.Equation({0: m.x.dot - m.v, 1: m.v.dot - m.force})
+    m.ends = si.Boundary(initial={m.x: 0, m.v: 0}, terminal={m.x: 1, m.v: 0})
+    m.effort = si.Objective(running=m.force**2)
+    return m
+
+
+def first_order() -> si.Model:
+    m = si.Model("first order")
+    m.x, m.u = si.State(unit="1"), si.Control(unit="1", bounds=(-1, 1))
+    m.gain = si.Parameter(unit="1/s", bounds=(0.1, 10))
+    m.motion = si.Equation(m.x.dot + m.gain * (m.x - m.u))
+    m.begin = si.Boundary(initial={m.x: 0})
+    m.seen = si.Output(m.x)
+    return m
+
+
+@pytest.mark.parametrize("name", [n for n in PUBLIC if n not in DATA])
+def test_its_examples_are_true(name, prepared, monkeypatch, tmp_path):
+    (tmp_path / "data").symlink_to(DATA_FOLDER)
+    monkeypatch.chdir(tmp_path)  # files that an example writes land there
+    around = prepared | {"problem": si.Identification(prepared["model"], prepared["recording"]), "m": a_model()}
+    if name in ("Free", "Optimization"):
+        around["model"] = plannable()
+    if name == "design":
+        around["plant"] = first_order()
+    if name == "Objective":
+        around["m"].force = si.Control(unit="N")
+    if name.startswith("mechanics."):
+        around |= {n: getattr(si.mechanics, n) for n in si.mechanics.__all__}
+    tests = [t for t in doctest.DocTestFinder(recurse=False).find(PUBLIC[name], name, globs=around) if t.examples]
+    runner, told = doctest.DocTestRunner(optionflags=FLAGS), []
+    for test in tests:
+        runner.run(test, out=told.append)
+    assert runner.failures == 0, "".join(told)

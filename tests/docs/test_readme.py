@@ -1,0 +1,47 @@
+"""What the README says is true."""
+
+import re
+import subprocess
+import sys
+
+import pytest
+from conftest import ROOT
+
+from symid.cli.main import command_names
+
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def test_the_examples_run_as_they_stand(tmp_path):
+    examples = re.findall(r"```python\n(.*?)```", README, re.S)
+    assert all(len([line for line in example.splitlines() if line.strip()]) <= 12 for example in examples)
+    example = "\n".join(examples[:2])  # the third has a recording of the reader's: `test_own_suspect`
+    (tmp_path / "data").symlink_to(ROOT / "data")  # the folder that it names, so that its files land elsewhere
+    done = subprocess.run([sys.executable, "-c", example], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert "Solved" in done.stdout and "kp_aa" in done.stdout and "Plan of 'pendulum': objective 9.3" in done.stdout
+    assert (tmp_path / "fit.png").read_bytes().startswith(b"\x89PNG")
+    assert "</html>" in (tmp_path / "report.html").read_text()
+
+
+def test_the_commands_it_names_exist():
+    named = set(re.findall(r"`symid (\w+)", README))
+    assert named and named <= set(command_names())
+
+
+@pytest.mark.parametrize("target", re.findall(r"^    make (\w+)", README, re.M))
+def test_the_make_targets_it_names_exist(target):
+    assert re.search(rf"^{target}:", (ROOT / "Makefile").read_text(), re.M)
+
+
+@pytest.mark.parametrize("path", re.findall(r"\]\(([\w./]+)\)", README))
+def test_its_links_lead_somewhere(path):
+    assert (ROOT / path).exists()
+
+
+def test_the_legend_is_the_one_of_the_code():
+    import symid.units
+
+    legend = re.findall(r"^([A-Za-z]'?)\s{4,}", symid.units.__doc__, re.M)
+    for letter in legend:
+        assert re.search(rf"\| (\w, )?{letter}(, \S+)? \|", README), letter

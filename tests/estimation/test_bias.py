@@ -1,0 +1,72 @@
+"""Bias and spread of estimates in simulated repeats."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+from driven_cart import TRUE, cart, data_of, recorded
+
+from symid.estimation import bias
+from symid.estimation.bias import REPEATS, unbiased
+from symid.estimation.cold_start import fit_model
+
+
+@cache
+def fitted():
+    data = data_of(recorded(3))
+    return fit_model(cart(), data), data
+
+
+def with_repeats(monkeypatch, shift, spread):
+    """Repeats that miss the truth by `shift` and scatter by `spread` standard errors."""
+    fit, data = fitted()
+    errors = np.array([fit.errors[k] for k in fit.values])
+    scatter = np.random.default_rng(0).standard_normal((REPEATS, len(errors)))
+    scatter = (scatter - scatter.mean(0)) / scatter.std(0, ddof=1)
+    monkeypatch.setattr(
+        bias,
+        "_repeat",
+        lambda fit, data, seed: np.array(list(fit.values.values())) + errors * (shift + spread * scatter[seed]),
+    )
+    return fit, unbiased(fit, data, ["damping"])
+
+
+def test_repeats_of_an_honest_fit_change_nothing():
+    fit, data = fitted()
+    assert unbiased(fit, data, list(TRUE)).values == fit.values
+
+
+def test_repeats_scatter_as_the_standard_errors_say():
+    fit, data = fitted()
+    errors = np.array([fit.errors[k] for k in fit.values])
+    z = (np.array([bias._repeat(fit, data, seed) for seed in range(20)]) - list(fit.values.values())) / errors
+    assert np.abs(z.mean(0)).max() < 1 and 0.6 < z.std() < 1.5
+
+
+def test_a_bias_is_taken_off_and_paid_for(monkeypatch):
+    fit, new = with_repeats(monkeypatch, -3.0, 1.0)
+    assert new.values["damping"] == pytest.approx(fit.values["damping"] + 3 * fit.errors["damping"])
+    assert new.errors["damping"] == pytest.approx(fit.errors["damping"] * np.sqrt(1 + 1 / REPEATS))
+
+
+def test_a_biased_value_has_the_error_that_repeats_show(monkeypatch):
+    fit, new = with_repeats(monkeypatch, -3.0, 1.3)
+    assert new.errors["damping"] == pytest.approx(1.3 * fit.errors["damping"] * np.sqrt(1 + 1 / REPEATS))
+
+
+def test_a_bias_within_its_own_error_is_left(monkeypatch):
+    fit, new = with_repeats(monkeypatch, 0.8, 1.0)
+    assert new.values == fit.values and new.errors == pytest.approx(fit.errors)
+
+
+def test_too_small_errors_become_the_spread(monkeypatch):
+    fit, new = with_repeats(monkeypatch, 0.0, 2.5)
+    assert new.values == fit.values and new.errors["damping"] == pytest.approx(2.5 * fit.errors["damping"])
+
+
+def test_failing_repeats_and_free_motions_leave_the_fit(monkeypatch):
+    fit, data = fitted()
+    monkeypatch.setattr(bias, "_repeat", lambda *_: None)
+    assert unbiased(fit, data, ["damping"]) is fit
+    free = data_of(recorded(2, gust=0.0), driven=False, length=4.0)
+    assert unbiased(fit, free, ["damping"]) is fit

@@ -1,0 +1,180 @@
+"""The error model of a recording: filters are undone, memory is whitened, and neither is taken for physics."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from driven_cart import TRUE, cart, data_of, finding, recorded
+from scipy.signal import butter, filtfilt, lfilter
+
+from symid.estimation.cold_start import fit_model
+from symid.estimation.cutoff import estimated_filter
+from symid.estimation.measurement import fits_of, with_memory
+from symid.estimation.whitening import remembered, whitening_of
+from symid.estimation.zero_phase import ZeroPhase
+from symid.simulation import simulator
+
+STEP = 0.01
+
+
+def autoregressive(rng, n, memory, outputs=2):
+    return lfilter([1.0], [1.0, -memory], rng.standard_normal((n, outputs)), axis=0)
+
+
+# ---- memory ------------------------------------------------------------------------------------
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_whitening_finds_the_autoregression_and_leaves_unit_covariance(seed):
+    rng = np.random.default_rng(seed)
+    segments = [autoregressive(rng, 4000, 0.8), autoregressive(rng, 3000, 0.8)]
+    whitening = whitening_of(segments, 1)
+    np.testing.assert_allclose(whitening.lags[0], 0.8 * np.eye(2), atol=4 * np.sqrt((1 - 0.8**2) / 7000))
+    left = np.vstack([whitening(s[:, :, None]).reshape(s.shape) for s in segments])
+    np.testing.assert_allclose(left.T @ left / len(left), np.eye(2), atol=1e-12)
+    assert abs(np.corrcoef(left[1:, 0], left[:-1, 0])[0, 1]) < 4 / np.sqrt(7000)
+
+
+def test_without_memory_whitening_is_the_root_of_the_covariance_alone():
+    rng = np.random.default_rng(0)
+    series = rng.standard_normal((500, 2)) @ np.array([[1.0, 0.7], [0.0, 0.3]])
+    whitening, columns = whitening_of([series], 0), rng.standard_normal((500, 2, 3))
+    expected = np.einsum("ij,njq->niq", np.linalg.inv(np.linalg.cholesky(series.T @ series / 500)), columns)
+    np.testing.assert_allclose(whitening(columns), expected.reshape(-1, 3), atol=1e-12)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_white_noise_remembers_nothing_and_coloured_noise_something(seed):
+    rng = np.random.default_rng(seed)
+    assert remembered([rng.standard_normal((3000, 2))]) == 0
+    assert remembered([autoregressive(rng, 3000, 0.3)]) >= 1
+
+
+# ---- filters -----------------------------------------------------------------------------------
+@pytest.mark.parametrize(("order", "cutoff"), [(2, 4.0), (2, 10.0), (4, 6.0)])
+def test_gain_is_that_of_the_filter_forwards_and_backwards(order, cutoff):
+    impulse = np.zeros(4001)
+    impulse[2000] = 1.0
+    answer = filtfilt(*butter(order, cutoff * 2 * STEP), impulse)
+    gain = np.abs(np.fft.rfft(answer))
+    np.testing.assert_allclose(gain, ZeroPhase(order, cutoff, 1 / STEP).gain(np.fft.rfftfreq(4001, STEP)), atol=1e-6)
+
+
+def test_undoing_restores_what_the_filter_left():
+    rng = np.random.default_rng(0)
+    f = ZeroPhase(2, 6.0, 1 / STEP)
+    ratio = f.ratio(STEP)
+    quiet = np.fft.rfft(rng.standard_normal(6000))
+    quiet[np.fft.rfftfreq(6000, STEP) > 0.9 * 0.5 / STEP / ratio] = 0
+    x = np.fft.irfft(quiet, 6000)
+    restored, added = f.undone(filtfilt(*butter(2, 12.0 * STEP), x), STEP, ratio)
+    inside = slice(300, -300)
+    assert np.max(np.abs(restored - x)[inside]) < 0.01 * x.std()
+    sharper, _ = f.sharpened(1.3).undone(filtfilt(*butter(2, 12.0 * STEP), x), STEP, ratio)
+    np.testing.assert_allclose(sharper[inside], (restored + 0.3 * added)[inside], atol=1e-6 * x.std())
+
+
+def test_undoing_meets_no_kink_at_the_ends_of_a_large_swing():
+    time = np.arange(0, 24, STEP)
+    x = 0.8 * np.cos(7 * time + 1) * np.exp(-0.02 * time)
+    f = ZeroPhase(2, 6.0, 1 / STEP)
+    restored, _ = f.undone(filtfilt(*butter(2, 12.0 * STEP), x), STEP, f.ratio(STEP))
+    assert np.max(np.abs(restored - x)[200:-200]) < 2e-4
+
+
+@pytest.mark.parametrize("cutoff", [4.0, 8.0])
+def test_filter_is_told_from_what_the_motion_leaves(cutoff):
+    rng = np.random.default_rng(3)
+    n, force = 8000, rng.standard_normal(8000)
+    motion = lfilter([STEP**2], [1, -2 + 0.05 + 0.001, 1 - 0.05], force)  # a damped body under random force
+    recorded = filtfilt(*butter(2, cutoff * 2 * STEP), motion + 0.02 * motion.std() * rng.standard_normal(n))
+    found = estimated_filter([recorded], [], STEP)
+    assert found.order == 2
+    assert found.cutoff == pytest.approx(cutoff, rel=0.3)
+
+
+# ---- with a model ------------------------------------------------------------------------------
+def filtered(recording, cutoff=4.0):
+    """The recorded position low-pass filtered forwards and backwards, as motion capture is."""
+    position = filtfilt(*butter(2, cutoff * 2 * 0.02), recording["position"])
+    return replace(recording, channels=dict(recording.channels) | {"position": position})
+
+
+def unfiltered_fits(seed, start):
+    recording = filtered(recorded(seed))
+    return fits_of(cart(), recording, (0.0, 40.0), None, data_of(recording), ZeroPhase(2, start, 50.0), False, {})[0]
+
+
+def test_the_fit_finds_the_truth_and_the_cutoff_under_a_filter():
+    z = []
+    for seed, start in ((0, 4.6), (1, 3.6)):
+        data, fit = unfiltered_fits(seed, start)
+        assert data.filter.sharpened(fit.process[-1]).cutoff == pytest.approx(4.0, rel=0.05)
+        assert remembered(fit.innovations) <= 1
+        z += [(fit.values[k] - TRUE[k]) / fit.errors[k] for k in TRUE]
+    assert np.abs(z).max() < 4
+
+
+def test_fits_of_a_recording_as_it_is_where_nothing_was_filtered():
+    plain = data_of(recorded(0))
+    ((data, fit),) = fits_of(cart(), recorded(0), (0.0, 40.0), None, plain, None, False, {})
+    assert data is plain and fit.values["stiffness"] == pytest.approx(
+        TRUE["stiffness"], abs=4 * fit.errors["stiffness"]
+    )
+
+
+def test_inputs_may_have_gone_through_the_filter_too():
+    recording = filtered(recorded(1))
+    possible = fits_of(cart(), recording, (0.0, 40.0), None, data_of(recording), ZeroPhase(2, 4.0, 50.0), True, {})
+    assert len(possible) == 2 and possible[0][1].loglik2 > possible[1][1].loglik2 + 50  # here they have not
+    assert possible[0][0].cutoff_free and not possible[1][0].cutoff_free
+
+
+def test_sparser_outputs_keep_all_of_the_inputs():
+    (segment,) = data_of(recorded(0)).segments
+    sparse, sim = segment.sparser(5), simulator(cart())
+    whole = segment.simulate(sim, TRUE, np.zeros(2), substeps=2)
+    part = sparse.simulate(sim, TRUE, np.zeros(2), substeps=10)
+    np.testing.assert_allclose(part.y, whole.y[::5], atol=1e-12)
+    half = sparse.part(slice(100, 300))
+    again = half.simulate(sim, TRUE, whole.x[500], substeps=10)
+    np.testing.assert_allclose(again.y, whole.y[500:1500:5], atol=1e-9)
+
+
+def test_a_gain_corrects_at_the_samples_of_the_outputs_only():
+    (segment,) = data_of(recorded(0)).segments
+    gain, seen = np.array([[0.3], [1.0]]), segment.sparser(5)
+    blind = np.full_like(segment.recorded, np.nan)
+    blind[::5] = segment.recorded[::5]
+    expected = replace(segment, recorded=blind).simulate(simulator(cart()), TRUE, np.zeros(2), gain, substeps=2)
+    run = seen.simulate(simulator(cart()), TRUE, np.zeros(2), gain, substeps=10)
+    np.testing.assert_allclose(run.y, expected.y[::5], atol=1e-12)
+
+
+def test_memory_of_the_sensors_widens_errors_to_what_repeats_scatter():
+    z = []
+    for seed in range(3):
+        recording = recorded(seed, gust=0.02)
+        rng = np.random.default_rng(seed)
+        noise = 2e-3 * autoregressive(rng, len(recording), 0.85, outputs=1)[:, 0]
+        data = data_of(
+            replace(recording, channels=dict(recording.channels) | {"position": recording["position"] + noise})
+        )
+        white = fit_model(cart(), data)
+        coloured, fit = with_memory(white, data)
+        assert coloured.memory > 0 and remembered(fit.remaining) == 0
+        z += [(fit.values[k] - TRUE[k]) / fit.errors[k] for k in TRUE]
+    assert np.abs(z).max() < 4 and np.std(z) < 1.7
+
+
+def test_nothing_is_found_in_a_filtered_recording_that_lacks_nothing():
+    finding_of = finding(filtered(recorded(5)))
+    assert finding_of.verdict == "adequate"
+    assert "low-pass filtered" in finding_of.words and "undone" in finding_of.words
+
+
+def test_a_stated_filter_keeps_its_cutoff():
+    recording = filtered(recorded(0))
+    ((data, fit),) = fits_of(
+        cart(), recording, (0.0, 40.0), None, data_of(recording), ZeroPhase(2, 4.0, 50.0), False, {}, known=True
+    )
+    assert not data.cutoff_free and data.filter == ZeroPhase(2, 4.0, 50.0)
+    assert fit.values["stiffness"] == pytest.approx(TRUE["stiffness"], abs=4 * fit.errors["stiffness"])

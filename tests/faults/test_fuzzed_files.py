@@ -1,0 +1,153 @@
+"""Files that a user writes, spoiled by hypothesis: one exception of symid, or a result; never another, never a hang."""
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+from conftest import ROOT
+from fuzz import few, of_json, told
+from hypothesis import given
+from hypothesis import strategies as st
+
+from symid.cases import read_case
+from symid.errors import RecordingError, SymidError
+from symid.mechanics import DoubleLinkPendulum, rig_model
+from symid.recording import Recording, fill_gaps, read_recording, resample
+
+DATA = ROOT / "data"
+BODY = json.loads((DATA / "standing_synthetic" / "body.json").read_text())
+CASES = [json.loads((DATA / "concealed" / "cases" / name / "case.json").read_text()) for name in ("r01", "s01")]
+RIG = CASES[0]["parameters"]
+
+
+@st.composite
+def spoiled(draw, content):
+    """The content with one entry exchanged, renamed or left out, also inside tables."""
+    content = json.loads(json.dumps(content))
+    table = content
+    while True:
+        key = draw(st.sampled_from(sorted(table)))
+        if not isinstance(table[key], dict) or not table[key] or draw(st.booleans()):
+            break
+        table = table[key]
+    kind = draw(st.sampled_from(["exchanged", "renamed", "left out"]))
+    value = table.pop(key)
+    if kind != "left out":
+        table[draw(st.text(max_size=12)) if kind == "renamed" else key] = value if kind == "renamed" else draw(of_json)
+    return content
+
+
+@few
+@given(spoiled(BODY))
+def test_bodies(tmp_path, content):
+    (tmp_path / "body.json").write_text(json.dumps(content))
+    told(DoubleLinkPendulum.from_json, tmp_path / "body.json")
+
+
+@few
+@given(spoiled(RIG))
+def test_rigs(content):
+    told(rig_model, content)
+
+
+@pytest.mark.parametrize("kind", [0, 1])
+def test_cases(tmp_path, kind):
+    rows = "\n".join(f"{0.01 * i:.2f},{np.sin(0.1 * i):.6f},{np.cos(0.1 * i):.6f},{0.1 * (i % 7)}" for i in range(60))
+    names = ("link1_angle_rad,link2_angle_rad,other_m", "ankle_angle_rad,hip_angle_rad,platform_acceleration_m_s2")[
+        kind
+    ]
+    (tmp_path / "recording.csv").write_text(f"time_s,{names}\n{rows}\n")
+
+    @few
+    @given(spoiled(CASES[kind] | {"fit_window_s": [0, 0.4], "heldout_window_s": [0.4, 0.55]}))
+    def check(content):
+        (tmp_path / "case.json").write_text(json.dumps(content))
+        told(read_case, tmp_path)
+
+    check()
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        b"\xff",
+        b"[" * 100_000,
+        b'{"system": NaN}',
+        b'{"system": ' + b"9" * 5000 + b"}",
+        b"",
+        b"[]",
+        b'{"system": "standing", "body": [1], "baseline": [2], "id": 3}',
+    ],
+)
+def test_spoiled_json_ends_in_one_sentence(tmp_path, text):
+    (tmp_path / "case.json").write_bytes(text)
+    (tmp_path / "recording.csv").write_text("time_s,a_m\n0,1\n1,2\n")
+    with pytest.raises(SymidError):
+        read_case(tmp_path)
+    with pytest.raises(RecordingError):
+        DoubleLinkPendulum.from_json(tmp_path / "case.json")
+
+
+def test_all_violations_of_a_case_are_told_at_once_with_their_places(tmp_path):
+    body = CASES[1]["body"] | {"l_L_m": "long", "m_T_kg": -3}
+    (tmp_path / "case.json").write_text(json.dumps(CASES[1] | {"body": body, "baseline": {"controller": 4}}))
+    with pytest.raises(
+        SymidError,
+        match=r"baseline.controller: must be a string, found 4; body.l_L_m: .*; body.m_T_kg: must be above 0",
+    ):
+        read_case(tmp_path)
+
+
+@pytest.mark.parametrize("key", ["m999999_kg", "m9999_kg", "m1_kg" * 200, "m" + "9" * 5000 + "_kg"])
+def test_a_rig_of_a_million_links_is_refused_at_once(key):
+    with pytest.raises(RecordingError):
+        rig_model(RIG | {key: 1.0})
+
+
+@pytest.mark.parametrize("time", [[0, 1e-9, 1e9], [0, 1e-300, 1e300], [0, 1, 1e18]])
+def test_times_that_would_need_endless_memory_are_refused(time):
+    recording = Recording("r", np.array(time), {"a": np.zeros(3)}, {"a": "m"})
+    for verb in (lambda: fill_gaps(recording, 1e300), lambda: resample(recording, 1e12)):
+        with pytest.raises(RecordingError):
+            verb()
+
+
+@few
+@given(st.binary(max_size=200))
+def test_recordings_of_any_bytes(tmp_path, content):
+    for name in ("r.csv", "r.tsv", "r.trc", "r.mot"):
+        (tmp_path / name).write_bytes(content)
+        told(read_recording, tmp_path / name)
+
+
+CELLS = st.sampled_from(["", "1", "0.5", "-3e300", "nan", "inf", "1_0", "x", "1e999", '"', '"1,2"', " 2 ", "٣"])
+
+
+@few
+@given(st.lists(st.lists(CELLS, min_size=2, max_size=4), min_size=1, max_size=6), st.booleans())
+def test_recordings_of_any_cells(tmp_path, rows, gaps):
+    text = "\n".join(",".join(row) for row in rows)
+    (tmp_path / "r.csv").write_text(f"time_s,ankle_angle_deg,hip_angle_deg\n{text}\n", encoding="utf-8")
+    try:
+        recording = read_recording(tmp_path / "r.csv", allow_gaps=gaps)
+    except SymidError:
+        return
+    assert all(len(row) == 3 or (len(row) == 4 and not row[3].strip()) for row in rows if any(c.strip() for c in row))
+    assert len(recording) >= 2
+
+
+@pytest.mark.parametrize(
+    ("stated", "said"),
+    [
+        ({"order": 2, "cutoff_Hz": 6.0, "zero_phase": False}, "filter.zero_phase: must be True, since only filters"),
+        ({"order": 0, "cutoff_Hz": 6.0}, "filter.order: must be one of"),
+        ({"order": 2}, "'cutoff_Hz' is a required property"),
+        ({"order": 2, "cutoff_Hz": 400.0}, "must be below half of the"),
+    ],
+)
+def test_a_filter_that_cannot_be_undone_is_refused(tmp_path, stated, said):
+    (tmp_path / "case.json").write_text(json.dumps(CASES[1] | {"filter": stated}))
+    shutil.copy(DATA / "concealed" / "cases" / "s01" / "recording.csv", tmp_path)
+    with pytest.raises(SymidError, match=said):
+        read_case(tmp_path)
