@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from math import inf, isnan
 from pathlib import Path
 from typing import Any
@@ -58,3 +58,11 @@ def kind(value: Any, wanted: type | tuple[type, ...], what: str, error: type[Sym
         names = [k.__name__ for k in (wanted if isinstance(wanted, tuple) else (wanted,))]
         raise error(f"{what}: give a {' or a '.join(names)}, not {shown(value)}")
     return value
+
+
+def nearest(name: str, names: Iterable[str]) -> str:
+    """A phrase with the known names most like `name`, for error messages."""
+    from difflib import get_close_matches
+
+    close = get_close_matches(str(name), list(names), n=3, cutoff=0.5)
+    return f"did you mean {', '.join(map(repr, close))}?" if close else f"known: {', '.join(names) or 'none'}"

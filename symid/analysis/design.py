@@ -11,8 +11,9 @@ import numpy as np
 import pandas as pd
 
 from symid import checked
+from symid.checked import nearest
 from symid.errors import ModelError
-from symid.model import Model, nearest
+from symid.model import Model
 from symid.model.information import RATE, information_name, with_information
 from symid.optimization import Optimization, Plan
 

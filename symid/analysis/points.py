@@ -6,9 +6,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from symid.checked import nearest
 from symid.codegen import Kernel, Program, compile_program
 from symid.errors import ModelError
-from symid.model import Model, nearest
+from symid.model import Model
 from symid.units import FloatArray
 
 _KERNELS: dict[tuple[str, str], Kernel] = {}

@@ -9,11 +9,11 @@ import numpy as np
 import pandas as pd
 
 from symid import checked
+from symid.checked import nearest
 from symid.errors import ModelError
 from symid.identification import Solution
 from symid.identification.covariance import ParameterErrors
 from symid.ipopt_solver import SolverResult
-from symid.model import nearest
 
 LIMIT = 3.841458820694124
 """95 % point of chi-squared with one degree of freedom (Wilks 1938)."""

@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 
 from symid import checked
+from symid.checked import nearest
 from symid.errors import ModelError
 from symid.identification import Solution
 from symid.identification.covariance import ParameterErrors
-from symid.model import nearest
 
 LIMIT = 5.991464547107979
 """95 % point of chi-squared with two degrees of freedom (Wilks 1938)."""

@@ -7,10 +7,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from symid.checked import nearest
 from symid.conceal.setup import Setup
 from symid.errors import SymidError
 from symid.mechanics import CANONICAL, LIBRARY
-from symid.model import Term, nearest
+from symid.model import Term
 
 Range = tuple[float, float]
 

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symid.checked import nearest
 from symid.errors import TranscriptionError
 from symid.identification.sensitivity import outputs_and_targets
-from symid.model import nearest
 from symid.transcription import Measured
 
 if TYPE_CHECKING:

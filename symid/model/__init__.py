@@ -17,7 +17,7 @@ from symid.model.declare import (
     Process,
     State,
 )
-from symid.model.model import TIME, Model, nearest
+from symid.model.model import TIME, Model
 from symid.model.prior import LogNormal, Normal, Prior
 from symid.model.quantity import initial, symbol, terminal
 from symid.model.table import table
@@ -51,7 +51,6 @@ __all__ = [
     "State",
     "Term",
     "initial",
-    "nearest",
     "symbol",
     "table",
     "terminal",

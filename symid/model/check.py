@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from numbers import Real
 from math import isfinite, isnan, nan
+from numbers import Real
 
 import sympy as sm
 
+from symid.checked import nearest
 from symid.errors import ModelError, SymidError
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
@@ -25,7 +26,7 @@ from symid.model.declare import (
     State,
 )
 from symid.model.dimensions import Mismatch, dimension_of, dimensions_of_symbols
-from symid.model.model import TIME, Model, nearest
+from symid.model.model import TIME, Model
 from symid.model.prior import LogNormal, Prior
 from symid.model.quantity import initial, terminal
 from symid.units import dimension, known_unit

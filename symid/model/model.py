@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import hashlib
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
-from math import inf
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import sympy as sm
 
 from symid import checked
 from symid.errors import ModelError
+from symid.model import variants
 from symid.model.attach import completed, hint, refuse_wrong_types
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
@@ -31,6 +30,7 @@ from symid.model.declare import (
     Process,
     State,
 )
+from symid.model.fingerprint import fingerprint_of
 from symid.model.quantity import Operand, refuse_calculus, symbol, sympified
 
 if TYPE_CHECKING:
@@ -40,8 +40,6 @@ Part = TypeVar("Part", bound=Component)
 TIME = symbol("t")
 MOST_TOLD = 20
 """Violations in a message; the exception has them all."""
-FREE_FACTOR = 10.0
-"""What was written down as known is rarely wrong by more than an order of magnitude."""
 
 
 def _kind(kind: type[Part]) -> dict[str, Part]:
@@ -115,7 +113,7 @@ class Model:
     def __getitem__(self, name: str) -> Any:
         """The part called `name`; ModelError with the nearest names if there is none."""
         if name not in self.components:
-            raise ModelError(f"model '{self.name}' has no part '{name}'; {nearest(name, self.components)}")
+            raise ModelError(f"model '{self.name}' has no part '{name}'; {checked.nearest(name, self.components)}")
         return self.components[name]
 
     def __dir__(self) -> list[str]:
@@ -231,109 +229,53 @@ class Model:
 
     def with_constants(self, **values: float) -> Model:
         """A new model with other values [in the constants' own units]."""
-        return self._with({k: replace(self._part(k, Constant), value=_number(k, v)) for k, v in values.items()})
+        return variants.with_constants(self, values)
 
     def with_bounds(self, **bounds: Bounds) -> Model:
         """A new model with other bounds on states, controls or parameters [in their own units]."""
-        return self._with(
-            {k: replace(self._part(k, (State, Algebraic, Control, Parameter)), bounds=b) for k, b in bounds.items()}
-        )
+        return variants.with_bounds(self, bounds)
 
     def fixed(self, **values: float) -> Model:
         """A new model in which these parameters are known constants."""
-        parts = {k: (self._part(k, Parameter), v) for k, v in values.items()}
-        return self._with(
-            {
-                k: Constant(_number(k, v), unit=c.unit, meaning=c.meaning, role=c.role, at=c.at, latex=c.latex, name=k)
-                for k, (c, v) in parts.items()
-            }
-        )
+        return variants.fixed(self, values)
 
     def free(self, *names: str, **bounds: Bounds) -> Model:
         """A new model in which these constants are parameters to be identified, their values as guesses.
 
-        ``model.free("m1", I1=(0.01, 0.2))``; without bounds a constant stays within a factor of FREE_FACTOR.
+        ``model.free("m1", I1=(0.01, 0.2))``; without bounds a constant stays within a factor of ten.
 
         Raises
         ------
         ModelError
             If one is not a Constant, or is zero and has no bounds.
         """
-        parts = {}
-        for name in (*names, *bounds):
-            c = self._part(name, Constant)
-            if not c.value and name not in bounds:
-                raise ModelError(
-                    f"model '{self.name}': the constant '{name}' is zero, which says nothing about its range; "
-                    f"give bounds [{c.unit}]: free({name}=(lower, upper))"
-                )
-            ends = sorted((c.value / FREE_FACTOR, c.value * FREE_FACTOR))
-            parts[name] = Parameter(
-                unit=c.unit,
-                bounds=bounds.get(name, tuple(ends)),
-                guess=c.value,
-                meaning=c.meaning,
-                role=c.role,
-                at=c.at,
-                latex=c.latex,
-                name=name,
-            )
-        return self._with(parts)
-
-    def undisturbed(self, bound: bool) -> Model:
-        """A new model whose controls are zero, and without its Boundary parts unless they are `bound` to hold.
-
-        What an identification estimated of a disturbance it knows of its own window alone.
-        """
-        new = self._with({k: Constant(0.0, unit=u.unit, meaning=u.meaning, name=k) for k, u in self.controls.items()})
-        for name in () if bound else self.boundaries:
-            del new.components[name]
-        return new
+        return variants.freed(self, names, bounds)
 
     def controlled(self, *names: str, **bounds: Bounds) -> Model:
         """A new model in which these inputs are controls, to be chosen by an Optimization.
 
         ``model.controlled(force=(-20, 20))`` [in its unit]; by name alone without bounds.
         """
-        parts = {}
-        for name in (*names, *bounds):
-            u = self._part(name, Input)
-            parts[name] = Control(
-                unit=u.unit,
-                bounds=bounds.get(name, (-inf, inf)),
-                hold="zero" if u.hold == "zero" else "linear",
-                meaning=u.meaning,
-                role=u.role,
-                at=u.at,
-                latex=u.latex,
-                name=name,
-            )
-        return self._with(parts)
+        return variants.controlled(self, names, bounds)
 
-    def _part(self, name: str, kind: type[Component] | tuple[type[Component], ...]) -> Any:
-        part = self[name]
-        if not isinstance(part, kind):
-            raise ModelError(
-                f"model '{self.name}': '{name}' is a {type(part).__name__}, which has no such thing to set"
-            )
-        return part
+    def undisturbed(self, bound: bool) -> Model:
+        """A new model whose controls are zero, and without its Boundary parts unless they are `bound` to hold.
 
-    def _with(self, parts: Mapping[str, Component]) -> Model:
-        new = self.copy()
-        new.components.update(parts)
-        return new
+        What an identification estimated of a disturbance it knows of its own window alone.
+        """
+        return variants.undisturbed(self, bound)
 
     # ---- for the build function of a Law, which works on a fresh copy -----------------
     def redefine(self, name: str, expr: Operand) -> None:
         """Give the Expression or Output `name` another meaning, everywhere it is used."""
         expr = sympified(expr)
         refuse_calculus(expr)
-        self.components[name] = replace(self._part(name, (Expression, Output)), expr=expr)
+        self.components[name] = replace(variants.part_of(self, name, (Expression, Output)), expr=expr)
 
     def add_effort(self, port: str, force: Operand) -> None:
         """Let `force` (along the port's rate) act: it enters each equation that the port names."""
-        for equation, coefficient in self._part(port, Port).into.items():
-            part = self._part(equation, Equation)
+        for equation, coefficient in variants.part_of(self, port, Port).into.items():
+            part = variants.part_of(self, equation, Equation)
             self.components[equation] = replace(part, expr=part.expr + coefficient * sympified(force))
 
     def substitute(self, table: Mapping[sm.Symbol, sm.Expr]) -> None:
@@ -350,23 +292,9 @@ class Model:
         parts = (*self.components.values(), *self.delays.items())
         known: tuple[tuple[Any, ...], str] = self.__dict__.get("_known_fingerprint", ((), ""))
         if len(known[0]) != len(parts) or any(a is not b and a != b for a, b in zip(known[0], parts, strict=True)):
-            known = parts, self._new_fingerprint()
+            known = parts, fingerprint_of(self)
             object.__setattr__(self, "_known_fingerprint", known)
         return known[1]
-
-    def _new_fingerprint(self) -> str:
-        kinds = [(type(c).__name__, c.name) for c in self.components.values()]
-        kinds += [(u.name, u.hold) for u in self.inputs.values() if u.hold != "smooth"]
-        text = repr(
-            (
-                kinds,
-                [sm.srepr(e) for e in (*self.residual(), *self.observed())],
-                [(str(k), str(d.of), sm.srepr(d.lag)) for k, d in self.delays.items()],
-            )
-        )
-        conditions = [c for c in self.components.values() if isinstance(c, (Constraint, Boundary, Objective))]
-        text += "".join(map(repr, conditions))
-        return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def check(self, units: bool = True) -> Model:
         """This model, if it can be used; ModelError with every violation at once if not.
@@ -403,15 +331,3 @@ class Model:
         from symid.model.show import latex
 
         return latex(self)
-
-
-def _number(name: str, value: Any) -> float:
-    return checked.number(value, name, ModelError)
-
-
-def nearest(name: str, names: Iterable[str]) -> str:
-    """A phrase with the known names most like `name`, for error messages."""
-    from difflib import get_close_matches
-
-    close = get_close_matches(str(name), list(names), n=3, cutoff=0.5)
-    return f"did you mean {', '.join(map(repr, close))}?" if close else f"known: {', '.join(names) or 'none'}"

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symid import checked
+from symid.checked import nearest
 from symid.errors import SolveError
-from symid.model import nearest
 from symid.optimization.plan import Plan
 from symid.transcription.demands import end_bounds
 

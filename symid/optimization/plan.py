@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from symid.checked import nearest
 from symid.errors import ModelError
 from symid.ipopt_solver import SolverResult
-from symid.model import nearest
 
 if TYPE_CHECKING:
     import pandas as pd

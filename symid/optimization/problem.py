@@ -12,9 +12,10 @@ from typing import Any
 import numpy as np
 
 from symid import checked
+from symid.checked import nearest
 from symid.errors import SolveError, TranscriptionError
 from symid.ipopt_solver import Iteration, solve_nlp
-from symid.model import Model, Parameter, nearest
+from symid.model import Model, Parameter
 from symid.optimization.duration import Free, with_duration
 from symid.optimization.guess import shaken, start_vector
 from symid.optimization.plan import Plan

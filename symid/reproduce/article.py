@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
+from symid.checked import nearest
 from symid.errors import SymidError
-from symid.model import nearest
 
 WINDOW = {"PD": (160.0, 260.0), "FPD": (160.0, 260.0), "NN": (160.0, 170.0)}
 """Window of the fit of each controller [s]: samples 8000 to 13000, and 8000 to 8500 for the network."""

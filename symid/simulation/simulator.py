@@ -9,12 +9,13 @@ from functools import lru_cache
 
 import numpy as np
 
+from symid.checked import nearest
 from symid.codegen.build import or_numpy
 from symid.codegen.kept import kept_source
 from symid.codegen.ode import OdeSource, ode_source
 from symid.deadline import check
 from symid.errors import SymidError
-from symid.model import Model, nearest
+from symid.model import Model
 from symid.simulation.compiled import CompiledLoop
 from symid.simulation.linear import Linearised
 from symid.simulation.loop import PythonLoop

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from symid.checked import nearest
 from symid.errors import TranscriptionError
-from symid.model import Model, nearest
+from symid.model import Model
 from symid.recording import Recording
 from symid.units import same_dimension
-
 
 EVEN = 0.02
 """Jitter of a clock, relative to its step, that a mesh of equal steps ignores; of second order in the error."""

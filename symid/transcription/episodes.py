@@ -17,8 +17,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid import checked
+from symid.checked import nearest
 from symid.errors import TranscriptionError
-from symid.model import Model, nearest
+from symid.model import Model
 
 DISTRIBUTIONS = ("multisine", "uniform", "gaussian")
 

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from symid.checked import nearest
 from symid.codegen import compile_program
 from symid.codegen.interval import interval_program, late_signals, objective_program
 from symid.codegen.symbols import algebraics_at_nodes, own_points
 from symid.errors import TranscriptionError
-from symid.model import Model, nearest
+from symid.model import Model
 from symid.nlp import NonlinearProgram
 from symid.transcription.data import Measured
 from symid.transcription.demands import Demands, bounds, ties

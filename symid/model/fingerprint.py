@@ -1,0 +1,29 @@
+"""The fingerprint of a model: what its equations and conditions are, in any process."""
+
+from __future__ import annotations
+
+import hashlib
+from typing import TYPE_CHECKING
+
+import sympy as sm
+
+from symid.model.conditions import Boundary, Constraint, Objective
+
+if TYPE_CHECKING:
+    from symid.model.model import Model
+
+
+def fingerprint_of(model: Model) -> str:
+    """16 hexadecimal digits of the equations, outputs, conditions, delays and kinds of parts, in their order."""
+    kinds = [(type(c).__name__, c.name) for c in model.components.values()]
+    kinds += [(u.name, u.hold) for u in model.inputs.values() if u.hold != "smooth"]
+    text = repr(
+        (
+            kinds,
+            [sm.srepr(e) for e in (*model.residual(), *model.observed())],
+            [(str(k), str(d.of), sm.srepr(d.lag)) for k, d in model.delays.items()],
+        )
+    )
+    conditions = [c for c in model.components.values() if isinstance(c, (Constraint, Boundary, Objective))]
+    text += "".join(map(repr, conditions))
+    return hashlib.sha256(text.encode()).hexdigest()[:16]

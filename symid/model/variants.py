@@ -1,0 +1,92 @@
+"""New models from old: other values and bounds, constants and parameters exchanged, inputs that become controls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+from symid import checked
+from symid.errors import ModelError
+from symid.model.declare import Algebraic, Bounds, Component, Constant, Control, Input, Parameter, State
+
+if TYPE_CHECKING:
+    from symid.model.model import Model
+
+FREE_FACTOR = 10.0
+"""What was written down as known is rarely wrong by more than an order of magnitude."""
+
+
+def part_of(model: Model, name: str, kind: type[Component] | tuple[type[Component], ...]) -> Any:
+    """The part `name`, which must be of that kind."""
+    part = model[name]
+    if not isinstance(part, kind):
+        raise ModelError(f"model '{model.name}': '{name}' is a {type(part).__name__}, which has no such thing to set")
+    return part
+
+
+def with_constants(model: Model, values: Mapping[str, float]) -> Model:
+    """With other values [in the constants' own units]."""
+    return _with(model, {k: replace(part_of(model, k, Constant), value=_number(k, v)) for k, v in values.items()})
+
+
+def with_bounds(model: Model, bounds: Mapping[str, Bounds]) -> Model:
+    """With other bounds on states, controls or parameters [in their own units]."""
+    bounded = (State, Algebraic, Control, Parameter)
+    return _with(model, {k: replace(part_of(model, k, bounded), bounds=b) for k, b in bounds.items()})
+
+
+def fixed(model: Model, values: Mapping[str, float]) -> Model:
+    """With these parameters as known constants."""
+    parts = {k: (part_of(model, k, Parameter), v) for k, v in values.items()}
+    return _with(model, {k: Constant(_number(k, v), **_told(c)) for k, (c, v) in parts.items()})
+
+
+def freed(model: Model, names: Iterable[str], bounds: Mapping[str, Bounds]) -> Model:
+    """With these constants as parameters to be identified, within a factor of FREE_FACTOR where no bounds are given."""
+    parts = {}
+    for name in (*names, *bounds):
+        c = part_of(model, name, Constant)
+        if not c.value and name not in bounds:
+            raise ModelError(
+                f"model '{model.name}': the constant '{name}' is zero, which says nothing about its range; "
+                f"give bounds [{c.unit}]: free({name}=(lower, upper))"
+            )
+        ends = sorted((c.value / FREE_FACTOR, c.value * FREE_FACTOR))
+        parts[name] = Parameter(bounds=bounds.get(name, tuple(ends)), guess=c.value, **_told(c))
+    return _with(model, parts)
+
+
+def controlled(model: Model, names: Iterable[str], bounds: Mapping[str, Bounds]) -> Model:
+    """With these inputs as controls, to be chosen by an Optimization."""
+    parts = {}
+    for name in (*names, *bounds):
+        u = part_of(model, name, Input)
+        hold = "zero" if u.hold == "zero" else "linear"
+        parts[name] = Control(bounds=bounds.get(name, (-inf, inf)), hold=hold, **_told(u))
+    return _with(model, parts)
+
+
+def undisturbed(model: Model, bound: bool) -> Model:
+    """With controls that are zero, and without its Boundary parts unless they are `bound` to hold."""
+    zero = {k: Constant(0.0, unit=u.unit, meaning=u.meaning, name=k) for k, u in model.controls.items()}
+    new = _with(model, zero)
+    for name in () if bound else model.boundaries:
+        del new.components[name]
+    return new
+
+
+def _told(part: Component) -> dict[str, Any]:
+    """What stays the same when a part becomes one of another kind."""
+    return {key: getattr(part, key) for key in ("unit", "meaning", "role", "at", "latex", "name")}
+
+
+def _with(model: Model, parts: Mapping[str, Component]) -> Model:
+    new = model.copy()
+    new.components.update(parts)
+    return new
+
+
+def _number(name: str, value: Any) -> float:
+    return checked.number(value, name, ModelError)
