@@ -4,7 +4,8 @@ from symid.identification.pool import Cluster, LocalPool
 from symid.identification.problem import Identification
 from symid.identification.solution import Solution
 from symid.identification.start_row import StartRow
-from symid.identification.study import Finished, Solve, Study, StudyResult
+from symid.identification.study import Finished, Solve, Study
+from symid.identification.study_result import StudyResult
 
 __all__ = [
     "Cluster",

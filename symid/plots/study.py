@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from symid.identification.fit import common_unit
-from symid.identification.study import StudyResult
+from symid.identification.study_result import StudyResult
 from symid.plots.style import MODEL, WARN, Picture, opened
 from symid.units import shown_unit
 

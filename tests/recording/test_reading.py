@@ -152,10 +152,10 @@ def test_no_case_raises_a_false_warning(path):
 
 
 def test_every_pandas_is_told_to_read_to_the_last_digit():
-    from symid.recording.read import _every_digit
+    from symid.recording.cells import every_digit
 
-    assert _every_digit("2.1.4") == _every_digit("3.0.0") == {"float_precision": "round_trip"}
-    assert _every_digit("3.1.1") == {} == _every_digit("4.0.0rc1")
+    assert every_digit("2.1.4") == every_digit("3.0.0") == {"float_precision": "round_trip"}
+    assert every_digit("3.1.1") == {} == every_digit("4.0.0rc1")
 
 
 @pytest.mark.parametrize("header", ["force [N]", "force (N)", "force[N]", "pull force (N)"])
