@@ -9,7 +9,7 @@ import scipy
 
 from symid.errors import SolveError
 from symid.estimation.bounds import parameter_bounds
-from symid.estimation.shooting import root_weights
+from symid.estimation.shooting import computable, root_weights
 from symid.simulation import Trajectory, simulator
 from symid.transcription import Transcription
 
@@ -99,7 +99,7 @@ class Loop:
         blocks = []
         for e, d in enumerate(self.t.program.data):
             scale = np.sqrt(d.step) * self.weights[self.t.recording_of[e]]
-            slopes = np.nan_to_num(self.run(z, e, slopes=True).dy) * scale[:, None]
+            slopes = computable(self.run(z, e, slopes=True).dy * scale[:, None])
             block = np.zeros((slopes.shape[0] * slopes.shape[1], len(z)))
             block[:, self._own(e)] = slopes.reshape(len(block), -1) * self.scale[self._own(e)]
             blocks.append(block)

@@ -32,6 +32,9 @@ DRAWS, BEST, PATIENCE = 24, 4, 60
 evaluations that each may take from there."""
 ALIKE = 1.02
 """Costs within 2 % are taken for those of the same optimum."""
+DIVERGED, SQUARABLE = 1e3, 1e100
+"""The weighted error of a simulation that has diverged; and the largest number that least squares are given, of which
+sums of squares still are finite."""
 
 
 def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> tuple[np.ndarray, list[np.ndarray]] | None:
@@ -228,7 +231,7 @@ class Shooting:
 
     def residual(self, z: np.ndarray) -> np.ndarray:
         errors = [(self.run(z, r).y - m.targets[m.nodes]) * self.weights[r] for r, m in enumerate(self.t.measured)]
-        return np.nan_to_num(np.concatenate([e.ravel() for e in errors]), nan=1e3)
+        return computable(np.concatenate([e.ravel() for e in errors]), nan=DIVERGED)
 
     def jacobian(self, z: np.ndarray) -> np.ndarray:
         blocks = []
@@ -236,7 +239,7 @@ class Shooting:
             dy = self.run(z, r, slopes=True).dy * self.weights[r][:, None]
             block = np.zeros((dy.shape[0] * dy.shape[1], len(z)))
             columns = np.r_[: len(self.t.layout.parameter_names), self._initial(r)]
-            block[:, columns] = np.nan_to_num(dy.reshape(len(block), -1)) * self.scale[columns]
+            block[:, columns] = computable(dy.reshape(len(block), -1) * self.scale[columns])
             blocks.append(block)
         return np.concatenate(blocks)
 
@@ -266,6 +269,11 @@ class Shooting:
             )
         finally:
             self.gain = 0.0
+
+
+def computable(values: np.ndarray, nan: float = 0.0) -> np.ndarray:
+    """`values` with finite squares; `nan` in the place of NaN."""
+    return np.clip(np.nan_to_num(values, nan=nan), -SQUARABLE, SQUARABLE)
 
 
 def root_weights(t: Transcription) -> np.ndarray:

@@ -11,9 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from symid import checked
-from symid.ipopt_solver import library as ipopt_library
 from symid.deadline import check, remaining
 from symid.errors import MachineError, SolveError
+from symid.interrupt import held_back
+from symid.ipopt_solver import library as ipopt_library
 from symid.ipopt_solver.bounded import run_bounded
 from symid.ipopt_solver.evaluation import Evaluation, Iteration, RejectedPoint
 from symid.ipopt_solver.linear import LinearSolver, run_with
@@ -236,7 +237,8 @@ def _extensions() -> list[str]:
 def _imported() -> str:
     """Path of cyipopt's compiled part, imported, or why it is not there."""
     try:
-        import cyipopt
+        with held_back():
+            import cyipopt
     except ModuleNotFoundError as absent:
         raise SolveError(
             f"cyipopt is not installed ({absent}). Run `python -m symid.setup_ipopt` once, or "

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from symid.errors import UnitError
+from symid.interrupt import held_back
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -128,19 +129,21 @@ def normal(text: str) -> str:
 
 @functools.cache
 def _registry():
-    import pint  # here and not at the top: half a second that most runs never need
+    with held_back():
+        import pint  # here and not at the top: half a second that most runs never need
 
-    return pint.UnitRegistry()
+        return pint.UnitRegistry()
 
 
 @functools.cache
 def parsed(text: str):
+    registry = _registry()
     if text == "1":
-        return _registry().Unit("dimensionless")
+        return registry.Unit("dimensionless")
     try:
         if "//" in text:
             raise ValueError("pint would read // as one division")
-        return _registry().parse_units(text)
+        return registry.parse_units(text)
     except Exception as error:  # pint reports malformed text by many kinds of exception
         close = nearest(text, _BY_TEXT)
         hint = f"; did you mean {' or '.join(close)}?" if close else ""
