@@ -6,6 +6,7 @@ import mmap
 import threading
 from collections.abc import Callable
 from functools import cache, wraps
+from pathlib import Path
 from typing import TypeVar, cast
 
 from threadpoolctl import threadpool_limits
@@ -31,16 +32,19 @@ def one_blas_thread(function: Function) -> Function:
 
 @cache
 def hold_blas_memory(threads: int) -> None:
-    """Take now what BLAS takes at its first use in so many threads, once a process.
+    """Where memory is limited, take now what BLAS takes at its first use in so many threads, once a process.
 
     Where memory is out, OpenBLAS asks again for ever and holds Python's lock meanwhile (its issue 5289): neither
-    Ctrl-C nor a sign of life comes through. What it has taken it keeps.
+    Ctrl-C nor a sign of life comes through. What it has taken it keeps. Without a limit nothing is refused, and
+    SciPy's BLAS is not loaded for it: a fifth of a second at the first use of the process.
 
     Raises
     ------
     MemoryError
         If there is not that much.
     """
+    if not memory_is_limited():
+        return
     import numpy as np
     from scipy.linalg.blas import dgemm
 
@@ -61,6 +65,20 @@ def hold_blas_memory(threads: int) -> None:
     multiply()
     for other in others:
         other.join()
+
+
+def memory_is_limited() -> bool:
+    """Whether this process can be refused memory: by a limit such as `ulimit -v`, or by a kernel that promises no more
+    memory than there is (Linux: vm.overcommit_memory = 2)."""
+    try:
+        import resource
+    except ImportError:  # Windows
+        return True
+    limits = (resource.RLIMIT_AS, resource.RLIMIT_DATA)
+    if any(resource.getrlimit(limit)[0] != resource.RLIM_INFINITY for limit in limits):
+        return True
+    promises = Path("/proc/sys/vm/overcommit_memory")
+    return promises.is_file() and promises.read_text().strip() == "2"
 
 
 def room_for(size: int) -> bool:

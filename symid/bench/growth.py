@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
+from symid.bench.made import made_up
 from symid.bench.runs import run_fresh
+from symid.bench.table import line
 from symid.bench.task import Task
-from symid.files import write_atomically, write_json
-from symid.mechanics import FullStatePD
-from symid.synthetic import BODY, GAINS, body_table, csv_text, standing_recording
 
 SECONDS = (10, 20, 40, 100, 200, 400)
 """Lengths of the window [s]; at 50 Hz 500 to 20000 nodes."""
@@ -22,6 +18,8 @@ EPISODES = (1, 2, 3, 4, 6, 8, 10)
 EPISODE_SECONDS = 40
 LOAD = (100, 200, 400, 800)
 """Lengths of long recordings [s]."""
+HOUR, HOUR_RATE, HOUR_MB, HOUR_S = 3600.0, 100.0, 3000.0, 180.0
+"""A long recording [s], its rate [Hz], and what its identification may take: memory of the process, processor time."""
 RUNS = 2
 MARGIN = 0.1
 """An exponent may exceed that of n log n by this much: two runs differ so."""
@@ -32,7 +30,7 @@ def measure_growth(say: Callable[[str], None] = lambda text: None) -> dict[str, 
 
     The recordings are made up (`symid.synthetic`), with full-state feedback.
     """
-    with _made_up(max(SECONDS)) as task:
+    with made_up(max(SECONDS)) as task:
         return {
             "nodes": [_fastest(replace(task, window=(0.0, float(s))), say) for s in SECONDS],
             "episodes": [
@@ -43,19 +41,28 @@ def measure_growth(say: Callable[[str], None] = lambda text: None) -> dict[str, 
 
 def measure_load(say: Callable[[str], None] = lambda text: None) -> dict[str, list[dict]]:
     """Cost of long recordings, as `measure_growth` measures it."""
-    with _made_up(max(LOAD)) as task:
+    with made_up(max(LOAD)) as task:
         return {"nodes": [_fastest(replace(task, window=(0.0, float(s))), say) for s in LOAD]}
 
 
-@contextmanager
-def _made_up(seconds: float) -> Iterator[Task]:
-    """The task of a recording of so many seconds, on files that are gone afterwards."""
-    recording = standing_recording(BODY.with_feedback(FullStatePD()), GAINS, duration=seconds)
-    with TemporaryDirectory(prefix="symid-bench-") as folder:
-        files = Path(folder) / "recording.csv", Path(folder) / "body.json"
-        write_atomically(files[0], csv_text(recording))
-        write_json(files[1], body_table(BODY))
-        yield Task(str(files[0]), str(files[1]), (0.0, float(seconds)))
+def measure_hour(say: Callable[[str], None] = lambda text: None) -> dict:
+    """One identification of an hour at 100 Hz, full-state feedback, from the default start."""
+    with made_up(HOUR, HOUR_RATE) as task:
+        run = run_fresh("symid_side.identification", task, "default")
+    say(f"an hour at {HOUR_RATE:g} Hz: {run['total']:.0f} s")
+    return run
+
+
+def hour_table(run: dict) -> str:
+    """What `measure_hour` found."""
+    return "\n".join(
+        [
+            f"{run['nodes']} nodes: {run['status']}, {run['iterations']} iterations, "
+            f"build {run['build']:.1f} s, solve {run['solve']:.1f} s",
+            line("an hour at 100 Hz, build and solve", run["total"], "s", HOUR_S),
+            line("memory of its process", run["peak_mb"], "MB", HOUR_MB),
+        ]
+    )
 
 
 def _fastest(task: Task, say: Callable[[str], None]) -> dict:

@@ -41,9 +41,7 @@ def measure(task: Task, quick: bool = False, say: Callable[[str], None] = lambda
         }
         if "casadi" not in absent:
             evaluations |= {f"CasADi, {s}": _evaluations("casadi_side", s, task, cache, say) for s in CASADI}
-        linear = {
-            solver: run_fresh("symid_side.linear_systems", task, solver, cache=cache) for solver in ("chain", "mumps")
-        }
+        linear = {solver: run_fresh("linear.systems", task, solver, cache=cache) for solver in ("chain", "mumps")}
         say("linear systems")
         solves = {label: _solves(each, sides, rounds, cache, say) for label, each, sides in _plan(task, absent, quick)}
     return {

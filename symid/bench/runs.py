@@ -1,4 +1,4 @@
-"""One measurement in a process of its own, pinned to one core."""
+"""One measurement in a process of its own, pinned to one core, or to as many as it has threads."""
 
 from __future__ import annotations
 
@@ -17,19 +17,21 @@ from symid.threads import ONE_THREAD
 MARK = "measured: "
 
 
-def run_fresh(call: str, task: Task, *arguments: str, cache: str | Path | None = None) -> dict:
+def run_fresh(call: str, task: Task, *arguments: str, cache: str | Path | None = None, threads: int = 1) -> dict:
     """What ``symid.bench.<call>(task, *arguments)`` returns in a fresh process.
 
     Parameters
     ----------
     call : "module.function".
     cache : folder of compiled kernels instead of the user's.
+    threads : of the linear solver, on as many cores.
 
     Raises
     ------
     SymidError : the process ended without a result.
     """
-    environment = os.environ | ONE_THREAD | ({"SYMID_CACHE_DIR": str(cache)} if cache else {})
+    environment = os.environ | ONE_THREAD | {"OMP_NUM_THREADS": str(threads)}
+    environment |= {"SYMID_CACHE_DIR": str(cache)} if cache else {}
     command = [sys.executable, "-m", "symid.bench.runs", call, json.dumps(asdict(task)), *arguments]
     ended = subprocess.run(command, env=environment, capture_output=True, text=True, errors="replace")
     results = [line for line in ended.stdout.splitlines() if line.startswith(MARK)]
@@ -42,7 +44,7 @@ def run_fresh(call: str, task: Task, *arguments: str, cache: str | Path | None =
 def main(call: str, task: str, *arguments: str) -> None:
     """Run one measurement here and print its result; the other end of `run_fresh`."""
     if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, {max(os.sched_getaffinity(0))})
+        os.sched_setaffinity(0, sorted(os.sched_getaffinity(0))[-int(os.environ["OMP_NUM_THREADS"]) :])
     module, function = call.split(".")
     given = json.loads(task)
     given["window"] = tuple(given["window"])

@@ -40,25 +40,6 @@ def first_use(task: Task) -> dict:
     return {"seconds": processor_seconds() - began, **kernel.seconds}
 
 
-def linear_systems(task: Task, solver: str) -> dict:
-    """Processor time in linear systems [ms], per iteration from the default start, with one linear solver."""
-    import re
-    import tempfile
-    from pathlib import Path
-
-    problem = task.identification()
-    with tempfile.TemporaryDirectory(prefix="symid-bench-") as folder:
-        report = Path(folder) / "ipopt.txt"
-        options = {"print_timing_statistics": "yes", "output_file": str(report), "file_print_level": 5}
-        result = problem.solve_from(problem.start("default", 0, task.number), linear_solver=solver, options=options)
-        seconds = re.search(r"PDSystemSolverSolveOnce\.*: +([0-9.]+) +\(sys: +([0-9.]+)", report.read_text())
-    return {
-        "ms": 1e3 * sum(map(float, seconds.groups())) / max(1, result.iterations),
-        "iterations": result.iterations,
-        "objective": result.objective,
-    }
-
-
 def identification(task: Task, start: str) -> dict:
     """Build and solve, from the "random" or the "default" start."""
     at_start = peak_memory_mb()
@@ -89,4 +70,5 @@ def identification(task: Task, start: str) -> dict:
         "rms": float(rms),
         "functions_share": result.seconds["functions"] / result.seconds["total"],
         "memory_mb": peak_memory_mb() - at_start,
+        "peak_mb": peak_memory_mb(),
     }

@@ -56,21 +56,21 @@ def _verdicts(found: dict) -> Iterator[str]:
     """One line per target."""
     for side, most in EVALUATION_MS.items():
         row = found["evaluations"][side]
-        yield _line(f"slowest evaluation, {side}", max(v for k, v in row.items() if k.endswith("_ms")), "ms", most)
+        yield line(f"slowest evaluation, {side}", max(v for k, v in row.items() if k.endswith("_ms")), "ms", most)
     chain, mumps = (found["linear"][solver]["ms"] for solver in ("chain", "mumps"))
-    yield _line(
+    yield line(
         f"linear systems, {chain:.1f} ms an iteration: MUMPS / symid",
         mumps / chain,
         "x",
         FASTER_THAN_MUMPS,
         at_least=True,
     )
-    yield _line("first use of a new model", middle(found["first_use"], "seconds"), "s", FIRST_USE_S)
+    yield line("first use of a new model", middle(found["first_use"], "seconds"), "s", FIRST_USE_S)
     for label, sides in found["solves"].items():
         casadi = [runs for side, runs in sides.items() if side.startswith("CasADi")]
         for kind, least in FASTER_THAN_CASADI.items():
             if casadi:
-                yield _line(
+                yield line(
                     f"{label}: {kind} start, CasADi's best / symid",
                     ratio(casadi, sides[f"symid, {kind} start"]),
                     "x",
@@ -78,7 +78,7 @@ def _verdicts(found: dict) -> Iterator[str]:
                     at_least=True,
                 )
         if "opty" in sides:
-            yield _line(
+            yield line(
                 f"{label} / symid",
                 ratio([sides["opty"]], sides["symid, random start"]),
                 "x",
@@ -86,16 +86,16 @@ def _verdicts(found: dict) -> Iterator[str]:
                 at_least=True,
             )
     alone = next(iter(found["solves"].values()))["symid, random start"]
-    yield _line(
+    yield line(
         "generated functions' share of the solve", 100 * middle(alone, "functions_share"), "%", 100 * FUNCTIONS_SHARE
     )
-    yield _line("memory above the interpreter's start", max(r["memory_mb"] for r in alone), "MB", MEMORY_MB)
+    yield line("memory above the interpreter's start", max(r["memory_mb"] for r in alone), "MB", MEMORY_MB)
     new, known = found["first_identification"]["total"], middle(alone[:1], "total")
     yield f"{'identification that compiles first / the same later':<62}{new / known:>9.2f} x"
     yield f"{'imports of symid':<62}{middle(alone, 'import'):>9.2f} s"
 
 
-def _line(what: str, value: float, unit: str, target: float, at_least: bool = False) -> str:
+def line(what: str, value: float, unit: str, target: float, at_least: bool = False) -> str:
     met = value >= target if at_least else value <= target
     sign, verdict = ">=" if at_least else "<=", "met" if met else "NOT MET"
     return f"{what:<62}{value:>9.3g} {unit:<3} target {sign} {target:g}: {verdict}"

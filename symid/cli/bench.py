@@ -9,10 +9,27 @@ from symid.errors import SymidError
 from symid.progress import say
 
 SUMMARY = "measure symid on this machine, beside its peers where they are installed"
-EXAMPLES = ("symid bench --quick", "symid bench --recording walk.csv --body body.json --window 0 60 --json bench.json")
+EXAMPLES = (
+    "symid bench --quick",
+    "symid bench starts factorisation",
+    "symid bench --recording walk.csv --body body.json --window 0 60 --json bench.json",
+)
+PARTS = {
+    "solves": "evaluations and whole identifications beside CasADi and opty",
+    "factorisation": "linear systems beside MUMPS, on one thread and on two",
+    "starts": "ten random starts of eight cases: time, memory, optima",
+    "growth": "a factorisation's time against nodes and episodes",
+    "hour": "an hour at 100 Hz: time and memory",
+}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "parts",
+        nargs="*",
+        metavar="PART",
+        help="; ".join(f"{name}: {what}" for name, what in PARTS.items()) + "; all: all of these (default: solves)",
+    )
     parser.add_argument(
         "--recording", metavar="RECORDING.csv", help="instead of the synthetic one that ships; needs --body"
     )
@@ -45,14 +62,19 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.bench.task import Task
 
     refuse_missing_folders(arguments.json, arguments.growth)
+    parts = _parts(arguments.parts)
     chosen = [name for name in ("load", "growth", "formulations") if getattr(arguments, name)]
     if len(chosen) > 1:
         raise SymidError(f"bench: --{chosen[0]} and --{chosen[1]} are measurements of their own; give one")
+    if chosen and parts:
+        raise SymidError(f"bench: --{chosen[0]} and the part '{parts[0]}' are measurements of their own; give one")
     task = Task(*_files(arguments), window=tuple(arguments.window))
-    measurement = {"load": _load, "growth": _growth, "formulations": _formulations}.get(
-        chosen[0] if chosen else "", _all
-    )
-    found = measurement(task, arguments)
+    if chosen:
+        found = {"load": _load, "growth": _growth, "formulations": _formulations}[chosen[0]](task, arguments)
+    elif parts:
+        found = {name: _part(name, task, arguments) for name in parts}
+    else:
+        found = _solves(task, arguments)
     if arguments.json:
         from symid.files import write_json
 
@@ -60,7 +82,32 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def _all(task, arguments: argparse.Namespace) -> dict:
+def _parts(names: list[str]) -> list[str]:
+    from symid.checked import nearest
+
+    for name in names:
+        if name not in (*PARTS, "all"):
+            raise SymidError(f"bench: there is no part '{name}'; {nearest(name, [*PARTS, 'all'])}")
+    return list(PARTS) if "all" in names else list(dict.fromkeys(names))
+
+
+def _part(name: str, task, arguments: argparse.Namespace) -> dict:
+    from symid.bench import growth, linear, starts
+
+    if name == "solves":
+        return _solves(task, arguments)
+    measured, table = {
+        "factorisation": (lambda: linear.measure_factorisation(task, _say), linear.factorisation_table),
+        "starts": (lambda: starts.measure_starts(task, _say), starts.starts_table),
+        "growth": (lambda: linear.measure_growth_of_factorisation(_say), linear.factorisation_growth_table),
+        "hour": (lambda: growth.measure_hour(_say), growth.hour_table),
+    }[name]
+    found = measured()
+    print(table(found), end="\n\n")
+    return found
+
+
+def _solves(task, arguments: argparse.Namespace) -> dict:
     from symid.bench.measure import measure
     from symid.bench.table import table
 

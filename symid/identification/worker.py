@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from symid.deadline import TimeUp, deadline
 from symid.errors import MachineError, SymidError
 from symid.identification.attempts import solve_default
+from symid.identification.softened import solve_softened
 from symid.identification.start_row import StartRow
 from symid.ipopt_solver import Iteration, SolverResult
 from symid.ipopt_solver.bounded import LEAVE
@@ -48,8 +49,9 @@ class Outcome:
 
 
 def _solved(solve: Solve, z: np.ndarray, on_iteration) -> SolverResult:
-    if isinstance(solve.start, str) and solve.start == "default":
-        return solve_default(solve.problem, z, on_iteration, dict(solve.options))
+    if isinstance(solve.start, str) and solve.start in ("default", "random"):
+        beginning = solve_default if solve.start == "default" else solve_softened
+        return beginning(solve.problem, z, on_iteration, dict(solve.options))
     return solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options)
 
 

@@ -12,6 +12,7 @@ from symid.bench.formulations import FORMULATIONS
 from symid.bench.growth import exponents, growth_table, measure_load
 from symid.bench.peers import TORQUE, for_peers
 from symid.bench.runs import run_fresh
+from symid.bench.starts import starts_table
 from symid.bench.table import ratio, table
 from symid.bench.task import Task
 from symid.cli.main import main
@@ -95,6 +96,52 @@ def test_growth_of_the_cost_is_measured_and_drawn(monkeypatch, tmp_path, capsys,
     ]
     assert (tmp_path / "growth.png").read_bytes().startswith(b"\x89PNG")
     assert capsys.readouterr().out.count("n log n would be") == 2
+
+
+PARTS = {
+    "linear": {
+        "NODES": (200, 400),
+        "EPISODES": (1, 2),
+        "EPISODE_SECONDS": 2.0,
+        "ROUNDS": 1,
+        "NETWORK_EPISODES": 2,
+        "ITERATIONS": 2,
+    },
+    "starts": {"CASES": (("pd", 1), ("fpd", 2)), "STARTS": 1},
+    "growth": {"HOUR": 4.0},
+}
+
+
+def test_parts_are_measured_by_name(tiny, monkeypatch, tmp_path, capsys):
+    def here(call, task, *arguments, cache=None, threads=1):
+        module, function = call.split(".")
+        return getattr(import_module(f"symid.bench.{module}"), function)(task, *arguments)
+
+    for module, names in PARTS.items():
+        for name, value in ({"run_fresh": here} | names).items():
+            monkeypatch.setattr(f"symid.bench.{module}.{name}", value)
+    files = ["--recording", tiny.recording, "--body", tiny.body, "--window", "0", "4"]
+    parts = ["factorisation", "starts", "growth", "hour"]
+    assert main(["bench", *parts, *files, "--json", str(tmp_path / "bench.json")]) == 0
+    found, printed = json.loads((tmp_path / "bench.json").read_text()), capsys.readouterr().out
+    assert list(found) == parts and printed.splitlines()[0].endswith("the same point)")
+    assert [r["episodes"] for r in found["growth"]["episodes"]] == [1, 2]
+    assert [r["nodes"] for r in found["growth"]["nodes"]] == [200, 400] and found["hour"]["nodes"] == 401
+    starts = [r for of in found["starts"].values() for r in of["starts"]]
+    assert all(r["solved"] and r["mumps"] < 1e-6 for r in starts)
+    for target in ("MUMPS / symid", "exponent of a factorisation's time in nodes", "slowest start", "memory of its"):
+        assert target in printed
+
+
+def test_a_part_that_is_not_there(capsys):
+    assert main(["bench", "factorization"]) == 2
+    assert "there is no part 'factorization'" in capsys.readouterr().err
+
+
+def test_a_start_that_is_refused_is_told():
+    row = {"number": 3, "status": "Multipliers_Ran_Away", "solved": False, "objective": 1.0, "iterations": 9}
+    text = starts_table({"FPD-4": {"starts": [row | {"seconds": 31.0, "silence": 1.0}], "memory_mb": 500.0}})
+    assert "start 3: Multipliers_Ran_Away, 31.0 s" in text and text.count("NOT MET") == 1
 
 
 def test_exponents_are_those_of_the_law():

@@ -1,5 +1,7 @@
 """The default start, on small systems with random truths: the solve from it follows the recording within its noise."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import small_systems
@@ -7,8 +9,13 @@ from more_systems import OTHERS
 from small_systems import PRACTISED, UNSEEN, lotka_volterra
 
 import symid as si
+from symid.identification import Solve
+from symid.identification.softened import RAN_AWAY
+from symid.identification.starts.search import relaxed
+from symid.identification.worker import solve_here
 
 DRAWS = 200
+DATA = Path(__file__).parents[2] / "data" / "standing_synthetic"
 
 
 def failures(system, draws) -> dict[int, str]:
@@ -67,3 +74,28 @@ def unbounded() -> si.Model:
 @pytest.mark.parametrize("system", [*PRACTISED, *UNSEEN, *OTHERS], ids=lambda f: f.__name__)
 def test_the_default_start_does_not_fail(system):
     assert failures(system, range(DRAWS)) == {}
+
+
+@pytest.mark.parametrize("number", [0, 4, 5])
+def test_a_random_start_whose_multipliers_run_away_goes_on_from_softened_equations(number, monkeypatch):
+    """Full-state feedback, three noisy episodes: 0 and 4 run away, 5 does not; all end in the one optimum."""
+    softened = []
+    monkeypatch.setattr("symid.identification.softened.relaxed", lambda *a: softened.append(number) or relaxed(*a))
+    body = si.mechanics.DoubleLinkPendulum.from_json(DATA / "body.json")
+    problem = si.Identification(
+        body.with_feedback(si.mechanics.FullStatePD()),
+        si.read_recording(DATA / "recording.csv"),
+        window=(0, 10),
+        episodes=si.Episodes(3, torque=0.25),
+    )
+    seen = []
+    row = solve_here(Solve(problem, "random", number), lambda i: seen.append(i.dual_infeasibility)).row
+    assert row.solved and row.objective == pytest.approx(0.00252541, rel=1e-5)
+    assert bool(softened) == (max(seen) > RAN_AWAY) == (number != 5)
+
+
+def test_multipliers_that_run_away_twice_are_an_honest_refusal(monkeypatch):
+    system = small_systems.mass_spring_damper(np.random.default_rng([0, 7]))
+    monkeypatch.setattr("symid.identification.softened.RAN_AWAY", -1.0)
+    row = solve_here(Solve(system.problem(), "random")).row
+    assert not row.solved and row.status == "Multipliers_Ran_Away" and "narrower bounds" in row.message

@@ -22,6 +22,7 @@ in 41 to 72 iterations from the regression alone.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -29,7 +30,7 @@ import numpy as np
 
 from symid.estimation.loop import Loop
 from symid.identification.starts.default import equation_error, random_start
-from symid.ipopt_solver import solve_nlp
+from symid.ipopt_solver import Iteration, solve_nlp
 from symid.nlp import soften
 from symid.threads import one_blas_thread
 from symid.transcription import Episodes, Transcription
@@ -104,11 +105,11 @@ def relaxed_start(problem: Identification, seed: int, number: int) -> np.ndarray
     """
     t = problem.transcription
     single = replace(problem, episodes=Episodes())
-    z = _relaxed(single, _regressed(single, seed, number), PRICES[:1])
+    z = relaxed(single, _regressed(single, seed, number), PRICES[:1])
     z = t.start(single.transcription.layout.parameters(z))
     best, least = z, np.inf
     for price in (*PRICES, *HIGHER_PRICES):
-        z = _relaxed(problem, z, (price,))
+        z = relaxed(problem, z, (price,))
         end = problem.solve_from(z, max_iterations=60, dual_limit=EXPLODED)
         if end.solved and end.objective < least:
             best, least = end.z, end.objective
@@ -118,7 +119,7 @@ def relaxed_start(problem: Identification, seed: int, number: int) -> np.ndarray
 def one_relaxed(problem: Identification, seed: int, number: int) -> np.ndarray:
     """The free vector of one episode of each recording, from a random point, with estimated process noise."""
     single = replace(problem, episodes=Episodes())
-    return _relaxed(single, _regressed(single, seed, number), PRICES)
+    return relaxed(single, _regressed(single, seed, number))
 
 
 def _regressed(problem: Identification, seed: int, number: int) -> np.ndarray:
@@ -127,12 +128,23 @@ def _regressed(problem: Identification, seed: int, number: int) -> np.ndarray:
     return t.start(equation_error(t, NEAR * t.layout.parameters(random_start(t, seed, number)))[0])
 
 
-def _relaxed(problem: Identification, z: np.ndarray, prices: tuple[float, ...]) -> np.ndarray:
-    """The free vector with estimated process noise, from `z`, at one price after the other."""
+def relaxed(
+    problem: Identification,
+    z: np.ndarray,
+    prices: tuple[float, ...] = PRICES,
+    rows: np.ndarray | None = None,
+    on_iteration: Callable[[Iteration], bool | None] | None = None,
+) -> np.ndarray:
+    """The free vector with estimated process noise, from `z`, at one price after the other.
+
+    rows : of the constraints that it enters; by default those of the model's noise.
+    """
     t = problem.transcription
-    rows = noisy_rows(t)
+    rows = noisy_rows(t) if rows is None else rows
     for price in prices if len(rows) else ():
-        result = solve_nlp(soften(problem.nonlinear_program(z), rows, price), max_iterations=100)
+        result = solve_nlp(
+            soften(problem.nonlinear_program(z), rows, price), on_iteration=on_iteration, max_iterations=100
+        )
         z = np.clip(result.z[: t.layout.size], t.program.lower, t.program.upper)
     return z
 
