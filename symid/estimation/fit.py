@@ -25,13 +25,15 @@ from symid.simulation import Simulator, simulator
 
 TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
-LONGEST_STEP = {True: 0.01, False: 0.005}
-"""Longest step of the integrator [s], with random forces and without: free motion shows dry friction's corners."""
+LONGEST_STEP = {True: 0.02, False: 0.005}
+"""First longest step of the integrator [s], with random forces and without: free motion shows dry friction's
+corners."""
 STEPS_A_SWING = 300
-"""Free motion that is slower than that takes longer steps: so many of Runge and Kutta's a swing err by 1e-9 of it."""
-ERRS, MOST_SUBSTEPS = 0.2, 32
-"""Part of the innovations' rms by which the integrator may err in a free motion; its steps are halved until then. The
-error of every step stays in a shaft that turns freely, and the corners of dry friction make it large."""
+"""Motion that is slower than that takes longer steps: so many of Runge and Kutta's a swing err by 1e-9 of it."""
+ERRS, MOST_SUBSTEPS = {True: 0.05, False: 0.2}, 32
+"""Part of the innovations' rms by which the integrator may err, with random forces and without; its steps are halved
+until then. The error of every step stays in a shaft that turns freely, and the corners of dry friction make it large;
+with random forces each sample corrects the state, and there are thousands that share what is left of an error."""
 PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
 SHARPEST = 4.0
@@ -53,7 +55,7 @@ class Fit:
     kalman_gain : (n, m) or None. innovations : per segment (N, m), recorded minus predicted.
     whitening : makes the innovations white. loglik2 : twice the log-likelihood.
     errors : parameter -> standard error, zero for what was held; empty where not asked for.
-    substeps : of the integrator in each sample.
+    substeps : of the integrator in each sample. bounded : whether growth without end had to be kept away.
     """
 
     model: Model
@@ -68,6 +70,7 @@ class Fit:
     iterations: int = 0
     converged: bool = False
     substeps: int = 1
+    bounded: bool = False
 
     @property
     def simulator(self) -> Simulator:
@@ -102,9 +105,10 @@ class Fitter:
     Parameters
     ----------
     fixed : parameters that keep their start value.
+    near : a fit from which others begin here, with steps of the integrator as small as that one came to need.
     """
 
-    def __init__(self, model: Model, data: Data, fixed: Sequence[str] = ()):
+    def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), near: Fit | None = None):
         self.model, self.data = model, data
         self.sim = simulator(model)
         self.free = [p for p in self.sim.parameters if p not in fixed]
@@ -114,11 +118,11 @@ class Fitter:
         self.noises = len(model.noises)
         self.tuned = [*range(self.noises)] if self.driven and not data.memory else []
         self.tuned += [self.noises] if data.cutoff_free else []
-        self.bounded = False
+        self.near, self.bounded = near, False
         self.step = data.segments[0].step
         longest = LONGEST_STEP[self.driven]
-        longest = longest if self.driven else max(longest, min(swing(s) for s in data.segments) / STEPS_A_SWING)
-        self.substeps = max(1, int(np.ceil(self.step / (1.01 * longest))))
+        longest = max(longest, min(swing(s) for s in data.segments) / STEPS_A_SWING)
+        self.substeps = max(near.substeps if near else 1, int(np.ceil(self.step / (1.01 * longest))))
 
     # ---- one evaluation --------------------------------------------------------------
     def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs", process=()):
@@ -212,14 +216,14 @@ class Fitter:
 
         `kalman_gain` is one that is known to hold the start together, of an earlier fit that ended there.
         """
-        self.bounded = False
+        self.bounded = self.near is not None and self.near.bounded
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
         while self.substeps < MOST_SUBSTEPS and self._too_coarse(at):
             self.substeps *= 2
-            at.value = self.evaluate(at.p, at.x0, at.kalman_gain, at.process)
+            at.value = self.evaluate(at.p, at.x0, at.kalman_gain, at.process) - self._growth_penalty(at.p, at.path)
             k, converged = self._descend(at, iterations, tolerance)
-        if self.driven and runs_away(self, at.p, at.x0):
+        if self.driven and not self.bounded and runs_away(self, at.p, at.x0):
             self.bounded = True
             at.value -= self._growth_penalty(at.p, at.path)
             k, converged = self._descend(at, iterations, tolerance)
@@ -246,9 +250,7 @@ class Fitter:
         return k, converged
 
     def _too_coarse(self, at: _Point) -> bool:
-        """Whether steps half as long change a free motion by more than `ERRS` of what it leaves of the recording."""
-        if self.driven:
-            return False  # each sample corrects the state
+        """Whether steps half as long change the motion by more than `ERRS` of what it leaves of the recording."""
         coarse = self.run(at.p, at.x0, at.kalman_gain, False, process=at.process)
         self.substeps *= 2
         fine = self.run(at.p, at.x0, at.kalman_gain, False, process=at.process)
@@ -257,7 +259,7 @@ class Fitter:
             return False
         change = np.vstack([a.y - b.y for a, b in zip(coarse, fine, strict=True)])
         left = np.vstack(self.innovations(coarse, at.process))
-        return bool(np.any(np.mean(change**2, axis=0) > ERRS**2 * np.mean(left**2, axis=0)))
+        return bool(np.any(np.mean(change**2, axis=0) > ERRS[self.driven] ** 2 * np.mean(left**2, axis=0)))
 
     def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
         """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).
@@ -267,7 +269,7 @@ class Fitter:
         """
         try:
             at = self._begin(start, initial, process, None)
-            system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path)
+            system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path, tuned=False)
         except SymidError:
             return -np.inf
         if system is None:
@@ -278,10 +280,8 @@ class Fitter:
 
     @classmethod
     def of(cls, fit: Fit, data: Data, fixed: Sequence[str] = ()) -> Fitter:
-        """For the model of a fit, with steps of the integrator as small as that fit came to need."""
-        fitter = cls(fit.model, data, fixed)
-        fitter.substeps = max(fitter.substeps, fit.substeps)
-        return fitter
+        """For the model of a fit itself."""
+        return cls(fit.model, data, fixed, fit)
 
     def again(self, fit: Fit, iterations: int = 40) -> Fit:
         """A fit that goes on from where `fit` of the same model ended, perhaps with another error model."""
@@ -303,7 +303,7 @@ class Fitter:
             gain, value = known, self.evaluate(p, x0, known, process)
         if not np.isfinite(value):
             raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
-        return _Point(p, x0, process, gain, path, value)
+        return _Point(p, x0, process, gain, path, value - self._growth_penalty(p, path))
 
     def _improved(self, at: _Point, system, damping: float) -> tuple[_Point | None, np.ndarray, float]:
         """A better point, the last step tried, and the damping to go on with."""
@@ -340,14 +340,18 @@ class Fitter:
         process1[self.noises :] = np.clip(process1[self.noises :], 1 / SHARPEST, SHARPEST)
         return p1, x0 + step[-E * n :].reshape(E, n), process1
 
-    def normal(self, p, x0, gain, process, path):
-        """Normal equations of shared unknowns (parameters, log noise) and initial states."""
+    def normal(self, p, x0, gain, process, path, tuned: bool = True):
+        """Normal equations of shared unknowns (parameters, log noise if `tuned`) and initial states."""
         runs = self.run(p, x0, gain, sensitivities=True, process=process)
         if runs is None:
             return None
         innovations = self.innovations(runs, process)
         _, whitening = self.score(innovations, process)
-        noise = self.tuned_columns(p, x0, gain, process, path, innovations)
+        noise = (
+            self.tuned_columns(p, x0, gain, process, path, innovations)
+            if tuned and self.tuned
+            else [np.zeros((*s.shape, 0)) for s in innovations]
+        )
         q, n, w, E = len(self.free), x0.shape[1], noise[0].shape[2], len(runs)
         size = q + w + E * n
         H, g = np.zeros((size, size)), np.zeros(size)
@@ -358,7 +362,7 @@ class Fitter:
                 where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
                 H[np.ix_(where, where)] += J.T @ J
                 g[where] += J.T @ r
-            if self.data.cutoff_free:
+            if self.data.cutoff_free and tuned:
                 _, slope, bend = self.data.filter.log_volume(self.step, self.sharpness(process))
                 samples = sum(s.size for s in innovations)
                 H[q + w - 1, q + w - 1] += samples * (slope - bend)
@@ -372,8 +376,6 @@ class Fitter:
 
     def tuned_columns(self, p, x0, gain, process, path, innovations):
         """Change of the innovations per unit of the logarithm of what is tuned, by differences."""
-        if not self.tuned:
-            return [np.zeros((*s.shape, 0)) for s in innovations]
         linear, columns = linearised_along(self.sim, p, path) if self.driven else None, []
         for j in self.tuned:
             more = process.copy()
@@ -418,4 +420,5 @@ class Fitter:
             iterations,
             converged,
             self.substeps,
+            self.bounded,
         )

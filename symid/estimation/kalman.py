@@ -7,8 +7,8 @@ from scipy.linalg import LinAlgError, expm, solve_discrete_are
 
 from symid.simulation import Linearised, Simulator
 
-HOLD = 0.01
-"""Random forces last about this long [s]."""
+HOLD, MOST_HOLDS = 0.01, 8
+"""Random forces last about this long [s], or this part of a sample: shorter ones within a sample look all alike."""
 
 
 def linearised_along(simulator: Simulator, values: np.ndarray, states: np.ndarray, points: int = 16) -> Linearised:
@@ -44,10 +44,15 @@ def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np
     return np.zeros((len(linear.A), len(C)))
 
 
+def holds_of(step: float) -> int:
+    """So many times a random force changes within a sample of `step` seconds."""
+    return min(max(1, round(step / HOLD)), MOST_HOLDS)
+
+
 def _moved(A, G, step: float, process: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Transition over a sample and the covariance of what the noise adds (Anderson & Moore 1979, 4.4)."""
     n, w = G.shape
-    holds = max(1, round(step / HOLD))
+    holds = holds_of(step)
     block = np.zeros((n + w, n + w))
     block[:n, :n], block[:n, n:] = A * step / holds, G * step / holds
     exact = expm(block)

@@ -13,6 +13,9 @@
 #define NY (v->m->ny)
 #define NXX NX
 #define NON(n) ((n) > 0 ? (n) : 1)
+/* Rows of sensitivities are padded with zeros to whole vectors of the processor, so that no loop has a remainder. */
+#define WIDE 4
+#define PADDED(n) (((n) + WIDE - 1) / WIDE * WIDE)
 
 typedef struct {
     long N, substeps, method, nq, nqp, nqx, nh, npast;
@@ -28,7 +31,8 @@ typedef struct {
 typedef struct {
     Run r;
     const Ode *m;
-    long steps, *hint;
+    long steps, *hint, nq;              /* nq: sensitivities in a padded row */
+    const int *column;                  /* of each parameter among the sensitivities, -1 where not asked for */
     double *when, *span, *poly, *spoly; /* stored steps: x0, k1, k2 + k3, k4 of states, then of S */
     double *lag, *dlag;                 /* NL, NL x nq */
     double tk, *ak, *sak;                /* rate of change of x' in the last step, and of S' */
@@ -36,37 +40,55 @@ typedef struct {
     int inside;                         /* k1 of the present step is known */
 } Work;
 
-static int solve(int n, double *M, double *B, long nb)
+static void add(double a, const double *restrict x, double *restrict y, long padded)
+{
+    for (long k = 0; k < padded; k += WIDE) for (int j = 0; j < WIDE; j++) y[k+j] += a * x[k+j];
+}
+
+static void swap(double *restrict x, double *restrict y, long n)
+{
+    for (long k = 0; k < n; k++) { double s = x[k]; x[k] = y[k]; y[k] = s; }
+}
+
+/* b = M^-1 b, and M = P L U in its place, by partial pivoting; 1 where it is singular. */
+static int factor(int n, double *restrict M, int *restrict pivot, double *restrict b)
 {
     for (int k = 0; k < n; k++) {
         int piv = k;
         for (int i = k + 1; i < n; i++) if (fabs(M[i*n+k]) > fabs(M[piv*n+k])) piv = i;
         if (!(fabs(M[piv*n+k]) > 1e-300)) return 1;
-        if (piv != k) {
-            for (int j = 0; j < n; j++) { double s = M[k*n+j]; M[k*n+j] = M[piv*n+j]; M[piv*n+j] = s; }
-            for (long j = 0; j < nb; j++) { double s = B[k*nb+j]; B[k*nb+j] = B[piv*nb+j]; B[piv*nb+j] = s; }
-        }
+        pivot[k] = piv;
+        if (piv != k) { swap(M + k*n, M + piv*n, n); swap(b + k, b + piv, 1); }
         double inv = 1.0 / M[k*n+k];
         for (int i = k + 1; i < n; i++) {
-            double f = M[i*n+k] * inv;
+            double f = M[i*n+k];
             if (f == 0.0) continue;
+            M[i*n+k] = f *= inv;
             for (int j = k + 1; j < n; j++) M[i*n+j] -= f * M[k*n+j];
-            for (long j = 0; j < nb; j++) B[i*nb+j] -= f * B[k*nb+j];
+            b[i] -= f * b[k];
         }
     }
     for (int k = n - 1; k >= 0; k--) {
-        for (int i = k + 1; i < n; i++) {
-            double f = M[k*n+i];
-            if (f == 0.0) continue;
-            for (long j = 0; j < nb; j++) B[k*nb+j] -= f * B[i*nb+j];
-        }
-        double inv = 1.0 / M[k*n+k];
-        for (long j = 0; j < nb; j++) B[k*nb+j] *= inv;
+        for (int i = k + 1; i < n; i++) if (M[k*n+i] != 0.0) b[k] -= M[k*n+i] * b[i];
+        b[k] *= 1.0 / M[k*n+k];
     }
     return 0;
 }
 
-static void add(double a, const double *x, double *y, long n) { for (long k = 0; k < n; k++) y[k] += a * x[k]; }
+/* B = M^-1 B for n rows of B, padded, with the factors of M. */
+static void solve(int n, const double *M, const int *pivot, double *B, long padded)
+{
+    for (int k = 0; k < n; k++) if (pivot[k] != k) swap(B + k*padded, B + pivot[k]*padded, padded);
+    for (int k = 0; k < n; k++)
+        for (int i = k + 1; i < n; i++)
+            if (M[i*n+k] != 0.0) add(-M[i*n+k], B + k*padded, B + i*padded, padded);
+    for (int k = n - 1; k >= 0; k--) {
+        for (int i = k + 1; i < n; i++)
+            if (M[k*n+i] != 0.0) add(-M[k*n+i], B + i*padded, B + k*padded, padded);
+        double inv = 1.0 / M[k*n+k], *row = B + k*padded;
+        for (long j = 0; j < padded; j += WIDE) for (int l = 0; l < WIDE; l++) row[j+l] *= inv;
+    }
+}
 
 /* All inputs at time s: linear between samples or held, constant beyond the ends. slope may be null.
  * k is the present interval: at its end a held input still has the value of its start. */
@@ -102,18 +124,19 @@ static void chain(double sign, const Entries *e, const double *d, const double *
     for (int i = 0; i < e->count; i++) add(sign * d[i], S + e->col[i]*nq, out + e->row[i]*nq, nq);
 }
 
-static void direct(double sign, const Entries *e, const double *d, const Run *r, double *out)
+static void direct(double sign, const Entries *e, const double *d, const Work *v, double *out)
 {
-    for (long m = 0; m < r->nqp; m++)
-        for (int i = 0; i < e->count; i++)
-            if (e->col[i] == r->qp[m]) out[e->row[i]*r->nq+m] += sign * d[i];
+    for (int i = 0; i < e->count; i++) {
+        int m = v->column[e->col[i]];
+        if (m >= 0) out[e->row[i]*v->nq+m] += sign * d[i];
+    }
 }
 
 /* Value, rate and sensitivities of state i at time s, from history, stored steps or this step. */
 static void state_at(Work *v, int j, int i, double s, double *value, double *rate, double *S)
 {
     const Run *r = &v->r;
-    long nq = r->nq;
+    long nq = v->nq;
     if (v->inside ? s >= v->tk : v->steps == 0 ? s >= r->t[0] : s > v->tk) {
         double d = s - v->tk;
         *value = v->xk[i] + d * v->k1[i] + 0.5 * d * d * v->ak[i];
@@ -160,7 +183,7 @@ static void state_at(Work *v, int j, int i, double s, double *value, double *rat
 /* All late signals at time t, given the present x (used where a lag is zero). */
 static void late_at(Work *v, double t, long k, const double *x, const double *S, double *l, double *lS)
 {
-    long nq = v->r.nq;
+    long nq = v->nq;
     for (int j = 0; j < NL; j++) {
         double rate = 0, u[NON(NU)], slope[NON(NU)];
         int i = v->m->late_index[j];
@@ -184,32 +207,32 @@ static void late_at(Work *v, double t, long k, const double *x, const double *S,
 static int rates(Work *v, double t, long k, const double *x, const double *S, double *xd, double *Sd, double *lS)
 {
     const Run *r = &v->r;
-    long nq = r->nq;
+    long nq = v->nq;
     double u[NON(NU)], l[NON(NL)], M[NXX*NXX];
     const Ode *m = v->m;
     const double *w = r->w + k*m->nw;
     inputs_at(v, t, k, u, 0);
     late_at(v, t, k, x, S, l, lS);
     m->mass(xd, x, l, u, w, r->p, r->c, t, M, xd);
-    double Mc[NXX*NXX];
-    if (nq) memcpy(Mc, M, NX*NX*sizeof(double));
+    int pivot[NXX];
     for (int i = 0; i < NX; i++) xd[i] = -xd[i];
-    if (solve(NX, M, xd, 1)) return 1;
+    if (factor(NX, M, pivot, xd)) return 1;
     if (!nq) return 0;
     double dx[NON(m->rx.count)], dl[NON(m->rl.count)], dp[NON(m->rp.count)], dw[NON(m->rw.count)];
     m->slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dw);
     memset(Sd, 0, NX * nq * sizeof(double));
     chain(-1, &m->rx, dx, S, Sd, nq);
     chain(-1, &m->rl, dl, lS, Sd, nq);
-    direct(-1, &m->rp, dp, r, Sd);
-    return solve(NX, Mc, Sd, nq);
+    direct(-1, &m->rp, dp, v, Sd);
+    solve(NX, M, pivot, Sd, nq);
+    return 0;
 }
 
 static void observe_at(Work *v, double t, long k, const double *xd, const double *Sd, const double *x,
                        const double *S, double *y, double *Sy, double *lS)
 {
     const Run *r = &v->r;
-    long nq = r->nq;
+    long nq = v->nq;
     double u[NON(NU)], l[NON(NL)];
     const double *w = r->w + (k < r->N - 1 ? k : k > 0 ? k - 1 : 0)*v->m->nw;
     inputs_at(v, t, k, u, 0);
@@ -223,7 +246,7 @@ static void observe_at(Work *v, double t, long k, const double *xd, const double
     chain(1, &m->hx, dx, S, Sy, nq);
     chain(1, &m->hl, dl, lS, Sy, nq);
     chain(1, &m->hxd, dr, Sd, Sy, nq);
-    direct(1, &m->hp, dp, r, Sy);
+    direct(1, &m->hp, dp, v, Sy);
 }
 
 static int healthy(int n, const double *x, double limit)
@@ -246,7 +269,7 @@ static double past_gain(const Work *v, double late, int i, int o)
  * (Anderson & Moore 1979, 7.3) on the stored steps, linear within each. */
 static void correct_past(Work *v, double now, double interval, const double *e, const double *Sy)
 {
-    long nq = v->r.nq, big = NX*nq;
+    long nq = v->nq, big = NX*nq;
     for (long n = v->steps - 1; n >= 0; n--) {
         double h = v->span[n], a = (now - v->when[n]) / interval, b = a - h / interval;
         if (b >= v->r.npast) break;
@@ -263,6 +286,12 @@ static void correct_past(Work *v, double now, double interval, const double *e, 
     }
 }
 
+/* Rows of sensitivities without their padding. */
+static void shown(double *out, const double *S, long rows, long nq, long padded)
+{
+    for (long i = 0; i < rows; i++) memcpy(out + i*nq, S + i*padded, nq * sizeof(double));
+}
+
 /* Returns the number of samples that were reached before the run left `limit`. */
 long simulate(const Ode *model, const Run *given)
 {
@@ -271,7 +300,12 @@ long simulate(const Ode *model, const Run *given)
     v->r = *given;
     v->m = model;
     const Run *r = &v->r;
-    long nq = r->nq, big = NX * nq, m = r->substeps, keep = NL > 0;
+    v->nq = PADDED(r->nq);
+    long nq = v->nq, big = NX * nq, m = r->substeps, keep = NL > 0;
+    int column[NON(model->np)];
+    for (int i = 0; i < model->np; i++) column[i] = -1;
+    for (long k = 0; k < r->nqp; k++) column[r->qp[k]] = (int)k;
+    v->column = column;
     long nsteps = keep ? (r->N - 1) * m + 1 : 0;
     double *space = calloc(14 * big + 2 * NON(NL) * nq + NON(NY) * nq + 64, sizeof(double));
     double *S = space, *Sx = S + big, *K1 = Sx + big, *K2 = K1 + big, *K3 = K2 + big, *K4 = K3 + big;
@@ -296,7 +330,7 @@ long simulate(const Ode *model, const Run *given)
     if (NL && nq) {
         double dp[NON(v->m->lp.count)];
         v->m->lag_slopes(x, x, x, x, x, r->p, r->c, 0, dp);
-        direct(1, &v->m->lp, dp, r, v->dlag);
+        direct(1, &v->m->lp, dp, v, v->dlag);
     }
     memcpy(v->xk, x, NX * sizeof(double)); memcpy(v->sk, S, big * sizeof(double));
     v->tk = r->t[0];
@@ -310,8 +344,8 @@ long simulate(const Ode *model, const Run *given)
         observe_at(v, r->t[k], k, k1, K1, x, S, y, Sy, lS);
         if (r->X) memcpy(r->X + k*NX, x, NX * sizeof(double));
         if (r->Y) memcpy(r->Y + k*NY, y, NY * sizeof(double));
-        if (nq && r->SX) memcpy(r->SX + k*big, S, big * sizeof(double));
-        if (nq && r->SY) memcpy(r->SY + k*NY*nq, Sy, NY * nq * sizeof(double));
+        if (nq && r->SX) shown(r->SX + k*NX*r->nq, S, NX, r->nq, nq);
+        if (nq && r->SY) shown(r->SY + k*NY*r->nq, Sy, NY, r->nq, nq);
         done = k + 1;
         if (k == r->N - 1) break;
         if (r->gain) {

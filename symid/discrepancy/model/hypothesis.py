@@ -138,7 +138,7 @@ def refit(
     model = base.model
     for s in suspects:
         model = model.with_term(s.term)
-    fitter, values = Fitter(model, data), (more or {}) | near.values
+    fitter, values = Fitter(model, data, near=near), (more or {}) | near.values
     columns = {k: i for i, k in enumerate(near.simulator.states)}
     start = np.column_stack(
         [near.initial[:, columns[k]] if k in columns else np.zeros(len(near.initial)) for k in fitter.sim.states]

@@ -11,7 +11,6 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from symid.discrepancy.model.hypothesis import Hypothesis
-from symid.discrepancy.name.explore import explore
 from symid.discrepancy.name.search import Search
 from symid.errors import SymidError
 from symid.estimation.data import Data
@@ -44,12 +43,7 @@ def _likeliest(searches: list[Search]) -> Search:
     if len(searches) == 1:
         return searches[0]
 
-    def best(search: Search) -> float:
-        pool = [s for s in search.pool if s.kind != "clock"]
-        tried = explore(search.base, search.data, pool, later=True, threads=search.threads)
-        return max([search.base.loglik2, *(h.fit.loglik2 for h in tried)])
-
-    return max(searches, key=best)
+    return max(searches, key=lambda s: max([s.base.loglik2, *(h.fit.loglik2 for h in s.states_alone)]))
 
 
 def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:

@@ -41,11 +41,15 @@ def explore(
     suspects: Sequence[Suspect],
     *,
     later: bool = False,
+    least: float = 0.0,
     projection: Projection | None = None,
     threads: int = 2,
     progress: Callable[[str], None] = lambda text: None,
 ) -> list[Hypothesis]:
-    """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found."""
+    """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found.
+
+    least : log-likelihood ratio below which a suspect is of no use; those that promise too little of it are not fitted.
+    """
     projection = projection or Projection(fit, data)
     refitted, converged = (
         (POLICY.refitted_later, POLICY.converged_later) if later else (POLICY.refitted, POLICY.converged)
@@ -54,7 +58,7 @@ def explore(
         starts = [s for s in pool.map(lambda s: _starts(fit, data, projection, s), suspects) if s]
         starts.sort(key=lambda s: -_reach(s))
         chosen = [s for i, s in enumerate(starts) if _reach(s) > POLICY.worth_refitting or i < POLICY.always_refitted]
-        chosen = chosen[:refitted]
+        chosen = [s for s in chosen[:refitted] if least <= 0 or _reach(s) > KEPT * least]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
         first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen[: POLICY.always_refitted]) if c is not None]
         best = max((c.log_ratio for c in first), default=0.0)
@@ -88,7 +92,7 @@ def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> l
     if suspect.scanned is not None:
         found = scan(projection, suspect, model)
         return [Start(g, suspect, v) for g, v in found[:1] + [f for f in found[1:] if f[0] > 0.7 * found[0][0]][:2]]
-    fitter, found = Fitter(model, data), []
+    fitter, found = Fitter(model, data, near=fit), []
     if suspect.strength is not None:
         for values in suspect.starts():
             try:
@@ -103,8 +107,7 @@ def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> l
     # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
     finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
     finite = [v for here, v in finite if np.isfinite(here)][:2]
-    promised = [_promise(fitter, fit, suspect, v) for v in suspect.starts(off=False)]
-    forecast = max([s.forecast for s in found] + promised, default=0.0)
+    forecast = max([s.forecast for s in found] + [_promise(fitter, fit, suspect)])
     return found[:1] + [Start(forecast, suspect, v) for v in finite]
 
 
@@ -114,17 +117,17 @@ def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) 
     return fitter.evaluate(p, extended(fit.initial, fitter.sim), padded(fit.kalman_gain, fitter.sim))
 
 
-def _promise(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
+def _promise(fitter: Fitter, fit: Fit, suspect: Suspect) -> float:
     """Growth of twice the log-likelihood that one step promises from where the law nearly does nothing."""
-    initial = extended(fit.initial, fitter.sim)
-    weak = [SMALL] if suspect.strength is not None else [SMALL, 1 / SMALL]
-    starts = [fit.values | suspect.named({k: part * v for k, v in values.items()}) for part in weak]
-    return max(fitter.promise(start, initial, fit.process) for start in starts) - fit.loglik2
+    initial, starts = extended(fit.initial, fitter.sim), suspect.starts(off=False)
+    weak = (SMALL, SMALL if suspect.strength is not None else 1 / SMALL)
+    ends = [{k: part * v for k, v in start.items()} for start, part in zip((starts[0], starts[-1]), weak, strict=True)]
+    return max(fitter.promise(fit.values | suspect.named(v), initial, fit.process) for v in ends) - fit.loglik2
 
 
 def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothesis | None:
     suspect = start.suspect
-    fitter = Fitter(fit.model.with_term(suspect.term), data)
+    fitter = Fitter(fit.model.with_term(suspect.term), data, near=fit)
     try:
         new = fitter.fit(
             fit.values | suspect.named(start.values),

@@ -48,6 +48,12 @@ class Search:
         """Of the model as given, with the responses of all suspects that were tried on it."""
         return Projection(self.base, self.data)
 
+    @cached_property
+    def states_alone(self) -> list[Hypothesis]:
+        """Each suspect that follows no clock, alone."""
+        nothing = Hypothesis((), self.base, self.base, self.data)
+        return self._explored(nothing, [s for s in self.pool if s.kind != "clock"])
+
     def run(self) -> tuple[Hypothesis, list[Hypothesis]]:
         """The best hypothesis, and each suspect alone, best first."""
         best = Hypothesis((), self.base, self.base, self.data)
@@ -59,7 +65,7 @@ class Search:
             if more is None:
                 break
             if len(more.suspects) == 2 and not self.quiet(more) and not self.beaten(more):
-                more = self._preferred(best, [more, *self._other_pairs(best, single)])
+                more = self._preferred(best, [more, *self._other_pairs(best, single, above=more.log_ratio)])
             if len(more.suspects) > 1:
                 more = self._reexamined(more, single)
                 if not self._worth(more, best):
@@ -144,7 +150,7 @@ class Search:
         return found.fit.kalman_gain is not None or bool(np.all(rms < POLICY.far * self.data.sensor_noise))
 
     # ---- trying ------------------------------------------------------------------------------
-    def _added(self, best: Hypothesis) -> list[Hypothesis]:
+    def _added(self, best: Hypothesis, least: float = 0.0) -> list[Hypothesis]:
         """`best` with each of the other suspects, clocks only where states leave something.
 
         On top of an earlier finding clocks are looked for anew where no state is worth its price; else those that
@@ -153,13 +159,13 @@ class Search:
         taken = {s.term for s in best.suspects}
         others = [s for s in self.pool if s.term not in taken]
         states, clocks = ([s for s in others if (s.kind == "clock") is clock] for clock in (False, True))
-        found = self._explored(best, states)
+        found = self._explored(best, states, least) if best.suspects else list(self.states_alone)
         first = self._preferred(best, found)
         if first is not None and best.suspects:
             found += self._known_clocks(best, taken)
         elif clocks and (first is None or not self.quiet(first)):
             self.progress("looking for what follows a clock")
-            found += self._explored(best, clocks)
+            found += self._explored(best, clocks, least)
             self.clocks = self.clocks or [h for h in found if h.suspect.kind == "clock" and self._worth(h, best)]
         self.tried += found
         return by_score(found)
@@ -170,21 +176,25 @@ class Search:
         tried = [hypothesis([*best.suspects, h.suspect], best.fit, self.base, self.data, h.fit.values) for h in known]
         return [h for h in tried if h is not None]
 
-    def _explored(self, best: Hypothesis, pool: Sequence[Suspect]) -> list[Hypothesis]:
+    def _explored(self, best: Hypothesis, pool: Sequence[Suspect], least: float = 0.0) -> list[Hypothesis]:
         found = explore(
             best.fit,
             self.data,
             pool,
             later=bool(best.suspects),
+            least=least,
             threads=self.threads,
             progress=self.progress,
             projection=None if best.suspects else self.projection,
         )
         return [Hypothesis((*best.suspects, h.suspect), h.fit, self.base, self.data, h.forecast) for h in found]
 
-    def _other_pairs(self, best: Hypothesis, single: list[Hypothesis], alone: bool = True) -> list[Hypothesis]:
+    def _other_pairs(
+        self, best: Hypothesis, single: list[Hypothesis], alone: bool = True, above: float = 0.0
+    ) -> list[Hypothesis]:
         """Pairs that begin with any of the other good suspects: the best single one may belong to none.
 
+        above : the log-likelihood ratio of a pair that is known.
         alone : whether the first of a pair must be worth its price by itself. A stiffness that grows shows only where
             the motion also dies away, and that it dies away only where the frequency that goes with it is right.
         """
@@ -199,7 +209,7 @@ class Search:
         pairs = []
         for h in rivals[: POLICY.beam]:
             self.progress(f"looking for what would complete {h.suspect.term}")
-            pairs.append(self._preferred(h, self._added(h)))
+            pairs.append(self._preferred(h, self._added(h, above - h.log_ratio)))
         return [p for p in pairs if p is not None]
 
     def _reexamined(self, found: Hypothesis, single: list[Hypothesis]) -> Hypothesis:
