@@ -127,15 +127,20 @@ class Shooting:
             ends = [self.fit(end.x, gain, PATIENCE) for end in ends]
         return [end for end in ends if self.follows(end.x)]
 
-    def tracked(self, starts: Sequence[np.ndarray]) -> Iterator[tuple[np.ndarray, list[np.ndarray]]]:
+    def tracked(
+        self, starts: Sequence[np.ndarray], anywhere: bool = False
+    ) -> Iterator[tuple[np.ndarray, list[np.ndarray]]]:
         """Parameters and states of every episode, of simulations that follow the recording, led as weakly as may be.
+
+        anywhere : whether to begin from random parameters, too, as it does where states are hidden.
 
         Where the optimum is lost on the way, what was found before that is led still: states that jump a little at the
         samples are a start of a collocation where simulations alone lose the recording, as of chaotic systems.
         """
-        draws = [self.drawn(k) for k in range(DRAWS)] if self.hidden else []
+        anywhere = anywhere or self.hidden
+        draws = [self.drawn(k) for k in range(DRAWS)] if anywhere else []
         ends = sorted((self.fit(z, FINE_GAINS[0], PATIENCE) for z in (*starts, *draws)), key=lambda end: end.cost)
-        for end in unlike(ends)[: BEST if self.hidden else len(starts)]:
+        for end in unlike(ends)[: BEST if anywhere else len(starts)]:
             least, kept = end.cost, (end.x, FINE_GAINS[0])
             for gain in FINE_GAINS[1:]:
                 end = self.fit(end.x, gain, PATIENCE)

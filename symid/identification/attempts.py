@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp
 from symid.errors import SolveError
-from symid.identification.starts.further import far, further_starts
+from symid.identification.starts.further import drawn_starts, far, further_starts
 from symid.ipopt_solver import Iteration, SolverResult
 
 if TYPE_CHECKING:
@@ -69,7 +69,11 @@ class Attempts:
             else:
                 self.run(start, MANY)
             if self.done:
-                break
+                return
+        for start in drawn_starts(self.t) if not self.solved else ():
+            self.beside(start, MANY)
+            if self.done:
+                return
 
     @property
     def solved(self) -> bool:

@@ -49,21 +49,44 @@ def far(t: Transcription, z: np.ndarray) -> bool:
 def further_starts(t: Transcription, z: np.ndarray, solved: bool) -> Iterator[tuple[np.ndarray, bool]]:
     """Free vectors from which a better end than `z` may be found, and whether they are simulations (led ones).
 
-    solved : whether `z` is a solution. Of a large problem it must be in doubt then, for more to be tried.
+    solved : whether `z` is a solution. Of a large problem it must be in doubt then, for more to be tried than the
+        recorded motion, which is tried where simulations with the regressed parameters do not follow it: the optimum
+        that led simulations end in need not be the one that is nearest to the recording.
     """
     shooting = Shooting(t) if can_shoot(t) else None
-    large, seen = sum(m.intervals for m in t.measured) > SMALL, shooting is not None and not shooting.hidden
+    large, seen = _large(t), shooting is not None and not shooting.hidden
     if large and solved and not seen:
         return
     motion = smooth_motion(t)
     regressed = equation_error(t, guesses(t), motion)[0]
-    if large and solved and _doubt(shooting, z, regressed) < PULLED:
+    settled = large and solved and _doubt(shooting, z, regressed) < PULLED
+    if settled and shooting.follows(shooting.unknowns(regressed)):
         return
     yield t.start(regressed, motion if shooting is None else shooting.with_hidden(motion)), False
+    if settled:
+        return
     if seen or (shooting is not None and not large):
         others = [regressed, equation_error(t, guesses(t))[0]]
         for found in shooting.tracked([shooting.unknowns(p) for p in others]):
             yield t.start(*found), True
+
+
+@one_blas_thread
+def drawn_starts(t: Transcription) -> Iterator[np.ndarray]:
+    """Free vectors of led simulations from random parameters, where these were not among the `further_starts`; none of
+    a large problem, where so many fits take long.
+
+    A regression on noisy accelerations makes unknown masses too small, down to their bounds, from where no simulation
+    comes back.
+    """
+    if _large(t) or not can_shoot(t) or (shooting := Shooting(t)).hidden:
+        return
+    for found in shooting.tracked([], anywhere=True):
+        yield t.start(*found)
+
+
+def _large(t: Transcription) -> bool:
+    return sum(m.intervals for m in t.measured) > SMALL
 
 
 def _doubt(shooting: Shooting, z: np.ndarray, regressed: np.ndarray) -> float:
