@@ -58,12 +58,12 @@ def open_library(path: str) -> ctypes.CDLL | None:
 
 
 def solve(library: ctypes.CDLL, nlp: NonlinearProgram, evaluation: Evaluation, options: dict,
-          scales: tuple, point: dict[str, np.ndarray]) -> int:  # fmt: skip
+          scales: tuple | None, point: dict[str, np.ndarray]) -> int:  # fmt: skip
     """Run Ipopt on `nlp`; `point` holds start and multipliers and is overwritten with the result.
 
     Parameters
     ----------
-    scales : tuple
+    scales : tuple or None
         Factors of the objective (float), variables (n,) and constraints (m,).
     point : dict
         float64 arrays z, constraints, multipliers, lower, upper, and objective of shape (1,).
@@ -85,8 +85,9 @@ def solve(library: ctypes.CDLL, nlp: NonlinearProgram, evaluation: Evaluation, o
     try:
         for name, value in options.items():
             _set_option(library, problem, name, value)
-        factors = [np.ascontiguousarray(factor, dtype=float) for factor in scales[1:]]
-        library.SetIpoptProblemScaling(problem, scales[0], *map(_address, factors))
+        if scales is not None:
+            factors = [np.ascontiguousarray(factor, dtype=float) for factor in scales[1:]]
+            library.SetIpoptProblemScaling(problem, scales[0], *map(_address, factors))
         library.SetIntermediateCallback(problem, step)
         vectors = ("z", "constraints", "objective", "multipliers", "lower", "upper")
         with _one_blas_thread(library):

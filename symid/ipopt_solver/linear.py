@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from symid import kkt
 from symid.errors import CodegenError, SolveError
+from symid.ipopt_solver.memory import keep_freed_memory
 from symid.ipopt_solver.status import SOLVED
 
 CHAIN: dict[str, str | float] = {"linear_solver": "ma27", "linear_system_scaling": "none"}
@@ -19,6 +20,9 @@ MUMPS: dict[str, str | float] = {
     "mumps_scaling": 0,
     "mumps_pivot_order": 6,
 }
+KEPT_BYTES, KEPT_BYTES_CHAIN = 2**30, 2**24
+"""Freed blocks up to this size are kept: MUMPS takes its work space anew at each factorisation; the solver for chains
+holds its own, so that what else is large may go back. An hour at 100 Hz needs a twentieth less memory for it."""
 
 
 @dataclass(frozen=True)
@@ -56,12 +60,14 @@ def run_with(wanted: str, run: Callable[[dict], int]) -> tuple[int, LinearSolver
         "chain" was asked for, and there is no compiler or no chain.
     """
     if wanted not in ("auto", "chain"):
+        keep_freed_memory(KEPT_BYTES)
         return run(MUMPS if wanted == "mumps" else {"linear_solver": wanted}), LinearSolver(wanted, "asked for")
     try:
         path = kkt.library_path()
     except CodegenError as problem:
         return _mumps_instead(wanted, run, f"the solver for chains cannot be compiled: {problem}")
     kkt.begin()
+    keep_freed_memory(KEPT_BYTES_CHAIN)
     try:
         status = run(CHAIN | {"hsllib": str(path)})
     finally:
@@ -78,4 +84,5 @@ def run_with(wanted: str, run: Callable[[dict], int]) -> tuple[int, LinearSolver
 def _mumps_instead(wanted: str, run: Callable[[dict], int], reason: str) -> tuple[int, LinearSolver]:
     if wanted == "chain":
         raise SolveError(f"linear_solver='chain' is not possible: {reason}. Choose 'auto' or 'mumps'.")
+    keep_freed_memory(KEPT_BYTES)
     return run(MUMPS), LinearSolver("mumps", reason)

@@ -1,6 +1,5 @@
 """Solve a nonlinear program with Ipopt. The only place that imports cyipopt."""
 
-import ctypes
 import functools
 import sys
 import time
@@ -101,14 +100,15 @@ def solve_nlp(
     given, nlp = nlp, with_unit_objective(nlp)
     chosen = _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian)
     way, run = _runner(interface)
-    _keep_freed_memory()
     evaluation = Evaluation(nlp, on_iteration, given.objective_scale)
     wanted = chosen.pop("linear_solver", linear_solver)
-    begin = {name: value.copy() for name, value in point.items()}
+    begun = False
 
     def run_from_start(linear: dict[str, str | float]) -> int:
-        for name, value in begin.items():
-            point[name][...] = value
+        nonlocal begun
+        if begun:  # an earlier run has left its end there
+            point.update(_starting_point(given, start, warm_start))
+        begun = True
         return run(nlp, evaluation, linear | chosen, _scales(nlp), point)
 
     ended: dict = {"status": WALL_TIME, "linear": LinearSolver(wanted, "left in the middle of a factorisation")}
@@ -122,7 +122,7 @@ def solve_nlp(
             ended["status"] = WALL_TIME
         _raise_failure(evaluation, ended["status"])
     else:
-        point = _last_point(nlp, evaluation, begin)
+        point = _last_point(nlp, evaluation, _starting_point(given, start, warm_start))
     for name in ("objective", "multipliers", "lower", "upper"):
         point[name] = point[name] * given.objective_scale
     return make_result(given, evaluation, ended["status"], point, time.perf_counter() - began, ended["linear"], way)
@@ -199,8 +199,10 @@ def _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian) ->
     return chosen | (WARM_START if warm_start else {}) | (options or {})
 
 
-def _scales(nlp: NonlinearProgram) -> tuple[float, np.ndarray, np.ndarray]:
-    """Turn typical sizes into the factors that Ipopt wants; the objective has its unit size already."""
+def _scales(nlp: NonlinearProgram) -> tuple[float, np.ndarray, np.ndarray] | None:
+    """Turn typical sizes, where there are any, into the factors that Ipopt wants; the objective has its unit size."""
+    if nlp.variable_scale is None and nlp.constraint_scale is None:
+        return None
     z = np.ones(nlp.n) if nlp.variable_scale is None else 1 / nlp.variable_scale
     g = np.ones(nlp.m) if nlp.constraint_scale is None else 1 / nlp.constraint_scale
     return 1.0, z, g
@@ -311,25 +313,13 @@ def _run_cyipopt(nlp, evaluation, options, scales, point) -> int:
             problem.add_option(name, value)
         except TypeError as refused:
             raise SolveError(f"Ipopt refused the option {name}={value!r}: check its spelling and type.") from refused
-    problem.set_problem_scaling(*scales)
+    if scales is not None:
+        problem.set_problem_scaling(*scales)
     _, info = problem.solve(point["z"], point["multipliers"], point["lower"], point["upper"])
     for name, key in (("z", "x"), ("constraints", "g"), ("multipliers", "mult_g"),
                       ("lower", "mult_x_L"), ("upper", "mult_x_U"), ("objective", "obj_val")):  # fmt: skip
         point[name][...] = info[key]
     return info["status"]
-
-
-@functools.cache
-def _keep_freed_memory() -> None:
-    """Tell glibc to keep freed memory, else MUMPS's work space is mapped anew at each factorisation."""
-    m_trim_threshold, m_mmap_threshold = -1, -3  # malloc.h
-    try:
-        mallopt = ctypes.CDLL(None).mallopt
-    except (OSError, AttributeError, TypeError):  # no glibc: macOS, musl, Windows
-        return
-    if not mallopt(m_mmap_threshold, 2**30):
-        mallopt(m_mmap_threshold, 2**25)  # the most that older glibc accepts
-    mallopt(m_trim_threshold, 2**30)
 
 
 def _raise_failure(evaluation: Evaluation, status: int) -> None:

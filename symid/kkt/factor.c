@@ -26,9 +26,10 @@ typedef struct {
     Part *part;  /* (fronts + 1,) the last is the border's */
     Mark *mark;  /* (fronts + 1,) of `handed`, before each front's */
     Work *work;  /* (tasks + 2,) tasks, top, border */
-    double *x;   /* (n,) of a solve, by position */
-    double *scale, *most;     /* (n,) of the rows, in the matrix's order; room for finding it */
-    float *product;           /* (nz,) of the two scales of every entry */
+    double *x;   /* (n,) of a solve, by position; room for finding scales */
+    double *scale;            /* (n,) of the rows, in the matrix's order */
+    int8_t *product;          /* (nz,) exponent of the product of every entry's two scales */
+    int scaled;               /* whether there are scales of an earlier factorisation */
     const double *values;     /* the matrix at hand */
     double threshold;
     int rank, negative, threads;
@@ -143,7 +144,7 @@ static void mirror(Part *p) {
 }
 
 static inline double scaled(const Factor *s, int source) {
-    return s->values[source] * s->product[source];
+    return s->values[source] * power_of_two(s->product[source]);
 }
 
 static int factorise_front(Factor *s, Work *w, int f) {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define SHARE 16 /* part of what is expected that is added where it does not suffice */
 #define LANES 8 /* doubles in a vector; columns of fronts are padded to it */
 
 typedef struct Chunk {
@@ -47,7 +48,8 @@ static double *take(Arena *a, size_t count) {
         a->now->used = 0;
     }
     if (!a->now || a->now->used + count > a->now->size) {
-        Chunk *fresh = new_chunk(count > a->usual ? count : a->usual);
+        size_t more = a->first ? a->usual / SHARE + 4096 : a->usual;
+        Chunk *fresh = new_chunk(count > more ? count : more);
         if (!fresh) return NULL;
         if (a->now) a->now->next = fresh;
         else a->first = fresh;

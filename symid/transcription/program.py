@@ -77,9 +77,14 @@ class CollocationProgram:
         self.constraint_lower, self.constraint_upper = self._constraint_bounds()
         self.jacobian_rows, self.jacobian_cols = self._jacobian_structure()
         self.hessian_rows, self.hessian_cols = self._hessian_structure()
-        for places in (self.jacobian_rows, self.jacobian_cols, self.hessian_rows, self.hessian_cols):
-            places.setflags(write=False)  # shared with every nonlinear program made from this one
+        self._share()
         self._slope_places = np.concatenate([np.zeros(0, int), *(b.gradient_places() for b in self.wanted)])
+
+    def _share(self) -> None:
+        """Nobody can change what every nonlinear program made from this one holds, too."""
+        bounds = (self.lower, self.upper, self.constraint_lower, self.constraint_upper)
+        for array in (self.jacobian_rows, self.jacobian_cols, self.hessian_rows, self.hessian_cols, *bounds):
+            array.setflags(write=False)
 
     # ---- structure -------------------------------------------------------------------
     def _interval_block(self, e: int) -> Block:

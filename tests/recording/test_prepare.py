@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import scipy
 from waves import DEGREE, csv_text, even_rows, wave, without_noise_figure, written
 
 from symid.errors import RecordingError
@@ -16,6 +17,8 @@ from symid.recording import (
     resample,
     smooth_states,
 )
+
+from symid.recording.smooth import _spline
 
 # -- preparing --------------------------------------------------------------------------------
 
@@ -195,6 +198,15 @@ def test_verbs_work_segment_by_segment():
             assert part["angle"] == pytest.approx(value, abs=1e-9)
     assert np.abs(differentiate(recording, "angle")["velocity"]).max() < 1e-9
     assert np.abs(smooth_states(recording, "angle")["velocity"]).max() < 1e-6
+
+
+@pytest.mark.parametrize(("samples", "weight"), [(5, 1.0), (6, 1e-3), (50, 1e4), (1001, 1e4), (1001, 1e-2)])
+def test_the_smoothing_spline_is_that_of_scipy(samples, weight):
+    place, step = np.arange(samples, dtype=float), 0.02
+    values = np.sin(0.1 * place) + np.random.default_rng(samples).standard_normal(samples)
+    curve = scipy.interpolate.make_smoothing_spline(place, values, lam=weight)
+    expected = [curve(place), curve(place, 1) / step, curve(place, 2) / step**2]
+    np.testing.assert_allclose(_spline(values, weight, step), expected, atol=1e-9 / step**2)
 
 
 def test_smoothing_that_is_refused(tmp_path):

@@ -1,0 +1,26 @@
+"""What glibc does with freed memory; elsewhere nothing is done."""
+
+import ctypes
+import functools
+
+
+@functools.cache
+def _mallopt():
+    try:
+        return ctypes.CDLL(None).mallopt
+    except (OSError, AttributeError, TypeError):  # no glibc: macOS, musl, Windows
+        return None
+
+
+def keep_freed_memory(largest: int) -> None:
+    """Blocks of up to `largest` bytes are kept when they are freed; larger ones go back to the system.
+
+    What is kept need not be mapped and cleared anew at each iteration, but is not there for blocks of other sizes.
+    """
+    m_trim_threshold, m_mmap_threshold, most_of_older = -1, -3, 2**25  # malloc.h; older glibc accepts no more
+    mallopt = _mallopt()
+    if mallopt is None:
+        return
+    if not mallopt(m_mmap_threshold, largest):
+        mallopt(m_mmap_threshold, most_of_older)
+    mallopt(m_trim_threshold, largest)
