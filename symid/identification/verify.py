@@ -1,4 +1,9 @@
-"""A solution checked by others than its solver: a finer mesh, an integrator, the optimality conditions."""
+"""A solution checked by others than its solver: a finer mesh, an integrator, the optimality conditions.
+
+The integrator is the compiled simulator with steps that are halved until the outputs agree: 0.03 s for 5000 samples.
+SciPy's, which call Python at every step, take more than a second for a thousand samples of a driven model, longer
+than the solve; that they find the same departures is a test.
+"""
 
 from __future__ import annotations
 

@@ -9,6 +9,8 @@ from conftest import pendulum, pendulum_recording
 from scipy.integrate import solve_ivp
 
 import symid as si
+from more_systems import lateral_car
+from small_systems import any_pendulum, dc_motor, lotka_volterra, three_links
 from symid.recording import Recording
 
 
@@ -88,3 +90,56 @@ def test_a_parameter_at_its_bound_and_an_acceptable_end_are_said():
     assert "damping lies at its bound (0.2 1/s)" in str(solution)
     acceptable = replace(solution, result=replace(solution.result, status=1))
     assert "ACCEPTABLE, not solved" in str(acceptable)
+
+
+def by_scipy(solution: si.Solution) -> np.ndarray:
+    """(samples, m) outputs from SciPy's adaptive integrator, with rates that SymPy solves the equations for.
+
+    It shares neither the generated code nor the Runge-Kutta steps of the integrator that verifies a solution.
+    """
+    m, frame, (recording,) = solution.model, solution.trajectories[0], solution.problem.recordings
+    known = {c.symbol: c.value for c in m.constants.values()}
+    known |= {w.symbol: 0.0 for w in m.noises.values()}
+    known |= {m.parameters[name].symbol: value for name, value in solution.values.items()}
+    symbols = [x.symbol for x in (*m.states.values(), *m.inputs.values())]
+    mass, right = sm.linear_eq_to_matrix(
+        [m.inline(e.expr) for e in m.equations.values()], [s.dot for s in m.states.values()]
+    )
+    parts = [sm.lambdify(symbols, x.subs(known), cse=True) for x in (mass, right)]
+    outputs = sm.lambdify(symbols, [m.inline(y.expr).subs(known) for y in m.outputs.values()])
+    time, size = frame.index.to_numpy(), frame[list(m.states)].abs().max().to_numpy()
+
+    def given(t):
+        held = max(np.searchsorted(time, t, side="right") - 1, 0)
+        return [
+            recording[u.channel][held] if u.hold == "zero" else np.interp(t, time, recording[u.channel])
+            for u in m.inputs.values()
+        ]
+
+    def rates(t, x):
+        a, b = (part(*x, *given(t)) for part in parts)
+        return np.linalg.solve(a, b)[:, 0]
+
+    x = [frame[list(m.states)].iloc[0].to_numpy()]
+    pieces = zip(time, time[1:], strict=False) if m.inputs else [(time[0], time[-1])]  # an input has a kink at a sample
+    for start, end in pieces:
+        at = time[(time > start) & (time <= end)]
+        run = solve_ivp(rates, (start, end), x[-1], "RK45", at, rtol=1e-6, atol=1e-7 * size)
+        x += list(run.y.T)
+    return np.array([outputs(*row, *given(t)) for t, row in zip(time, x, strict=True)])
+
+
+@pytest.mark.parametrize(
+    "system",
+    [
+        any_pendulum,
+        lotka_volterra,
+        lateral_car,
+        *(pytest.param(f, marks=pytest.mark.slow) for f in (dc_motor, three_links)),
+    ],
+)
+def test_an_adaptive_integrator_finds_the_same_departures(system):
+    solution = system(np.random.default_rng([3, 7])).problem().solve(check=False)
+    fitted = solution.trajectories[0][list(solution.model.outputs)].to_numpy()
+    expected = np.abs(by_scipy(solution) - fitted).max(axis=0)
+    assert solution.verification.departures[0] == pytest.approx(expected, rel=0.02, abs=1e-4 * fitted.std(axis=0).min())
