@@ -11,10 +11,9 @@ from symid.plausibility.motion import even_pieces
 from symid.recording import Recording, rate_name
 from symid.units import unit_symbol
 
-SLOWEST, FASTEST = 1.0, 2e-5
-"""Steps [s] between samples outside which time is rather in another unit: motion is recorded at 5 Hz to 10 kHz."""
-MOVING = {"rad/s", "rad/s^2", "m/s", "m/s^2"}
-"""Units of channels that nobody records so seldom; a temperature, a level or a slow angle may be."""
+WAY = 1e3
+"""Distance [m] over which an acceleration that comes and goes moves a body to and fro: no farther. The steps between
+samples by themselves say nothing: tides are recorded every ten minutes, cantilevers every microsecond."""
 FARTHEST = 50.0
 """Positions of one recording [m] lie no farther apart; a hundred metres of an air track are millimetres."""
 STRONGEST = 50.0
@@ -42,11 +41,22 @@ def channel_remarks(recording: Recording) -> list[str]:
 
 
 def _time(recording: Recording) -> Iterator[str]:
+    """Accelerations that would lead far away: the times are too long."""
     step = float(np.median(np.diff(recording.time[recording.runs[0]])))
-    if step >= SLOWEST and MOVING.intersection(recording.units.values()):
-        yield f"samples are {step:.3g} s apart; if the time column holds milliseconds, call it time_ms"
-    elif step < FASTEST:
-        yield f"samples are {step:.3g} s apart; if the time column holds seconds, call it time_s"
+    for name in recording.channels:
+        if recording.units[name] != "m/s^2":
+            continue
+        values = recording[name][recording.valid[name]]
+        power, change = (
+            np.var(values) if values.size else 0.0,
+            np.mean(np.diff(values) ** 2) if values.size > 1 else 0.0,
+        )
+        if change > 0 and (way := np.sqrt(power) * power / change * step**2) > WAY:
+            yield (
+                f"{name} would move a body to and fro by {way:.2g} m with samples {step:.3g} s apart; if the time "
+                "column holds milliseconds, call it time_ms"
+            )
+            return
 
 
 def _sizes(recording: Recording) -> Iterator[str]:

@@ -12,10 +12,13 @@ from symid.plausibility.channels import channel_remarks
 from symid.plausibility.mistakes import model_remarks
 from symid.plausibility.motion import shown_states
 from symid.recording import Recording
+from symid.recording.smooth import left_by_smoother
 from symid.threads import one_blas_thread
 
-OUTSIDE = 0.01
-"""Share of the samples that may lie outside the bounds of a state."""
+OUTSIDE, NOISE = 0.01, 4.0
+"""Share of the samples that may lie outside the bounds of a state by more than so many times what a smoother leaves."""
+STEPS = 1e-4, 1.0
+"""Steps between samples [s] of a person's motion, shorter and longer than which nobody records it."""
 STILL = {True: 0.004, False: 0.02}
 """Range [rad] below which an angle hardly moves, of a standing person (who sways by half a degree or more; Winter,
 Patla, Prince, Ishac & Gielo-Perczak 1998) and of a rig that somebody lets swing. Radians labelled as degrees
@@ -34,8 +37,17 @@ def remarks(model: Model, recording: Recording, window: tuple[float, float] | No
     -------
     Sentences without a full stop: on the body, the channels by themselves, and the channels in the equations.
     """
-    found = [*body_remarks(model), *channel_remarks(recording), *_ranges(model, recording)]
+    found = [*body_remarks(model), *channel_remarks(recording), *_pace(model, recording), *_ranges(model, recording)]
     return found + model_remarks(model, recording, window)
+
+
+def _pace(model: Model, recording: Recording) -> Iterator[str]:
+    """Times between samples of a person's motion; other systems are slow or fast as they are."""
+    step = float(np.median(np.diff(recording.time[recording.runs[0]])))
+    if not all(name in model.constants for name in PERSON) or STEPS[0] < step < STEPS[1]:
+        return
+    held, label = ("milliseconds", "time_ms") if step >= STEPS[1] else ("seconds", "time_s")
+    yield f"{recording.name}: samples are {step:.3g} s apart; if the time column holds {held}, call it {label}"
 
 
 def _ranges(model: Model, recording: Recording) -> Iterator[str]:
@@ -47,6 +59,9 @@ def _ranges(model: Model, recording: Recording) -> Iterator[str]:
         values, (low, high), unit = recording[channel], model.states[state].bounds, model.states[state].unit
         values = values[np.isfinite(values)]
         outside = float(np.mean((values < low) | (values > high)))
+        if outside > OUTSIDE:
+            room = NOISE * float(left_by_smoother(values[:, None])[0])
+            outside = float(np.mean((values < low - room) | (values > high + room)))
         if outside > OUTSIDE:
             hint = "; if the file holds degrees, end the column's name in _deg" if unit == "rad" else ""
             yield (
