@@ -19,6 +19,7 @@ OPTIONS = {
     "ipopt.linear_solver": "mumps",
     "ipopt.print_level": 0,
     "ipopt.sb": "yes",
+    "ipopt.max_cpu_time": 300.0,
     "print_time": False,
 }
 COMPILED = {

@@ -76,7 +76,7 @@ def exponents(runs: list[dict], by: str) -> dict[str, float]:
     size, nodes = np.log([r[by] for r in runs]), np.array([r["nodes"] for r in runs])
     cost = {
         "total": [r["total"] for r in runs],
-        "iteration": [r["solve"] / max(1, r["iterations"]) for r in runs],
+        "iteration": [r["iteration"] for r in runs],
         "n log n": nodes * np.log(nodes),
     }
     return {name: float(np.polyfit(size, np.log(values), 1)[0]) for name, values in cost.items()}
@@ -89,7 +89,7 @@ def growth_table(found: dict[str, list[dict]]) -> str:
         lines += [f"{by:>9}{'nodes':>9}{'total s':>10}{'iterations':>12}{'ms/iteration':>14}{'memory MB':>11}"]
         lines += [
             f"{r[by]:>9}{r['nodes']:>9}{r['total']:>10.2f}{r['iterations']:>12}"
-            f"{1e3 * r['solve'] / max(1, r['iterations']):>14.1f}{r['memory_mb']:>11.0f}"
+            f"{1e3 * r['iteration']:>14.1f}{r['memory_mb']:>11.0f}"
             for r in runs
         ]
         e = exponents(runs, by)

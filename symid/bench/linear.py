@@ -24,6 +24,8 @@ FASTER = {"FPD": 2.8, "FPD, two threads": 4.5, "NN, 8 episodes": 3.0}
 """Than MUMPS on one thread."""
 FACTORISATION_MS = 16.0
 """One factorisation and solution of FPD without process noise."""
+RESOLUTION_S = 1e-3
+"""Of the times in Ipopt's report."""
 NODES = (500, 2000, 8000, 32000, 128000, 360000)
 EPISODES = (1, 2, 4, 8, 16, 32, 64)
 RATE, EPISODE_SECONDS = 100.0, 10.0
@@ -63,7 +65,10 @@ def systems(task: Task, solver: str, start: str = "random") -> dict:
 def _spent(report: str) -> dict[str, tuple[float, float]]:
     """Name -> processor and wall time [s] of Ipopt's timing statistics."""
     lines = re.findall(r"^ *(\w+)\.*: +([0-9.]+) +\(sys: +([0-9.]+) +wall: +([0-9.]+)\)", report, re.MULTILINE)
-    return {name: (float(user) + float(system), float(wall)) for name, user, system, wall in lines}
+    return {
+        name: (max(RESOLUTION_S, float(user) + float(system)), max(RESOLUTION_S, float(wall)))
+        for name, user, system, wall in lines
+    }
 
 
 # ---- what is measured ----------------------------------------------------------------------

@@ -68,7 +68,13 @@ def _plan(task: Task, absent: list[str], quick: bool):
             task,
             {"symid, random start": symid["symid, random start"], "opty": ("opty_side.identification",)},
         )
-    yield "PD, three episodes", replace(task, controller="pd", episodes=3), symid | casadi
+    for controller in ("pd", "fpd"):
+        noisy = replace(task, controller=controller, episodes=3)
+        yield (
+            f"{controller.upper()}, three episodes",
+            noisy,
+            {"symid, random start": symid["symid, random start"]} | casadi,
+        )
 
 
 def _solves(task: Task, sides: dict[str, tuple], rounds: int, cache: str, say) -> dict[str, list[dict]]:

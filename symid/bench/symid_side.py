@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from symid.bench.clock import median_ms, peak_memory_mb, processor_seconds
 from symid.bench.task import Task
+from symid.errors import SolveError
 
 
 def evaluations(task: Task, backend: str) -> dict:
@@ -41,34 +42,35 @@ def first_use(task: Task) -> dict:
 
 
 def identification(task: Task, start: str) -> dict:
-    """Build and solve, from the "random" or the "default" start."""
+    """Build and solve as a user's call does, from the "random" or the "default" start."""
     at_start = peak_memory_mb()
-    import symid.identification  # imports are reported apart
-    import symid.mechanics  # noqa: F401
+    import symid.mechanics  # noqa: F401 - imports are reported apart
+    from symid.identification import Solve
+    from symid.identification.worker import solve_here
 
     imported = processor_seconds()
     task.data  # noqa: B018 - read before the clock starts
     began = processor_seconds()
     problem = task.identification()
     transcription = problem.transcription
-    z = problem.start(start, 0, task.number)
     built = processor_seconds()
-    result = problem.solve_from(z)
+    steps: list[float] = []
+    outcome = solve_here(Solve(problem, start, task.number), lambda _: steps.append(processor_seconds()))
     ended = processor_seconds()
-    from symid.identification.sensitivity import outputs_and_targets
-
-    pairs = outputs_and_targets(transcription, result.z)
-    rms = (sum(((y - d) ** 2).mean() for y, d in pairs) / len(pairs)) ** 0.5
+    if outcome.result is None:
+        raise SolveError(outcome.row.message)
+    seconds = outcome.result.seconds
     return {
         "import": imported,
         "build": built - began,
         "solve": ended - built,
         "total": ended - began,
         "nodes": sum(transcription.layout.intervals) + len(transcription.layout.intervals),
-        "iterations": result.iterations,
-        "status": result.status_name,
-        "rms": float(rms),
-        "functions_share": result.seconds["functions"] / result.seconds["total"],
+        "iterations": outcome.row.iterations,
+        "iteration": (steps[-1] - steps[0]) / max(1, len(steps) - 1),
+        "status": outcome.row.status,
+        "rms": outcome.row.rms,
+        "functions_share": seconds["functions"] / seconds["total"],
         "memory_mb": peak_memory_mb() - at_start,
         "peak_mb": peak_memory_mb(),
     }

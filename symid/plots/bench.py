@@ -27,15 +27,7 @@ def plot_growth(found: Mapping[str, Sequence[Mapping]]) -> Picture:
             size, reference * np.exp(np.mean(np.log(total / reference))), "--", color=RECORDED, lw=1, label="n log n"
         )
         axis.loglog(size, total, "o-", color=MODEL, ms=5, label="build and solve")
-        axis.loglog(
-            size,
-            [r["solve"] / max(1, r["iterations"]) for r in runs],
-            "s:",
-            color=INK,
-            ms=3.5,
-            lw=1,
-            label="one iteration",
-        )
+        axis.loglog(size, [r["iteration"] for r in runs], "s:", color=INK, ms=3.5, lw=1, label="one iteration")
         slope = np.polyfit(np.log(size), np.log(total), 1)[0]
         axis.set_title(f"time ~ {by}$^{{{slope:.2f}}}$", fontsize=9)
         axis.set_xticks(size, [str(s) for s in size], rotation=45 if by == "nodes" else 0, fontsize=8)
