@@ -105,7 +105,7 @@ def relaxed_start(problem: Identification, seed: int, number: int) -> np.ndarray
     """
     t = problem.transcription
     single = replace(problem, episodes=Episodes())
-    z = relaxed(single, _regressed(single, seed, number), PRICES[:1])
+    z = relaxed(single, regressed(single, seed, number), PRICES[:1])
     z = t.start(single.transcription.layout.parameters(z))
     best, least = z, np.inf
     for price in (*PRICES, *HIGHER_PRICES):
@@ -119,10 +119,10 @@ def relaxed_start(problem: Identification, seed: int, number: int) -> np.ndarray
 def one_relaxed(problem: Identification, seed: int, number: int) -> np.ndarray:
     """The free vector of one episode of each recording, from a random point, with estimated process noise."""
     single = replace(problem, episodes=Episodes())
-    return relaxed(single, _regressed(single, seed, number))
+    return relaxed(single, regressed(single, seed, number))
 
 
-def _regressed(problem: Identification, seed: int, number: int) -> np.ndarray:
+def regressed(problem: Identification, seed: int, number: int) -> np.ndarray:
     """The recorded motion with the parameters of a regression from a random point."""
     t = problem.transcription
     return t.start(equation_error(t, NEAR * t.layout.parameters(random_start(t, seed, number)))[0])
