@@ -212,7 +212,7 @@ def test_a_store_that_fills_up_ends_the_study_and_leaves_the_cluster_usable(
     write, count = files.write_atomically, iter(range(100))
 
     def full(path, content):
-        if next(count) == 3 + 4 * seed:
+        if next(count) == 3 + 3 * seed:  # of sixteen
             raise OSError(errno.ENOSPC, "No space left on device")
         return write(path, content)
 
