@@ -7,10 +7,7 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-from conftest import pendulum_recording
-
 from symid.cli import main
-from symid.recording import read_recording
 
 STANDING = Path(__file__).parents[1] / "data" / "standing_synthetic"
 RIG = '{"m1_kg": 1.0, "a1_m": 0.5, "I1_kg_m2": 0.97625, "g_m_s2": 9.81}'
@@ -22,6 +19,10 @@ OUTPUTS = {
 
 def prepare(folder: Path) -> None:
     """Inputs of both."""
+    from conftest import pendulum_recording  # not at the top: a program that is short of memory begins with `main`
+
+    from symid.recording import read_recording
+
     swing = pendulum_recording(damping=0.05, duration=12.0, noise=1e-3, strength=0.0)
     swing.select("angle").rename({"angle": "link1_angle"}).to_csv(folder / "swing.csv")
     (folder / "rig.json").write_text(RIG)
@@ -31,10 +32,17 @@ def prepare(folder: Path) -> None:
 
 def diagnose(folder: Path) -> int:
     """A free swing with damping, of a rig that is said to have none; one suspect."""
-    from symid.discrepancy import suspects
+    command = import_module("symid.cli.diagnose")
+    of_rig = command._of_rig
 
-    few = lambda model: [s for s in suspects(model) if s.term.name == "viscous_friction"]  # noqa: E731
-    import_module("symid.discrepancy.diagnose").suspects_of = few
+    def of_rig_with_one_suspect(*arguments):
+        from symid.discrepancy import suspects
+
+        few = lambda model: [s for s in suspects(model) if s.term.name == "viscous_friction"]  # noqa: E731
+        import_module("symid.discrepancy.diagnose").suspects_of = few
+        return of_rig(*arguments)
+
+    command._of_rig = of_rig_with_one_suspect
     outputs = [str(folder / name) for name in OUTPUTS["diagnose"]]
     options = zip(("--json", "--report", "--held-out-csv"), outputs, strict=True)
     source = [str(folder / "swing.csv"), "--rig", str(folder / "rig.json")]
