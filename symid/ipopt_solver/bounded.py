@@ -14,8 +14,9 @@ from collections.abc import Callable
 
 from symid.ipopt_solver.evaluation import Evaluation
 
-STOP, LEAVE = 1.03, 1.12
-"""Shares of the time limit after which Ipopt is stopped at its next iteration, and is left to itself."""
+LEAVE = 1.12
+"""Share of the time limit after which Ipopt, stopped at its next iteration from the limit on, is left to itself.
+Ipopt's own limit is not used: it counts by the clock of the day, which may jump or be set."""
 GRACE_S = 0.5
 """How long an interrupted solve may take to end before it is left to itself."""
 _TICK_S = 0.1
@@ -39,12 +40,12 @@ def run_bounded(work: Callable[[], object], evaluation: Evaluation, limit_s: flo
     ------
     What `work` raises, and KeyboardInterrupt.
     """
-    began: list[float] = []
     failed: list[BaseException] = []
 
     def run() -> None:
         with _one_at_a_time:
-            began.append(time.monotonic())
+            if limit_s is not None:
+                evaluation.until = time.monotonic() + limit_s
             try:
                 if evaluation.failure is None:  # interrupted while it waited
                     work()
@@ -56,11 +57,8 @@ def run_bounded(work: Callable[[], object], evaluation: Evaluation, limit_s: flo
     try:
         while thread.is_alive():
             thread.join(_TICK_S)
-            spent = time.monotonic() - began[0] if began else 0.0
-            if limit_s is not None and spent > STOP * limit_s:
-                evaluation.out_of_time = True
-                if spent > LEAVE * limit_s:
-                    break
+            if limit_s is not None and time.monotonic() > evaluation.until + (LEAVE - 1) * limit_s:
+                break
     except KeyboardInterrupt as interrupted:
         evaluation.failure = interrupted
         thread.join(GRACE_S)

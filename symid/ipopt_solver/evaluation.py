@@ -43,8 +43,8 @@ class Evaluation:
         Where NaN or infinity was met last, in words.
     iterations : int
         The last iteration's number.
-    out_of_time : bool
-        Set from outside: stop at the next iteration.
+    until : float
+        Set from outside, by `time.monotonic`: stop at the first iteration after it.
     point : array, shape (n,), or None
         The last iterate.
     """
@@ -60,9 +60,13 @@ class Evaluation:
         self.seconds = dict.fromkeys(("objective", "gradient", "constraints", "jacobian", "hessian"), 0.0)
         self.failure: BaseException | None = None
         self.not_a_number: str | None = None
-        self.out_of_time = False
+        self.until = math.inf
         self.iterations = 0
         self.point: np.ndarray | None = None
+
+    @property
+    def out_of_time(self) -> bool:
+        return time.monotonic() > self.until
 
     def objective(self, z: np.ndarray) -> float:
         value = float(self._timed("objective", z))

@@ -98,7 +98,7 @@ def solve_nlp(
     time_limit_s = _tightest(time_limit_s)
     point = _starting_point(nlp, start, warm_start)
     given, nlp = nlp, with_unit_objective(nlp)
-    chosen = _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian)
+    chosen = _options(nlp, options, warm_start, max_iterations, hessian)
     way, run = _runner(interface)
     evaluation = Evaluation(nlp, on_iteration, given.objective_scale)
     wanted = chosen.pop("linear_solver", linear_solver)
@@ -131,7 +131,8 @@ def solve_nlp(
 def _tightest(time_limit_s: float | None) -> float | None:
     """The earlier of the limit that was given and that of the block around (`symid.deadline`)."""
     check()
-    limits = [limit for limit in (time_limit_s, remaining()) if limit is not None]
+    given = None if time_limit_s is None else checked.number(time_limit_s, "time_limit_s", SolveError)
+    limits = [limit for limit in (given, remaining()) if limit is not None]
     return min(limits, default=None)
 
 
@@ -179,7 +180,7 @@ def _check_inside(nlp: NonlinearProgram, z: np.ndarray) -> None:
         )
 
 
-def _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian) -> dict:
+def _options(nlp, options, warm_start, max_iterations, hessian) -> dict:
     if options is not None:
         checked.kind(options, Mapping, "options of Ipopt", SolveError)
     if hessian not in ("exact", "limited-memory"):
@@ -194,8 +195,6 @@ def _options(nlp, options, warm_start, max_iterations, time_limit_s, hessian) ->
     }
     if nlp.variable_scale is not None or nlp.constraint_scale is not None:
         chosen["nlp_scaling_method"] = "user-scaling"
-    if time_limit_s is not None:
-        chosen["max_wall_time"] = checked.number(time_limit_s, "time_limit_s", SolveError)
     return chosen | (WARM_START if warm_start else {}) | (options or {})
 
 
