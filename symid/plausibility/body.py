@@ -38,6 +38,11 @@ LINK_SIZE = 1e-3, 30.0
 """Smallest and largest length of a link [m] that somebody puts on a bench or builds a crane of."""
 
 
+def is_a_person(model: Model) -> bool:
+    """Whether the model is of a standing person, with the proportions of one."""
+    return all(name in model.constants for name in PERSON) and not body_remarks(model)
+
+
 def body_remarks(model: Model) -> list[str]:
     """A sentence for each constant of the body that cannot be, with the likely cause; none where it can be one."""
     values = {c.name: c.value for c in model.constants.values()}

@@ -9,6 +9,7 @@ import numpy as np
 
 from symid.errors import SymidError
 from symid.model import Model
+from symid.plausibility.body import is_a_person
 from symid.plausibility.evidence import Change, Witness
 from symid.plausibility.motion import Motion, foretold, motion_of, shown_states
 from symid.recording import Recording
@@ -28,7 +29,8 @@ remarks on such recordings.
 CLEAR = 0.5
 """... and no more than this: where nothing explains the motion, nothing is blamed."""
 CONSTANT_BETTER = 3.0
-"""As BETTER, for constants of the body: there are many of them, and a law that is missing can look like one."""
+"""As BETTER, for constants of the body: there are many, and a law that is missing can look like one. A body with
+the proportions of a person has no power of ten wrong, and is not questioned."""
 AS_GOOD = 1.1
 """Changes that leave this many times as much as the best are told beside it: the motion cannot tell them apart."""
 ANGLES = (
@@ -102,7 +104,7 @@ def _judged(model: Model, motion: Motion) -> str | None:
     changes = [c for c in channel_changes(model) if searching or c.is_of_sign]
     shares = {change.said: witness.unexplained(change) for change in changes}
     remark = _sentence(given, shares, BETTER)
-    if remark is None and searching:
+    if remark is None and searching and not is_a_person(model):
         shares |= {change.said: witness.unexplained(change) for change in body_changes(model)}
         remark = _sentence(given, shares, CONSTANT_BETTER)
     return remark or ("" if given < CLEAR else None)
