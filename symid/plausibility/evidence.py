@@ -26,6 +26,8 @@ STEPS = 4
 """Gauss-Newton steps for parameters that enter the equations nonlinearly; gains need one."""
 WEIGHTINGS, SETTLED = 8, 1e-3
 """Times at most that the equations are weighted anew, by the masses just fitted, until the share settles by that."""
+FLOOR = 1e-12
+"""Least relative spread of errors in any direction, for accelerations that are always alike."""
 LAGS = 5
 """Values within its bounds that are tried of a lag."""
 
@@ -67,9 +69,20 @@ class Witness:
 
     def unexplained(self, change: Change = Change()) -> float:
         """Share of the variance of the accelerations that no parameters within bounds explain; least over lags."""
+        return self._least(self._share, change)
+
+    def generalised(self, change: Change = Change()) -> float:
+        """The same share of the generalised variance: root of the determinants' ratio, with one acceleration alike.
+
+        Torques of noise accelerate all links of a chain together. The determinant does not count that, and is least
+        for the likeliest equations (Box & Draper 1965): it tells a mistake from the right where noise hides it.
+        """
+        return self._least(self._determinant, change)
+
+    def _least(self, measure, change: Change) -> float:
         with np.errstate(all="ignore"):
-            shares = [self._fitted(change, p) for p in self._first()]
-        return float(np.nanmin(shares)) if np.isfinite(shares).any() else np.inf
+            found = [measure(change, p) for p in self._first()]
+        return float(np.nanmin(found)) if np.isfinite(found).any() else np.inf
 
     def _first(self) -> list[FloatArray]:
         """First values: guesses or zero, lags at several values within their bounds."""
@@ -85,20 +98,47 @@ class Witness:
         grid = np.linspace(self.lower[lags], np.minimum(self.upper[lags], self.lower[lags] + 1.0), LAGS)
         return [np.array([*(x if i not in lags else row[lags.index(i)] for i, x in enumerate(first))]) for row in grid]
 
-    def _fitted(self, change: Change, p: FloatArray) -> float:
+    def _given(self, change: Change, p: FloatArray):
+        """Arguments of the kernel and sizes of the accelerations, and the covariance of these in their sizes."""
         local, data, constants = self._arguments(change, p)
-        columns = self.explained
-        rates = local[:, : len(self.order)]
-        size = np.std(self._filtered(rates[:, columns]), axis=0)
-        if not (size > 0).all():
+        accelerations = self._filtered(local[:, : len(self.order)][:, self.explained])
+        size = np.std(accelerations, axis=0)
+        return (local, data, constants, size), _covariance((accelerations - accelerations.mean(axis=0)) / size)
+
+    def _share(self, change: Change, p: FloatArray) -> float:
+        given, _ = self._given(change, p)
+        if not (given[-1] > 0).all():
             return np.inf
-        given, share = (local, data, constants, size), np.inf
+        share = np.inf
         for _ in range(WEIGHTINGS):
             before, weight = share, self._weight(given, p)
-            p, share = self._fitted_with(weight, given, p)
+            p = self._fitted_with(weight, given, p)
+            share = float(np.mean(self._errors(weight, given, p) ** 2))
             if not share < (1 - SETTLED) * before:
                 break
         return min(share, before)
+
+    def _determinant(self, change: Change, p: FloatArray) -> float:
+        given, recorded = self._given(change, p)
+        if not (given[-1] > 0).all():
+            return np.inf
+        white, weight, least = np.eye(len(recorded)), self._weight(given, p), np.inf
+        for _ in range(WEIGHTINGS):
+            before, p = least, self._fitted_with(white @ weight, given, p)
+            weight = self._weight(given, p)
+            left = _covariance(self._errors(weight, given, p))
+            if not np.isfinite(left).all():
+                break
+            least = min(least, float(np.exp(np.diff(np.linalg.slogdet([recorded, left])[1])[0] / len(left))))
+            if not least < (1 - SETTLED) * before:
+                break
+            white = np.linalg.inv(np.linalg.cholesky(left))
+        return least
+
+    def _errors(self, weight: FloatArray, given, p: FloatArray) -> FloatArray:
+        """(N, accelerations) what the equations leave, filtered."""
+        local, data, constants, _ = given
+        return self._filtered((weight @ self.kernel.residual(local, p, data, constants)[:, :, None])[:, :, 0])
 
     def _weight(self, given, p: FloatArray) -> FloatArray:
         """(N, accelerations, equations) what turns residuals into errors of accelerations, in their sizes."""
@@ -106,27 +146,21 @@ class Witness:
         mass = self._slopes(local, p, data, constants, slice(0, len(self.order)))
         return np.linalg.inv(mass)[:, self.explained, :] / size[:, None]
 
-    def _fitted_with(self, weight: FloatArray, given, p: FloatArray) -> tuple[FloatArray, float]:
-        """Parameters by Gauss-Newton steps, and the share of the variance that they leave."""
+    def _fitted_with(self, weight: FloatArray, given, p: FloatArray) -> FloatArray:
+        """Parameters by Gauss-Newton steps."""
         local, data, constants, _ = given
-
-        def error(p):
-            return self._filtered(
-                (weight @ self.kernel.residual(local, p, data, constants)[:, :, None])[:, :, 0]
-            ).ravel()
-
-        left = error(p)
+        left = self._errors(weight, given, p).ravel()
         for _ in range(STEPS if p.size else 0):
             shared = slice(self.kernel.n_local, None)
             slopes = self._filtered(weight @ self._slopes(local, p, data, constants, shared)).reshape(left.size, -1)
             new = np.clip(p + _step(slopes, left, self.lower - p, self.upper - p), self.lower, self.upper)
-            later, linear = error(new), left + slopes @ (new - p)
+            later, linear = self._errors(weight, given, new).ravel(), left + slopes @ (new - p)
             if not np.sum(later**2) < (1 - 1e-3) * np.sum(left**2):
                 break
             p, left = new, later
             if np.sum((later - linear) ** 2) < 1e-6 * np.sum(later**2):
                 break  # gains enter linearly: the first step was the last
-        return p, float(np.mean(left**2))
+        return p
 
     def _arguments(self, change: Change, p: FloatArray):
         """Local values, data and constants of the kernel, with the change made."""
@@ -168,6 +202,12 @@ class Witness:
     def _filtered(self, x: FloatArray) -> FloatArray:
         m = self.motion
         return np.concatenate([low_pass(x[p], m.band, m.step)[EDGE:-EDGE] for p in m.pieces])
+
+
+def _covariance(errors: FloatArray) -> FloatArray:
+    """(m, m) mean product of the columns of errors (N, m), none of whose combinations is quite zero."""
+    product = errors.T @ errors / len(errors)
+    return product + FLOOR * np.trace(product) * np.eye(len(product))
 
 
 def _step(slopes: FloatArray, left: FloatArray, lower: FloatArray, upper: FloatArray) -> FloatArray:

@@ -102,11 +102,11 @@ def _judged(model: Model, motion: Motion) -> str | None:
         return ""
     searching = given > MOSTLY or not model.parameters  # without unknowns nothing can make up for a mistake
     changes = [c for c in channel_changes(model) if searching or c.is_of_sign]
-    shares = {change.said: witness.unexplained(change) for change in changes}
-    remark = _sentence(given, shares, BETTER)
+    as_given, shares = witness.generalised(), {change.said: witness.generalised(change) for change in changes}
+    remark = _sentence(as_given, shares, BETTER)
     if remark is None and searching and not is_a_person(model):
-        shares |= {change.said: witness.unexplained(change) for change in body_changes(model)}
-        remark = _sentence(given, shares, CONSTANT_BETTER)
+        shares |= {change.said: witness.generalised(change) for change in body_changes(model)}
+        remark = _sentence(as_given, shares, CONSTANT_BETTER)
     return remark or ("" if given < CLEAR else None)
 
 
@@ -117,7 +117,7 @@ def _sentence(given: float, shares: dict[str, float], better: float) -> str | No
     causes = [said for said, share in sorted(shares.items(), key=lambda pair: pair[1]) if share <= AS_GOOD * best]
     return (
         f"the model's equations explain the recorded accelerations far better if {', or '.join(causes[:3])} "
-        f"(unexplained {_percent(best)} instead of {_percent(given)} of their variance): check that first"
+        f"(unexplained {_percent(best)} instead of {_percent(given)} of their generalised variance): check that first"
     )
 
 
