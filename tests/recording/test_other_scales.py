@@ -1,7 +1,11 @@
-"""Slow, fast, small and noisy systems that are as they should be give no remark of a mistake."""
+"""Slow, fast, small and noisy systems: no remark where all is as it should be, the likely cause where it is not."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
+import sympy as sm
+from mistakes import only_one
 
 import symid as si
 from symid.plausibility import channel_remarks, remarks
@@ -63,3 +67,54 @@ def test_an_acceleration_in_milliseconds_would_lead_far_away():
     right, wrong = (Recording("shaker", factor * time, shaken, {"shaker": "m/s^2"}) for factor in (1.0, 1e3))
     assert channel_remarks(right) == []
     assert "call it time_ms" in channel_remarks(wrong)[0]
+
+
+def arm() -> tuple[si.Model, Recording]:
+    """An arm that a recorded torque moves, and one of 2 N m that nobody recorded, with friction of two kinds."""
+    from scipy.integrate import solve_ivp
+
+    m = si.Model("arm")
+    m.q, m.w = si.State(unit="rad"), si.State(unit="rad/s")
+    m.torque = si.Input(unit="N*m")
+    m.mass, m.com = si.Constant(3.0, unit="kg", role="mass", at="arm"), si.Constant(0.25, unit="m")
+    m.inertia, m.g = si.Constant(0.06, unit="kg*m^2", role="inertia", at="arm"), si.Constant(9.81, unit="m/s^2")
+    m.damping, m.dry = si.Parameter(unit="N*m*s", bounds=(0, 10)), si.Parameter(unit="N*m", bounds=(0, 5))
+    m.moves = si.Equation(m.q.dot - m.w)
+    m.balance = si.Equation(
+        (m.inertia + m.mass * m.com**2) * m.w.dot
+        + m.mass * m.g * m.com * sm.sin(m.q)
+        + m.damping * m.w
+        + m.dry * sm.tanh(m.w / 0.05)
+        - m.torque
+    )
+    m.seen = si.Output(m.q, channel="elbow_angle")
+    rng, time = np.random.default_rng(6), np.arange(0, 15, 0.01)
+    other, noise = 2 * rng.standard_normal(time.size + 1), 1e-3 * rng.standard_normal(time.size)
+    torque = lambda t: 4 * np.sin(1.3 * t) + 2 * np.sin(3.1 * t + 1)  # noqa: E731
+
+    def rates(t, x):
+        pull = torque(t) + other[int(100 * t)] - 3 * 9.81 * 0.25 * np.sin(x[0])
+        return [x[1], (pull - 0.5 * x[1] - 0.3 * np.tanh(x[1] / 0.05)) / (0.06 + 3 * 0.25**2)]
+
+    q = solve_ivp(rates, (0, time[-1]), [0.2, 0.0], t_eval=time, max_step=0.01, rtol=1e-6).y[0] + noise
+    return m, Recording(
+        "arm", time, {"elbow_angle": q, "torque": torque(time)}, {"elbow_angle": "rad", "torque": "N*m"}
+    )
+
+
+ARM = {
+    "angle reversed": (lambda r: only_one(r, "elbow_angle", -1.0), "opposite sign"),
+    "angle in degrees": (lambda r: only_one(r, "elbow_angle", 180 / np.pi), "holds degrees"),
+    "angle labelled degrees": (lambda r: only_one(r, "elbow_angle", np.pi / 180), "holds radians"),
+    "torque reversed": (lambda r: only_one(r, "torque", -1.0), "opposite sign"),
+    "torque in N mm": (lambda r: only_one(r, "torque", 1e3), "torque is a thousand times too large"),
+    "time in ms": (lambda r: replace(r, time=1e3 * r.time), "milliseconds"),
+}
+
+
+def test_mistakes_show_through_a_force_that_nobody_recorded():
+    model, recording = arm()
+    assert remarks(model, recording) == []
+    for name, (plant, words) in ARM.items():
+        found = remarks(model, plant(recording))
+        assert any(words in text for text in found), (name, found)
