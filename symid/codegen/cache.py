@@ -1,7 +1,7 @@
-"""Compiled libraries kept on disk, loaded only if nobody but this user can have written them.
+"""Compiled libraries and their sources kept on disk, believed only if nobody but this user can have written them.
 
-A library's file holds its machine code, then a seal: SHA-256 of its key and code. The seal finds files cut
-short, damaged or exchanged; against other users the folder's owner and rights are what protects.
+A file holds its content, then a seal: SHA-256 of its key and content. The seal finds files cut short, damaged or
+exchanged; against other users the folder's owner and rights are what protects.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import os
 import stat
 import tempfile
 import warnings
+from contextlib import suppress
 from pathlib import Path
 
 _spare: list[tempfile.TemporaryDirectory] = []  # where the cache cannot be used: one folder of this process
@@ -30,7 +31,7 @@ def find(key: str) -> Path | None:
     """The library of `key`, if an earlier process kept it and it is whole and this user's own."""
     folders = [cache_directory()] if distrusted(cache_directory()) is None else []
     for folder in (*folders, *(Path(spare.name) for spare in _spare)):
-        if _whole(folder / f"{key}.so", key):
+        if _content(folder / f"{key}.so", key) is not None:
             return folder / f"{key}.so"
     return None
 
@@ -45,6 +46,21 @@ def keep(key: str, library: bytes) -> Path:
         except OSError as problem:
             reason = problem.strerror or str(problem)
     return _written(key, library, _spare_folder(folder, reason))
+
+
+def find_text(key: str) -> str | None:
+    """The text that an earlier process kept under `key`, if it is whole and this user's own."""
+    folder = cache_directory()
+    found = _content(folder / f"{key}.json", key) if distrusted(folder) is None else None
+    return None if found is None else found.decode()
+
+
+def keep_text(key: str, text: str) -> None:
+    """Write `text` under `key`; a cache that is full or cannot be used costs time, nothing else."""
+    folder = cache_directory()
+    if distrusted(folder) is None:
+        with suppress(OSError):
+            _written(key, text.encode(), folder, ".json")
 
 
 def distrusted(folder: Path) -> str | None:
@@ -68,34 +84,34 @@ def distrusted(folder: Path) -> str | None:
     return None
 
 
-def _whole(path: Path, key: str) -> bool:
-    """Whether `path` is what this user kept under `key`: a library cut short can load and then kill the process."""
+def _content(path: Path, key: str) -> bytes | None:
+    """What this user kept under `key`, None unless it is whole: a library cut short can load and kill the process."""
     try:
         with open(path, "rb") as file:
-            found, text = os.fstat(file.fileno()), file.read()
+            found, sealed = os.fstat(file.fileno()), file.read()
     except OSError:
-        return False
+        return None
     if hasattr(os, "geteuid") and (found.st_uid != os.geteuid() or found.st_mode & (stat.S_IWGRP | stat.S_IWOTH)):
-        return False
-    return text[-32:] == _seal(key, text[:-32])
+        return None
+    return sealed[:-32] if sealed[-32:] == _seal(key, sealed[:-32]) else None
 
 
-def _seal(key: str, library: bytes) -> bytes:
-    return hashlib.sha256(key.encode() + library).digest()
+def _seal(key: str, content: bytes) -> bytes:
+    return hashlib.sha256(key.encode() + content).digest()
 
 
-def _written(key: str, library: bytes, folder: Path) -> Path:
+def _written(key: str, content: bytes, folder: Path, ending: str = ".so") -> Path:
     folder.parent.mkdir(parents=True, exist_ok=True)
     folder.mkdir(mode=0o700, exist_ok=True)
     handle, name = tempfile.mkstemp(dir=folder, prefix="new-")
     try:
         with os.fdopen(handle, "wb") as file:
-            file.write(library + _seal(key, library))
-        os.replace(name, folder / f"{key}.so")
+            file.write(content + _seal(key, content))
+        os.replace(name, folder / f"{key}{ending}")
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise
-    return folder / f"{key}.so"
+    return folder / f"{key}{ending}"
 
 
 def _spare_folder(cache: Path, reason: str) -> Path:

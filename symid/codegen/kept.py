@@ -10,9 +10,8 @@ from pathlib import Path
 
 import sympy as sm
 
-from symid.codegen.cache import cache_directory, distrusted
+from symid.codegen.cache import find_text, keep_text
 from symid.codegen.ode import OdeSource, ode_source
-from symid.files import write_atomically
 from symid.model import Model
 
 _DERIVED = ("functions", "entries", "written")
@@ -26,21 +25,13 @@ def kept_source(model: Model) -> OdeSource:
     ------
     CodegenError : the residuals of the model are not linear in the rates.
     """
-    folder = cache_directory()
-    path = folder / f"{_key(model)}.json"
-    if distrusted(folder) is not None or not folder.is_dir():
-        return ode_source(model)
-    try:
-        return _restored(json.loads(path.read_text()))
-    except (OSError, ValueError, TypeError, KeyError):
-        source = ode_source(model)
-    try:
-        kept = {f.name: getattr(source, f.name) for f in fields(source) if f.name not in _DERIVED} | {
-            "text": source.text
-        }
-        write_atomically(path, json.dumps(kept | {"late": [str(s) for s in source.late]}))
-    except OSError:
-        pass  # a full or read-only cache costs time, nothing else
+    key = _key(model)
+    found = find_text(key)
+    if found is not None:
+        return _restored(json.loads(found))
+    source = ode_source(model)
+    kept = {f.name: getattr(source, f.name) for f in fields(source) if f.name not in _DERIVED} | {"text": source.text}
+    keep_text(key, json.dumps(kept | {"late": [str(s) for s in source.late]}))
     return source
 
 

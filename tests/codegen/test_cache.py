@@ -6,14 +6,19 @@ import pickle
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 import sympy as sm
+from conftest import pendulum
 from kernels import BACKENDS, NO_COMPILER, D, P, Q, X, Y, arguments, program
 
 from symid.codegen import CodegenWarning, build, compile_program, load_library
 from symid.codegen import cache as kept
+from symid.codegen import kept as kept_module
+from symid.codegen.kept import kept_source
+from symid.codegen.ode import ode_source
 from symid.errors import CodegenError
 
 pytestmark = pytest.mark.usefixtures("empty_cache")
@@ -227,3 +232,42 @@ print(generate(Program("any", rows, (x, y), (p, q))).text)
 """
     processes = [in_a_new_process(code, PYTHONHASHSEED=str(seed)) for seed in range(1, 5)]
     assert len({p.communicate() for p in processes}) == 1
+
+
+# ---- sources of simulations ----------------------------------------------------------------
+@pytest.fixture
+def sources(tmp_path, monkeypatch) -> tuple[Path, Path]:
+    """Two kept sources: of a pendulum, and of one whose stiffness acts the other way."""
+    monkeypatch.setenv("SYMID_CACHE_DIR", str(tmp_path))
+    model, other = pendulum(), pendulum()
+    other.substitute({other.stiffness.symbol: -other.stiffness.symbol})
+    texts = [kept_source(m).text for m in (model, other)]
+    one, two = (tmp_path / f"{kept_module._key(m)}.json" for m in (model, other))
+    assert one.exists() and two.exists() and texts[0] != texts[1]
+    return one, two
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda one, other: one.write_bytes(one.read_bytes().replace(b"sin", b"cos", 1)),
+        lambda one, other: one.write_bytes(one.read_bytes()[:2000]),
+        lambda one, other: one.write_bytes(one.read_bytes()[:-32]),
+        lambda one, other: one.write_bytes(other.read_bytes()),
+        lambda one, other: one.write_text("{}"),
+        lambda one, other: one.unlink() or one.mkdir(),
+        lambda one, other: one.chmod(0o666),
+    ],
+    ids=["a function exchanged", "cut", "no seal", "another's", "an empty table", "a folder", "others can write"],
+)
+def test_a_damaged_source_of_a_simulation_is_derived_again(sources, damage, monkeypatch):
+    whole = kept_source(pendulum()).text
+    damage(*sources)
+    derived = []
+    monkeypatch.setattr(kept_module, "ode_source", lambda model: derived.append(model) or ode_source(model))
+    assert kept_source(pendulum()).text == whole and len(derived) == 1
+
+
+def test_a_kept_source_is_not_derived_again(sources, monkeypatch):
+    monkeypatch.setattr(kept_module, "ode_source", lambda model: pytest.fail("derived again"))
+    assert kept_source(pendulum()).text
