@@ -1,7 +1,7 @@
-"""Measure what `docs/pages/measured.md` shows: python docs/measure.py [speed] [coverage] [alarms] [found] [examined].
+"""Measure what `docs/pages/measured.md` shows: python docs/measure.py [NAME ...], names as in `MEASUREMENTS`.
 
 Each name writes its table into `docs/measured.json` when it is done. One core; speed takes half a minute, the others
-some minutes each.
+some minutes each, starts a quarter of an hour. starts and linear need the article's recording (`symid fetch standing`).
 """
 
 import json
@@ -59,6 +59,84 @@ def speed() -> dict:
         "rows": rows,
         "note": "Least of five fresh processes. `symid bench` compares with CasADi and opty on your machine.",
     }
+
+
+def starts() -> dict:
+    from symid.bench.starts import measure_starts
+
+    return starts_rows(measure_starts(article(), print))
+
+
+def starts_rows(found: dict) -> dict:
+    """The table of what `symid.bench.starts.measure_starts` found."""
+    rows = []
+    for name, of in found.items():
+        every = of["starts"]
+        ended, seconds = [r for r in every if r["solved"]], sorted(r["seconds"] for r in every)
+        best = min(r["objective"] for r in ended)
+        rows.append(
+            [
+                name,
+                f"{len(ended)} of {len(every)}",
+                sum(r["objective"] < 1.001 * best for r in ended),
+                f"{seconds[len(seconds) // 2]:.1f}, {seconds[-1]:.1f}",
+                f"{max(r['silence'] for r in every):.1f}",
+                f"{of['memory_mb']:.0f}",
+                "not ended" if any(r["mumps"] is None for r in ended) else f"{max(r['mumps'] for r in ended):.0e}",
+            ]
+        )
+    return {
+        "title": "Random starts",
+        "columns": [
+            "controller and episodes",
+            "solved",
+            "in the best optimum",
+            "seconds: median, most",
+            "longest without an iteration [s]",
+            "memory [MB]",
+            "objective to MUMPS's",
+        ],
+        "rows": rows,
+        "note": "The article's recording, 160 to 260 s at 50 Hz, parameters drawn within their bounds: "
+        "`symid bench starts`. From the end of each start MUMPS goes on; the last column is the relative difference.",
+    }
+
+
+def linear() -> dict:
+    from symid.bench import growth, linear
+
+    task = article()
+    one, grown = linear.measure_factorisation(task, print), linear.measure_growth_of_factorisation(print)
+    return linear_rows(one, grown, growth.measure_hour(print))
+
+
+def linear_rows(one: dict, grown: dict, hour: dict) -> dict:
+    """The table of linear systems, their growth, and an hour."""
+    from symid.bench.linear import exponent
+
+    rows = [[f"{name}: linear systems, MUMPS / symid", f"{of['ratio']:.1f}"] for name, of in one.items()]
+    rows += [["FPD: one factorisation and solution, 5001 nodes", f"{one['FPD']['chain']['once_ms']:.1f} ms"]]
+    for by, runs in grown.items():
+        span = f"{runs[0][by]} to {runs[-1][by]}"
+        rows += [[f"exponent of a factorisation's time in {by}, {span}", f"{exponent(runs, by):.3f}"]]
+    rows += [
+        ["an hour at 100 Hz (360001 nodes, FPD) identified", f"{hour['total']:.0f} s, {hour['peak_mb'] / 1000:.1f} GB"]
+    ]
+    return {
+        "title": "Linear systems",
+        "columns": ["what", "measured"],
+        "rows": rows,
+        "note": "`symid bench factorisation growth hour`; the first rows on the article's recording.",
+    }
+
+
+def article():
+    """The article's recording as a task of `symid bench`."""
+    from symid import fetch
+    from symid.bench.task import Task
+
+    folder = fetch.standing()
+    return Task(str(folder / "recording_50hz.csv"), str(folder / "body.json"), (160.0, 260.0))
 
 
 def coverage(repeats: int = 60) -> dict:
@@ -162,24 +240,28 @@ def _diagnosed(case):
         return diagnose_case(read_case(write_case(case, Path(folder), "r01")), threads=1)
 
 
+MEASUREMENTS = {f.__name__: f for f in (speed, starts, linear, coverage, alarms, found, examined)}
+
+
 def main(names: list[str]) -> None:
-    measurements = {f.__name__: f for f in (speed, coverage, alarms, found, examined)}
-    for name in names or measurements:
-        one = measurements[name]()
-        commit = subprocess.run(
-            ["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True
-        ).stdout.strip()
-        one |= {
-            "when": date.today().isoformat(),
-            "commit": commit,
-            "machine": f"{platform.machine()}, Python {platform.python_version()}",
-        }
-        kept = json.loads(FILE.read_text(encoding="utf-8")) if FILE.is_file() else {}
-        merged = kept | {name: one}
-        FILE.write_text(
-            json.dumps({k: merged[k] for k in measurements if k in merged}, indent=1) + "\n", encoding="utf-8"
-        )
-        print(name, *one["rows"], sep="\n  ", flush=True)
+    for name in names or MEASUREMENTS:
+        write(name, MEASUREMENTS[name]())
+
+
+def write(name: str, one: dict) -> None:
+    """Keep a table with its commit, date and machine."""
+    commit = subprocess.run(
+        ["git", "rev-parse", "--short", "HEAD"], cwd=ROOT, capture_output=True, text=True
+    ).stdout.strip()
+    one |= {
+        "when": date.today().isoformat(),
+        "commit": commit,
+        "machine": f"{platform.machine()}, Python {platform.python_version()}",
+    }
+    kept = json.loads(FILE.read_text(encoding="utf-8")) if FILE.is_file() else {}
+    merged = kept | {name: one}
+    FILE.write_text(json.dumps({k: merged[k] for k in MEASUREMENTS if k in merged}, indent=1) + "\n", encoding="utf-8")
+    print(name, *one["rows"], sep="\n  ", flush=True)
 
 
 if __name__ == "__main__":

@@ -148,6 +148,10 @@ def factorisation_growth_table(found: dict[str, list[dict]]) -> str:
         lines += [
             f"{r[by]:>9}{r['factorisation_ms']:>10.2f}{1e3 * r['factorisation_ms'] / r['nodes']:>10.2f}" for r in runs
         ]
-        slope = np.polyfit(np.log([r[by] for r in runs]), np.log([r["factorisation_ms"] for r in runs]), 1)[0]
-        lines += [line(f"exponent of a factorisation's time in {by}", float(slope), "", EXPONENT)]
+        lines += [line(f"exponent of a factorisation's time in {by}", exponent(runs, by), "", EXPONENT)]
     return "\n".join(lines)
+
+
+def exponent(runs: list[dict], by: str) -> float:
+    """Slope of the logarithm of a factorisation's time over that of `by`."""
+    return float(np.polyfit(np.log([r[by] for r in runs]), np.log([r["factorisation_ms"] for r in runs]), 1)[0])

@@ -13,17 +13,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symid.identification.attempts import FEW, Attempts
 from symid.identification.starts.search import HIGHER_PRICES, PRICES, noisy_rows, relaxed
 from symid.ipopt_solver import Iteration, SolverResult
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
 
-RAN_AWAY = 1e10
-"""Dual infeasibility at which a solve is begun anew with softened equations: of an objective that is one where nothing
-of the motion is explained, for scaled unknowns. Of 60 random starts of the article's problem (PD and full-state PD with
-two to four episodes) those that stayed below it ended in 7 s and less; of the eleven that did not, three ended in 8 to
-13 s, one in a poor optimum and seven not within 30 s. `symid bench starts` counts them."""
+RAN_AWAY, OFTEN = 1e10, 12
+"""Dual infeasibility, and the iterations beyond it after which a solve is begun anew with softened equations: of an
+objective that is one where nothing of the motion is explained, for scaled unknowns. Of 60 random starts of the
+article's problem (PD and full-state PD with two to four episodes) those that ended by themselves in the best optimum
+were beyond it in 11 iterations at most; of the eight others, one in a poor optimum and seven not within 30 s, the
+least was 32. `symid bench starts` counts the ends."""
 UNSTABLE = (
     "The multipliers grew without end, also with softened equations: the loop that this start leads to is so unstable "
     "that no motion follows it over the whole window. Try another start, narrower bounds, or a shorter window."
@@ -32,16 +34,20 @@ UNSTABLE = (
 
 @dataclass
 class _Watch:
-    """Stops where multipliers run away, and notes it."""
+    """Stops where multipliers run away."""
 
     on_iteration: Callable[[Iteration], bool | None] | None
-    ran_away: bool = False
+    beyond: int = 0
+
+    @property
+    def ran_away(self) -> bool:
+        return self.beyond >= OFTEN
 
     def __call__(self, iteration: Iteration) -> bool:
         told = None if self.on_iteration is None else self.on_iteration(iteration)
         if told is False:
             return False
-        self.ran_away = iteration.dual_infeasibility > RAN_AWAY
+        self.beyond += iteration.dual_infeasibility > RAN_AWAY
         return not self.ran_away
 
 
@@ -57,9 +63,14 @@ def solve_softened(
     if not watch.ran_away:
         return end
     z = relaxed(problem, z, (*PRICES, *HIGHER_PRICES), _rows(problem), on_iteration)
-    watch = _Watch(on_iteration)
-    end = problem.solve_from(z, on_iteration=watch, **options)
-    return replace(end, status_name="Multipliers_Ran_Away", message=UNSTABLE) if watch.ran_away else end
+    attempts = Attempts(problem, watch := _Watch(on_iteration), options)
+    attempts.run(z, FEW, near=True)  # the highest price is close to an optimum, which a barrier would drive it from
+    if not attempts.solved:
+        watch.beyond = 0
+        attempts.run(z)
+    end = attempts.end()
+    away = watch.ran_away and not end.solved
+    return replace(end, status_name="Multipliers_Ran_Away", message=UNSTABLE) if away else end
 
 
 def _rows(problem: Identification) -> np.ndarray:
