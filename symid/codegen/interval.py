@@ -27,12 +27,12 @@ from symid.codegen.symbols import (
     scales,
     used_data,
 )
-from symid.model import Model, symbol
+from symid.model import Model, free_symbols, symbol
 
 
 def late_signals(model: Model) -> tuple[sm.Symbol, ...]:
     """The delayed signals that the residuals use, in order of declaration."""
-    used = set().union(*(r.free_symbols for r in model.residual()))
+    used = set().union(*map(free_symbols, model.residual()))
     return tuple(s for s in model.delays if s in used)
 
 

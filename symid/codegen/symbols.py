@@ -8,7 +8,7 @@ import sympy as sm
 
 from symid.codegen.stencil import Stencil
 from symid.errors import CodegenError
-from symid.model import TIME, Model, symbol
+from symid.model import TIME, Model, free_symbols, symbol
 
 STEP = symbol("step h")
 """Length of an interval [s]; where the duration is free, its share of the duration."""
@@ -66,7 +66,7 @@ def scaled_parameters(model: Model) -> dict[sm.Symbol, sm.Expr]:
 
 def used_data(model: Model, rows: Iterable[sm.Expr]) -> tuple[sm.Symbol, ...]:
     """The inputs, and time, that occur in `rows`, in order of declaration, time last."""
-    used = set().union(*(r.free_symbols for r in rows))
+    used = set().union(*map(free_symbols, rows))
     known = [u.symbol for u in model.inputs.values()] + [TIME]
     return tuple(s for s in known if s in used)
 
@@ -83,7 +83,7 @@ def data_at(data, place, duration: str | None) -> dict[sm.Symbol, sm.Expr]:
 
 def refuse_late(model: Model, rows: Iterable[sm.Expr], what: str) -> None:
     """CodegenError where rows that are evaluated at nodes contain a delayed signal."""
-    if any(r.free_symbols & model.delays.keys() for r in rows):
+    if any(free_symbols(r) & model.delays.keys() for r in rows):
         raise CodegenError(
             f"{what} of model '{model.name}' contains a delayed signal, which has no value at the nodes: "
             "name it as an Algebraic with its own equation"

@@ -19,7 +19,7 @@ from symid.model.declare import (
 )
 from symid.model.model import TIME, Model
 from symid.model.prior import LogNormal, Normal, Prior
-from symid.model.quantity import initial, symbol, terminal
+from symid.model.quantity import free_symbols, initial, symbol, terminal
 from symid.model.table import table
 from symid.model.term import Law, LawParameter, Term
 
@@ -50,6 +50,7 @@ __all__ = [
     "Row",
     "State",
     "Term",
+    "free_symbols",
     "initial",
     "symbol",
     "table",

@@ -28,7 +28,7 @@ from symid.model.declare import (
 from symid.model.dimensions import Mismatch, dimension_of, dimensions_of_symbols
 from symid.model.model import TIME, Model
 from symid.model.prior import LogNormal, Prior
-from symid.model.quantity import initial, terminal
+from symid.model.quantity import free_symbols, initial, terminal
 from symid.units import dimension, known_unit
 
 
@@ -149,7 +149,7 @@ def _ports(model: Model) -> Iterator[str]:
 
 
 def _missing_equations(model: Model, residual) -> Iterator[str]:
-    used = set().union(*(r.free_symbols for r in residual)) if residual else set()
+    used = set().union(*map(free_symbols, residual))
     for s in model.states.values():
         if s.dot not in used:
             yield (
@@ -177,7 +177,7 @@ def _unused(model: Model, residual) -> Iterator[str]:
         if isinstance(c, (Constraint, Boundary, Objective))
         for e in _expressions(model, c)
     ]
-    used = set().union(*(e.free_symbols for e in (*residual, *model.observed(), *map(model.inline, conditions))))
+    used = set().union(*(free_symbols(e) for e in (*residual, *model.observed(), *map(model.inline, conditions))))
     used |= set().union(*(d.lag.free_symbols for k, d in model.delays.items() if k in used))
     for u in model.controls.values():
         if u.symbol not in used and not any(d.of == u.symbol for d in model.delays.values()):

@@ -31,7 +31,7 @@ from symid.model.declare import (
     State,
 )
 from symid.model.fingerprint import fingerprint_of
-from symid.model.quantity import Operand, refuse_calculus, symbol, sympified
+from symid.model.quantity import Operand, free_symbols, refuse_calculus, symbol, sympified
 
 if TYPE_CHECKING:
     from symid.model.term import Term
@@ -161,7 +161,7 @@ class Model:
         """`expr` with every named Expression replaced by what it stands for."""
         table = {e.symbol: e.expr for e in self.expressions.values()}
         for _ in range(len(table) + 1):
-            used = expr.free_symbols & table.keys()
+            used = free_symbols(expr) & table.keys()
             if not used:
                 return expr
             expr = expr.xreplace({s: table[s] for s in used})
@@ -178,7 +178,7 @@ class Model:
     def algebraic_equations(self) -> tuple[int, ...]:
         """Places among the equations of those that contain no rate."""
         rates = {s.dot for s in self.states.values()}
-        return tuple(i for i, r in enumerate(self.residual()) if not r.free_symbols & rates)
+        return tuple(i for i, r in enumerate(self.residual()) if not free_symbols(r) & rates)
 
     def rates(self) -> dict[str, str]:
         """Which states are rates of others by an equation of the form 0 = x' - v: {v: x}."""
@@ -202,7 +202,7 @@ class Model:
         expr, lag = self.inline(sympified(expr)), sympified(lag)
         late = {c.symbol for c in self._of((State, Control, Input)).values()}
         table = {}
-        for s in sorted(expr.free_symbols & (late | self.delays.keys()), key=str):
+        for s in sorted(free_symbols(expr) & (late | self.delays.keys()), key=str):
             delay = Delay(s, lag) if s in late else Delay(self.delays[s].of, self.delays[s].lag + lag)
             table[s] = symbol(f"{delay.of}@{delay.lag}")
             self.delays[table[s]] = delay

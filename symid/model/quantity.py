@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import sympy as sm
@@ -15,6 +16,12 @@ Operand = Any
 def symbol(name: str) -> sm.Symbol:
     """The one SymPy symbol that stands for the part called `name`, in every model."""
     return sm.Symbol(name, real=True)
+
+
+@lru_cache(maxsize=1024)
+def free_symbols(expr: sm.Expr) -> frozenset[sm.Symbol]:
+    """`expr.free_symbols`, which SymPy collects anew over the whole expression each time it is asked."""
+    return frozenset(expr.free_symbols)
 
 
 def initial(s: sm.Symbol) -> sm.Symbol:

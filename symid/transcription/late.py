@@ -8,7 +8,7 @@ import numpy as np
 
 from symid.codegen.interval import late_signals
 from symid.errors import TranscriptionError
-from symid.model import Model
+from symid.model import Model, free_symbols
 from symid.transcription.data import Measured, spline
 from symid.transcription.delays import LateSignal
 from symid.transcription.layout import Layout
@@ -34,7 +34,7 @@ def refuse_late(model: Model, measured: Sequence[Measured]) -> None:
                 "the recorded channel by a known lag"
             )
     for name, y in zip(model.outputs, model.observed(), strict=True):
-        if y.free_symbols & late:
+        if free_symbols(y) & late:
             raise TranscriptionError(
                 f"output '{name}' of model '{model.name}' shows a delayed signal, which direct "
                 "collocation does not handle; shift the recorded channel instead"
