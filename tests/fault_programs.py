@@ -4,6 +4,7 @@ What they do is what the command line does, on small problems: the folder gets t
 """
 
 import sys
+from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
@@ -30,19 +31,23 @@ def prepare(folder: Path) -> None:
     (folder / "body.json").write_text((STANDING / "body.json").read_text())
 
 
+def made_small(name: str, change: Callable[[], None]) -> None:
+    """Let the command do `change` before anything else: inside `main`, as what a user interrupts or starves is."""
+    command = import_module(f"symid.cli.{name}")
+    run = command.run
+    command.run = lambda arguments: change() or run(arguments)
+
+
 def diagnose(folder: Path) -> int:
     """A free swing with damping, of a rig that is said to have none; one suspect."""
-    command = import_module("symid.cli.diagnose")
-    of_rig = command._of_rig
 
-    def of_rig_with_one_suspect(*arguments):
+    def one_suspect() -> None:
         from symid.discrepancy import suspects
 
         few = lambda model: [s for s in suspects(model) if s.term.name == "viscous_friction"]  # noqa: E731
         import_module("symid.discrepancy.diagnose").suspects_of = few
-        return of_rig(*arguments)
 
-    command._of_rig = of_rig_with_one_suspect
+    made_small("diagnose", one_suspect)
     outputs = [str(folder / name) for name in OUTPUTS["diagnose"]]
     options = zip(("--json", "--report", "--held-out-csv"), outputs, strict=True)
     source = [str(folder / "swing.csv"), "--rig", str(folder / "rig.json")]
@@ -52,9 +57,13 @@ def diagnose(folder: Path) -> int:
 
 def reproduce(folder: Path) -> int:
     """Two starts of the article's first case, on a made-up person and a few seconds."""
-    import_module("symid.fetch").standing = Path  # the folder as it is given, though it is not the article's
-    run = import_module("symid.reproduce.run")
-    run.WINDOW, run.RANGE, run.HELD_OUT = dict.fromkeys(run.WINDOW, (0.0, 5.0)), (0.0, 8.0), (5.0, 8.0)
+
+    def few_seconds() -> None:
+        import_module("symid.fetch").standing = Path  # the folder as it is given, though it is not the article's
+        run = import_module("symid.reproduce.run")
+        run.WINDOW, run.RANGE, run.HELD_OUT = dict.fromkeys(run.WINDOW, (0.0, 5.0)), (0.0, 8.0), (5.0, 8.0)
+
+    made_small("reproduce", few_seconds)
     places = [f"--{name}={folder / name}" for name in ("store", "output")]
     return main(["reproduce", "--only", "PD-1", "--starts", "2", f"--recordings={folder}", *places])
 
