@@ -26,8 +26,8 @@ def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np
 
     Parameters
     ----------
-    step : seconds between samples; the process noise is held over `HOLD` seconds, or a whole part of the
-        sample nearest to that: forces that change within a sample move position and speed apart.
+    step : seconds between samples; the process noise is held over the whole part of a sample nearest to `HOLD`
+        seconds, an eighth at least: forces that change within a sample move position and speed apart.
     process : (w,) standard deviation of each noise of the model; sensor : (m,) of each output.
     """
     A, G, C = linear.without_delay()
