@@ -54,10 +54,16 @@ class Change:
 
 
 class Witness:
-    """The equations of one model, asked about one motion."""
+    """The equations of one model, asked about one motion.
 
-    def __init__(self, model: Model, motion: Motion):
-        self.model, self.motion = model, motion
+    Parameters
+    ----------
+    law_open : whether any linear function of recorded positions and rates may be added to each acceleration. What the
+        inputs do is left to tell a mistake, where the model's own law explains too little.
+    """
+
+    def __init__(self, model: Model, motion: Motion, law_open: bool = False):
+        self.model, self.motion, self.open = model, motion, None
         self.kernel = compile_program(balance_program(model), backend="numpy")
         parameters = model.parameters.values()
         self.lower, self.upper = (np.array([p.bounds[i] for p in parameters], dtype=float) for i in (0, 1))
@@ -66,6 +72,9 @@ class Witness:
         self.explained = [
             i for i, s in enumerate(model.states) if s not in self.rates.values()
         ]  # the others are kinematic
+        if law_open:
+            shown = [c[order] for c in motion.curves.values() for order in (0, 1)]
+            self.open, _ = np.linalg.qr(self._filtered(np.column_stack([np.ones(motion.time.size), *shown])))
 
     def unexplained(self, change: Change = Change()) -> float:
         """Share of the variance of the accelerations that no parameters within bounds explain; least over lags."""
@@ -201,7 +210,11 @@ class Witness:
 
     def _filtered(self, x: FloatArray) -> FloatArray:
         m = self.motion
-        return np.concatenate([low_pass(x[p], m.band, m.step)[EDGE:-EDGE] for p in m.pieces])
+        left = np.concatenate([low_pass(x[p], m.band, m.step)[EDGE:-EDGE] for p in m.pieces])
+        if self.open is None:
+            return left
+        rows = left.reshape(len(left), -1)
+        return (rows - self.open @ (self.open.T @ rows)).reshape(left.shape)
 
 
 def _covariance(errors: FloatArray) -> FloatArray:

@@ -84,9 +84,9 @@ def model_remarks(model: Model, recording: Recording, window: tuple[float, float
     try:
         motion = motion_of(model, recording, window)
         told = None if motion is None else foretold(motion)
-        looks = [m for m in (told, motion) if m is not None]
-        for one in looks:
-            remark = _judged(model, one)
+        looks = [(m, law_open) for m, law_open in ((told, False), (motion, False), (told, True)) if m is not None]
+        for one, law_open in looks:
+            remark = _judged(model, one, law_open)
             if remark is not None:
                 return [f"{recording.name}: {remark}"] if remark else []
     except (SymidError, np.linalg.LinAlgError, ValueError):
@@ -94,9 +94,9 @@ def model_remarks(model: Model, recording: Recording, window: tuple[float, float
     return []
 
 
-def _judged(model: Model, motion: Motion) -> str | None:
+def _judged(model: Model, motion: Motion, law_open: bool) -> str | None:
     """The sentence, "" where all is well, None where this motion does not show it."""
-    witness = Witness(model, motion)
+    witness = Witness(model, motion, law_open)
     given = witness.unexplained()
     if given <= EXPLAINED:
         return ""
@@ -104,7 +104,7 @@ def _judged(model: Model, motion: Motion) -> str | None:
     changes = [c for c in channel_changes(model) if searching or c.is_of_sign]
     as_given, shares = witness.generalised(), {change.said: witness.generalised(change) for change in changes}
     remark = _sentence(as_given, shares, BETTER)
-    if remark is None and searching and not is_a_person(model):
+    if remark is None and searching and not law_open and not is_a_person(model):
         shares |= {change.said: witness.generalised(change) for change in body_changes(model)}
         remark = _sentence(as_given, shares, CONSTANT_BETTER)
     return remark or ("" if given < CLEAR else None)
