@@ -24,7 +24,7 @@ EDGE = 5
 """Samples at each end of a piece that are left out, where a filter has not settled."""
 STEPS = 4
 """Gauss-Newton steps for parameters that enter the equations nonlinearly; gains need one."""
-WEIGHTINGS, SETTLED = 8, 1e-3
+WEIGHTINGS, SETTLED = 8, 0.01
 """Times at most that the equations are weighted anew, by the masses just fitted, until the share settles by that."""
 FLOOR = 1e-12
 """Least relative spread of errors in any direction, for accelerations that are always alike."""
