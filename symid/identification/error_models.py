@@ -19,6 +19,9 @@ FEWEST_CLUSTERS = 5
 """Recordings whose spread says something: the variance of q numbers has q - 1 degrees of freedom."""
 ROUNDS = 3
 """Rounds in which the part of the noise that the fit followed is put back: the third changes a per cent."""
+LEAST = 0.5
+"""Variance of a coloured noise's estimate over Bartlett's, in any direction, below which a sidelobe is taken for it: a
+flat taper may give next to none beside a line in the spectrum. Otherwise it is 0.9 or more of it."""
 REFUTED = 0.01
 """Probability under white noise below which a residual is coloured: a false alarm costs little, see `coloured`."""
 
@@ -182,19 +185,31 @@ def coloured(errors: list[Errors], influences: list[np.ndarray]) -> tuple[np.nda
     variance is too small by 8 instead of 27 % for an autoregression of 0.95 over 1500 samples. Where the noise
     is white after all, the standard errors only scatter more.
     """
-    total, sigma = 0.0, []
+    flat, bartlett, sigma = 0.0, 0.0, []
     for r, g in zip(errors, influences, strict=True):
         lags = bandwidth(r.error)
-        taper = np.minimum(1.0, 2 - 2 * np.abs(np.arange(-lags, lags + 1)) / (lags + 1))
         there = lag_products(r.present * 1.0, r.present * 1.0, lags)
         missing = np.where(there > 0, there, np.inf) / np.maximum(_all_pairs(len(r.error), lags), 1)  # Parzen 1963
         seen = lag_products(r.error, r.error, lags) / len(r.error) / missing
-        noise = seen * taper[:, None, None]
-        for _ in range(ROUNDS):
-            noise = (seen + _followed_noise(noise, r)) * taper[:, None, None]
-        total = total + np.einsum("kiq,kip->qp", g, _through(noise, g), optimize=True)
+        far = np.abs(np.arange(-lags, lags + 1)) / (lags + 1)
+        noise = _noise(seen, np.minimum(1.0, 2 - 2 * far), r)
+        flat = flat + _sent(noise, g)
+        bartlett = bartlett + _sent(_noise(seen, 1 - far, r), g)
         sigma.append(np.sqrt(np.maximum(np.diag(noise[lags]), 0.0)))
-    return _nearest_covariance(total), np.array(sigma)
+    return _at_least(flat, LEAST * bartlett), np.array(sigma)
+
+
+def _noise(seen: np.ndarray, taper: np.ndarray, r: Errors) -> np.ndarray:
+    """(2 lags + 1, m, m) autocovariance of the noise: the residual's, and the part that the fit followed."""
+    noise = seen * taper[:, None, None]
+    for _ in range(ROUNDS):
+        noise = (seen + _followed_noise(noise, r)) * taper[:, None, None]
+    return noise
+
+
+def _sent(noise: np.ndarray, g: np.ndarray) -> np.ndarray:
+    """(q, q) covariance of the parameters that a stationary noise makes through the influence g (K, m, q)."""
+    return np.einsum("kiq,kip->qp", g, _through(noise, g), optimize=True)
 
 
 def _all_pairs(count: int, lags: int) -> np.ndarray:
@@ -264,9 +279,16 @@ def clustered(errors: list[Errors], influences: list[np.ndarray]) -> tuple[np.nd
     return total, np.array([r.deviation for r in errors])
 
 
-def _nearest_covariance(matrix: np.ndarray) -> np.ndarray:
-    values, vectors = np.linalg.eigh(0.5 * (matrix + matrix.T))
-    return (vectors * np.maximum(values, 0.0)) @ vectors.T
+def _at_least(matrix: np.ndarray, least: np.ndarray) -> np.ndarray:
+    """The covariance nearest to `matrix` that in no direction is smaller than `least`, measured by it."""
+    size = np.sqrt(np.maximum(np.diag(least), 0.0))
+    size = np.where(size > 0, size, 1.0)
+    values, vectors = np.linalg.eigh(0.5 * (least + least.T) / np.outer(size, size))
+    kept = values > 1e-12 * np.max(values, initial=0.0)
+    root, inverse = vectors[:, kept] * np.sqrt(values[kept]), vectors[:, kept] / np.sqrt(values[kept])
+    times, directions = np.linalg.eigh(inverse.T @ (0.5 * (matrix + matrix.T) / np.outer(size, size)) @ inverse)
+    found = root @ (directions * np.maximum(times, 1.0)) @ directions.T @ root.T
+    return found * np.outer(size, size)
 
 
 def lag_products(a: np.ndarray, b: np.ndarray, lags: int) -> np.ndarray:

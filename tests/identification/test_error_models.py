@@ -163,6 +163,17 @@ def test_coloured_covariance_is_that_of_an_autoregression():
     assert np.mean(plain_white, axis=0)[1] < 0.2 * exact[1, 1]
 
 
+def test_a_slow_wave_in_the_residual_makes_no_standard_error_vanish():
+    """Beside a line of the spectrum a flat taper gives less than nothing, which was cut off at zero."""
+    rng, time = np.random.default_rng(7), np.arange(1001)
+    for k in range(20):
+        slow = np.sqrt(2) * np.sin(0.0075 * time + rng.uniform(0, 6))[:, None]
+        errors = [fitted(rng.standard_normal((1001, 1)) + slow, np.ones((1001, 1)))]
+        influence = np.cos((0.01 + 0.002 * k) * time)[:, None, None] / 500
+        variance = coloured(errors, [influence])[0][0, 0]
+        assert variance > 0.3 * np.sum(influence**2)  # that of the white part alone
+
+
 def test_whiteness_has_its_level_and_its_power():
     rng, time = np.random.default_rng(1), np.arange(400)
     shapes = np.column_stack([np.ones(400), np.sin(time / 20), np.cos(time / 30)])
