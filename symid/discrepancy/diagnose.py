@@ -8,6 +8,7 @@ from functools import cache
 
 from symid.discrepancy.locate.audit import audit
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
+from symid.discrepancy.locate.given import fitted_as_given
 from symid.discrepancy.model.dry import with_friction_speeds
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
@@ -88,7 +89,8 @@ def diagnose(
     def searched(base: Fit, data: Data) -> Search:
         nothing = Hypothesis((), base, base, data)
         flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
-        return Search(base, data, pool, flexible, threads, progress)
+        jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.constants]
+        return Search(base, data, pool, flexible, jumps, threads, progress)
 
     # Locate: what the recording can be trusted for, and what the model as given leaves of it.
     checked = audit(task.model, task.recording, pieces, sensor_noise, filter)
@@ -97,9 +99,11 @@ def diagnose(
     pool = list(suspects_of(task.model) if suspects is None else suspects)
     plain = Data(pieces, checked.noise, driven, checked.rounding).thinned()
     window = task.fit_window, task.segment_length
-    possible = fits_of(
-        task.model, task.recording, *window, plain, checked.filter, checked.inputs, task.start, checked.known
-    )
+
+    def fits(start: dict[str, float]) -> list[tuple[Data, Fit]]:
+        return fits_of(task.model, task.recording, *window, plain, checked.filter, checked.inputs, start, checked.known)
+
+    possible = fitted_as_given(task, plain, fits)
     possible = [(data, with_likeliest_jumps(given, fit, data)) for data, fit in possible]
     progress(f"the model as given is fitted ({possible[0][1].iterations} iterations)")
 

@@ -19,6 +19,9 @@ ORDER = 6
 """Differences of this order leave noise and hardly any motion."""
 FALLING = 4.0
 """A spectrum that still falls by this factor in the upper half of its band shows no floor of sensor noise."""
+FLAT = 1.12
+"""A spectrum that falls by less than this from one half of the top of its band to the other has a floor there. That of a
+filter falls by 1.25 even where every other sample was left out after it; over 100 s the scatter is 0.05."""
 ROUNDING = 1e-5
 """A floor this small beside the motion is the rounding of a file and no sensor."""
 NOTHING = 1e-3
@@ -106,10 +109,21 @@ def white_noise(pieces: list[np.ndarray]) -> float:
 
 def _step(x: np.ndarray) -> float:
     """The step of which all values are multiples (but for one offset), 0 where most values differ from each other."""
-    levels = np.unique(np.round(x, 8))
-    if not 3 <= len(levels) <= MOST_LEVELS * len(x):
-        return 0.0
+    levels = _levels(x)
+    return _grid(levels) if 3 <= len(levels) <= MOST_LEVELS * len(x) else 0.0
+
+
+def _levels(x: np.ndarray) -> np.ndarray:
+    """The values that occur, in order; those that differ by rounding errors alone are one."""
+    size = float(np.abs(x).max(initial=0.0)) or 1.0
+    return np.unique(np.round(x / size, 12)) * size
+
+
+def _grid(levels: np.ndarray) -> float:
+    """The step of which all gaps between neighbours are multiples, 0 where there is none."""
     gaps = np.diff(levels)
+    if not len(gaps):
+        return 0.0
     step = float(np.median(gaps[gaps < 1.5 * gaps.min()]))
     counts = gaps / step
     return step if np.all(np.abs(counts - np.round(counts)) < 0.1) else 0.0
@@ -125,10 +139,13 @@ def _cutoff(pieces: list[np.ndarray], step: float) -> float:
         x, 1 / step, window="blackmanharris", nperseg=min(len(x), max(128, int(5 / step))), detrend="linear"
     )
     total = np.cumsum(power[::-1])[::-1]
-    middle, top = (
-        float(np.sqrt(np.median(power[(f > a * f[-1]) & (f <= b * f[-1])]))) for a, b in ((0.5, 0.65), (0.85, 0.99))
+    middle, top, lower, upper = (
+        float(np.sqrt(np.median(power[(f > a * f[-1]) & (f <= b * f[-1])])))
+        for a, b in ((0.5, 0.65), (0.85, 0.99), (0.85, 0.92), (0.92, 0.99))
     )
     floor = np.sqrt(top**2 * f[-1] / (total[1] * f[1] + 1e-300))
-    if middle < FALLING * top and floor > ROUNDING:
+    # The rounding of a file after the filter leaves a floor, too: (step^2 / 12) over the whole band.
+    of_sensor = lower < FLAT * upper and top > 2 * _grid(_levels(x)) * np.sqrt(step / 6)
+    if floor > ROUNDING and (middle < FALLING * top or of_sensor):
         return np.nan
     return float(f[np.argmax(total < NOTHING**2 * total[1])])

@@ -1,12 +1,18 @@
-"""How abruptly dry friction sets in, told by the recording before friction is looked for."""
+"""How abruptly dry friction sets in, told by the recording: before friction is looked for, or once it is found."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
+from math import log
+
+import numpy as np
+from scipy.optimize import minimize_scalar
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.dry import weights_of, widths
+from symid.discrepancy.model.hypothesis import Hypothesis, polished, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.estimation.data import Data
@@ -17,6 +23,11 @@ from symid.simulation import simulator
 
 FINER = 1.7, 1.3, 1.15
 """Factors by which neighbours of the best width are tried, one after the other: it ends within a tenth."""
+COARSE, SHARP = 10.0, 0.01
+"""Factor between the widths that are fitted first once friction is found, and the part of itself to which the best is
+found then: where a sensor is very good a few percent leave an error that can be seen."""
+ITERATIONS = 10
+"""Of a fit with another width."""
 
 
 def with_likeliest_jumps(given: Model, fit: Fit, data: Data) -> Fit:
@@ -53,3 +64,54 @@ def _likeliest(width: Constant, projection: Projection) -> float:
     for factor in FINER if best != sharp else ():
         best = max([best / factor, best, best * factor], key=score)
     return best if score(best) > score(sharp) + POLICY.accept else sharp
+
+
+def with_fitted_jumps(found: Hypothesis, made: Sequence[str]) -> Hypothesis:
+    """The same suspects with dry friction that sets in as abruptly as the recording likes best, of a free motion.
+
+    A wider jump than the one that was made must be worth an unknown.
+
+    Parameters
+    ----------
+    made : the friction speeds that nobody stated. Those count on which the suspects depend.
+    """
+    if found.fit.kalman_gain is not None:
+        return found
+    without, model = _symbols(found.base.model), found.fit.model
+    for name in (n for n in made if model[n].symbol in _symbols(model) - without):
+        found = _with_fitted_jump(found, name)
+    return found
+
+
+def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
+    model, data = found.base.model, found.data
+    sharp = model.constants[name].value
+    port = next(p for p in model.ports.values() if p.at == model[name].at and p.role == "joint")
+    near = replace(found.fit, substeps=1)
+    *_, widest = widths(data.segments, weights_of(model, port), data.sensor_noise)
+
+    @cache
+    def fitted(width: float) -> Hypothesis | None:
+        base = replace(found.base, model=model.with_constants(**{name: width}))
+        fit = refit(found.suspects, near, base, data, iterations=ITERATIONS)
+        return None if fit is None else Hypothesis(found.suspects, fit, base, data)
+
+    def score(width: float) -> float:
+        tried = fitted(width)
+        return -np.inf if tried is None or width > widest else tried.log_ratio
+
+    steps = int(np.log(max(widest / sharp, 1.0)) / np.log(COARSE))
+    best = max([sharp * COARSE**k for k in range(steps + 1)], key=score)
+    if best != sharp:
+        near_best = log(best / COARSE), log(min(best * COARSE, widest))
+        options = {"xatol": SHARP}
+        best = float(
+            np.exp(minimize_scalar(lambda w: -score(np.exp(w)), bounds=near_best, method="bounded", options=options).x)
+        )
+    price = POLICY.accept + log(max(found.share * data.samples, 2.0))
+    wider = fitted(best)
+    return polished(wider) if wider is not None and found.share * (score(best) - found.log_ratio) > price else found
+
+
+def _symbols(model: Model) -> set:
+    return set().union(*(e.free_symbols for e in model.residual()))

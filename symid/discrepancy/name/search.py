@@ -14,6 +14,7 @@ from symid.discrepancy.locate.remainder import Test, remainder
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.explore import by_score, explore
+from symid.discrepancy.name.jump import with_fitted_jumps
 from symid.discrepancy.policy import POLICY
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
@@ -31,12 +32,14 @@ class Search:
     ----------
     base : the model as given, fitted to `data`. pool : the suspects.
     flexible : the best flexible law at one place, made when asked for.
+    jumps : constants of the model that say how abruptly dry friction sets in and that nobody stated.
     """
 
     base: Fit
     data: Data
     pool: Sequence[Suspect]
     flexible: Callable[[], Hypothesis]
+    jumps: Sequence[str] = ()
     threads: int = 2
     progress: Callable[[str], None] = lambda text: None
     left: dict[int, list[Test]] = field(default_factory=dict)
@@ -70,7 +73,7 @@ class Search:
                 more = self._reexamined(more, single)
                 if not self._worth(more, best):
                     break
-            best = polished(more)
+            best = self._with_jumps(polished(more))
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
             if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best):
                 break
@@ -80,6 +83,13 @@ class Search:
         """What is found, or the flexible law at one place where several laws together explain less than that."""
         doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
         return self.flexible() if doubtful and self.beaten(found) else found
+
+    def _with_jumps(self, found: Hypothesis) -> Hypothesis:
+        """`found` with dry friction as abrupt as the recording likes it, which holds for whatever is tried next."""
+        found = with_fitted_jumps(found, self.jumps)
+        if found.base.model is not self.base.model:
+            self.base = self.projection.fit = found.base
+        return found
 
     # ---- judging -----------------------------------------------------------------------------
     def value(self, found: Hypothesis, share: float, belief: bool = True) -> float:

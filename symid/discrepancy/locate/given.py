@@ -1,0 +1,62 @@
+"""The model as it is given, fitted: from what it declares or, where that leads nowhere, from the recording itself."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from symid.discrepancy.policy import POLICY
+from symid.discrepancy.task import Task
+from symid.errors import DiagnosisError, SymidError
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit
+from symid.identification import Identification
+from symid.identification.starts.default import default_start
+
+PIECES = 4
+"""So many of the longest pieces of a recording are enough for a start."""
+
+Fits = list[tuple[Data, Fit]]
+
+
+def fitted_as_given(task: Task, plain: Data, fits: Callable[[dict[str, float]], Fits]) -> Fits:
+    """What `fits` makes of the start values of a task, or of those that regression finds, whichever is likelier.
+
+    Regression is asked where the first way fails, and where free motion is far from the recording: output errors
+    have local optima, the errors of equations that are linear in their parameters have none.
+
+    Raises
+    ------
+    DiagnosisError : neither way leads to a fit.
+    """
+    start, problem, found = dict(task.start), None, None
+    try:
+        found = fits(start)
+        if found[0][1].kalman_gain is not None or not task.model.parameters or _near(*found[0]):
+            return found
+    except DiagnosisError as error:
+        problem = error
+    try:
+        other = fits({**_regressed(task, plain), **start})
+    except SymidError:
+        other = None
+    if found is None and other is None:
+        raise problem
+    return max((f for f in (found, other) if f), key=lambda f: f[0][1].loglik2)
+
+
+def _near(data: Data, fit: Fit) -> bool:
+    """Whether what is left is of the size of the sensors' noise."""
+    left = np.sqrt(np.mean(np.vstack(fit.innovations) ** 2, axis=0))
+    return bool(np.all(left < POLICY.far * data.sensor_noise))
+
+
+def _regressed(task: Task, plain: Data) -> dict[str, float]:
+    """Parameters [SI] with which the recorded motion satisfies the equations best, improved by simulation."""
+    longest = sorted(plain.segments, key=lambda e: -len(e.time))[:PIECES]
+    windows = [(float(e.time[0]), float(e.time[-1])) for e in longest]
+    problem = Identification(task.model, [task.recording] * len(windows), window=windows)
+    z, _ = default_start(problem.transcription)
+    layout = problem.transcription.layout
+    return dict(zip(layout.parameter_names, map(float, layout.parameters(z)), strict=True))
