@@ -30,10 +30,10 @@ LONGEST_STEP = {True: 0.02, False: 0.005}
 corners."""
 STEPS_A_SWING = 300
 """Motion that is slower than that takes longer steps: so many of Runge and Kutta's a swing err by 1e-9 of it."""
-ERRS, MOST_SUBSTEPS = {True: 0.05, False: 0.2}, 32
-"""Part of the innovations' rms by which the integrator may err, with random forces and without; its steps are halved
-until then. The error of every step stays in a shaft that turns freely, and the corners of dry friction make it large;
-with random forces each sample corrects the state, and there are thousands that share what is left of an error."""
+SEEN, MOST_SUBSTEPS = 3.0, 32
+"""What the integrator may cost of twice the log-likelihood; its steps are halved until then. A systematic error that
+the likelihood sees looks like physics. The error of every step stays in a shaft that turns freely, and the corners of
+dry friction make it large."""
 PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
 SHARPEST = 4.0
@@ -250,7 +250,7 @@ class Fitter:
         return k, converged
 
     def _too_coarse(self, at: _Point) -> bool:
-        """Whether steps half as long change the motion by more than `ERRS` of what it leaves of the recording."""
+        """Whether steps half as long change the motion by more than the likelihood would leave unseen."""
         coarse = self.run(at.p, at.x0, at.kalman_gain, False, process=at.process)
         self.substeps *= 2
         fine = self.run(at.p, at.x0, at.kalman_gain, False, process=at.process)
@@ -259,7 +259,7 @@ class Fitter:
             return False
         change = np.vstack([a.y - b.y for a, b in zip(coarse, fine, strict=True)])
         left = np.vstack(self.innovations(coarse, at.process))
-        return bool(np.any(np.mean(change**2, axis=0) > ERRS[self.driven] ** 2 * np.mean(left**2, axis=0)))
+        return bool(np.any(np.sum(change**2, axis=0) > SEEN * np.mean(left**2, axis=0)))
 
     def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
         """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).

@@ -20,8 +20,8 @@ ORDER = 6
 FALLING = 4.0
 """A spectrum that still falls by this factor in the upper half of its band shows no floor of sensor noise."""
 FLAT = 1.12
-"""A spectrum that falls by less than this from one half of the top of its band to the other has a floor there. That of a
-filter falls by 1.25 even where every other sample was left out after it; over 100 s the scatter is 0.05."""
+"""A spectrum that falls by less than this from one half of the top of its band to the other has a floor there. That of
+a filter falls by 1.25 even where every other sample was left out after it; over 100 s the scatter is 0.05."""
 ROUNDING = 1e-5
 """A floor this small beside the motion is the rounding of a file and no sensor."""
 NOTHING = 1e-3

@@ -23,7 +23,7 @@ from symid.simulation import simulator
 
 FINER = 1.7, 1.3, 1.15
 """Factors by which neighbours of the best width are tried, one after the other: it ends within a tenth."""
-COARSE, SHARP = 10.0, 0.01
+COARSE, SHARP = 10.0, 0.003
 """Factor between the widths that are fitted first once friction is found, and the part of itself to which the best is
 found then: where a sensor is very good a few percent leave an error that can be seen."""
 ITERATIONS = 10
@@ -66,28 +66,27 @@ def _likeliest(width: Constant, projection: Projection) -> float:
     return best if score(best) > score(sharp) + POLICY.accept else sharp
 
 
-def with_fitted_jumps(found: Hypothesis, made: Sequence[str]) -> Hypothesis:
+def with_fitted_jumps(found: Hypothesis, made: Sequence[str], known: Model) -> Hypothesis:
     """The same suspects with dry friction that sets in as abruptly as the recording likes best, of a free motion.
 
     A wider jump than the one that was made must be worth an unknown.
 
     Parameters
     ----------
-    made : the friction speeds that nobody stated. Those count on which the suspects depend.
+    made : the friction speeds that nobody stated. known : those count on which this model does not yet depend.
     """
     if found.fit.kalman_gain is not None:
         return found
-    without, model = _symbols(found.base.model), found.fit.model
-    for name in (n for n in made if model[n].symbol in _symbols(model) - without):
+    model = found.fit.model
+    for name in (n for n in made if model[n].symbol in _symbols(model) - _symbols(known)):
         found = _with_fitted_jump(found, name)
     return found
 
 
 def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
-    model, data = found.base.model, found.data
+    model, data, near = found.base.model, found.data, replace(found.fit, substeps=1)
     sharp = model.constants[name].value
     port = next(p for p in model.ports.values() if p.at == model[name].at and p.role == "joint")
-    near = replace(found.fit, substeps=1)
     *_, widest = widths(data.segments, weights_of(model, port), data.sensor_noise)
 
     @cache
@@ -98,16 +97,21 @@ def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
 
     def score(width: float) -> float:
         tried = fitted(width)
-        return -np.inf if tried is None or width > widest else tried.log_ratio
+        return -np.inf if tried is None else tried.log_ratio
 
-    steps = int(np.log(max(widest / sharp, 1.0)) / np.log(COARSE))
-    best = max([sharp * COARSE**k for k in range(steps + 1)], key=score)
-    if best != sharp:
-        near_best = log(best / COARSE), log(min(best * COARSE, widest))
-        options = {"xatol": SHARP}
-        best = float(
-            np.exp(minimize_scalar(lambda w: -score(np.exp(w)), bounds=near_best, method="bounded", options=options).x)
-        )
+    best, width = sharp, widest
+    while width > sharp:  # from wide to sharp: sharp corners ask for short steps of the integrator
+        value, before = score(width), found.log_ratio if best == sharp else score(best)
+        if best != sharp and value < before:
+            break
+        best, width = (width if value > before else best), width / COARSE
+    if best == sharp:
+        return found
+    ends = log(max(best / COARSE, sharp)), log(min(best * COARSE, widest))
+    options = {"xatol": SHARP}
+    best = float(
+        np.exp(minimize_scalar(lambda w: -score(float(np.exp(w))), bounds=ends, method="bounded", options=options).x)
+    )
     price = POLICY.accept + log(max(found.share * data.samples, 2.0))
     wider = fitted(best)
     return polished(wider) if wider is not None and found.share * (score(best) - found.log_ratio) > price else found

@@ -73,7 +73,9 @@ class Search:
                 more = self._reexamined(more, single)
                 if not self._worth(more, best):
                     break
-            best = self._with_jumps(polished(more))
+            best = polished(more)
+            if best.base is not self.base:  # its dry friction is less abrupt, and so is what is tried next
+                self.base = self.projection.fit = best.base
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
             if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best):
                 break
@@ -83,13 +85,6 @@ class Search:
         """What is found, or the flexible law at one place where several laws together explain less than that."""
         doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
         return self.flexible() if doubtful and self.beaten(found) else found
-
-    def _with_jumps(self, found: Hypothesis) -> Hypothesis:
-        """`found` with dry friction as abrupt as the recording likes it, which holds for whatever is tried next."""
-        found = with_fitted_jumps(found, self.jumps)
-        if found.base.model is not self.base.model:
-            self.base = self.projection.fit = found.base
-        return found
 
     # ---- judging -----------------------------------------------------------------------------
     def value(self, found: Hypothesis, share: float, belief: bool = True) -> float:
@@ -177,8 +172,14 @@ class Search:
             self.progress("looking for what follows a clock")
             found += self._explored(best, clocks, least)
             self.clocks = self.clocks or [h for h in found if h.suspect.kind == "clock" and self._worth(h, best)]
+        found = self._with_jumps(found, best)
         self.tried += found
         return by_score(found)
+
+    def _with_jumps(self, found: list[Hypothesis], less: Hypothesis) -> list[Hypothesis]:
+        """`found` on top of `less`, with dry friction that is new there as abrupt as the recording likes it."""
+        enough = POLICY.beam_share * max((h.log_ratio for h in found), default=0.0)
+        return [with_fitted_jumps(h, self.jumps, less.fit.model) if h.log_ratio > enough else h for h in found]
 
     def _known_clocks(self, best: Hypothesis, taken: set) -> list[Hypothesis]:
         """`best` with each clock that explained something alone, from where that was found."""
