@@ -96,8 +96,8 @@ def diagnose(
     checked = audit(task.model, task.recording, pieces, sensor_noise, filter)
     given = task.model
     task = replace(task, model=with_friction_speeds(given, pieces, checked.noise))
-    pool = list(suspects_of(task.model) if suspects is None else suspects)
     plain = Data(pieces, checked.noise, driven, checked.rounding).thinned()
+    pool = list(suspects_of(task.model, plain.pace) if suspects is None else suspects)
     window = task.fit_window, task.segment_length
 
     def fits(start: dict[str, float]) -> list[tuple[Data, Fit]]:

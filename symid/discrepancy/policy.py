@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from symid.estimation.robust_errors import BLOCK
+
 
 @dataclass(frozen=True)
 class Policy:
@@ -42,7 +44,7 @@ class Policy:
     sure : an effect not so many honest standard errors from nothing is left out.
     apart : values of two halves that differ by so many standard errors contradict each other.
     confirm : probability that the held-out data must give to the improvement.
-    block : seconds of a block of held-out data: longer than errors remember (seconds, in all recordings at hand).
+    block : seconds of a block of held-out data at the pace of a second.
     fewest_blocks : with fewer the scatter of their differences is not known (a t with 5 degrees of freedom).
     chance : a finding that chance alone would make in this recording with more than this probability is none.
     nulls : simulated recordings without the finding, from which its probability by chance is read.
@@ -73,7 +75,7 @@ class Policy:
     sure: float = 2.0
     apart: float = 3.0
     confirm: float = 0.95
-    block: float = 3.0
+    block: float = BLOCK
     fewest_blocks: int = 6
     chance: float = 0.5
     nulls: int = 19

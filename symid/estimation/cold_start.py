@@ -38,7 +38,7 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -
         return _grow(model, data, values, initial)
     found, problem = [], None
     for confident in (CONFIDENT, 0.2 * CONFIDENT):
-        process = confident * _equivalent_noise(sim, values, initial, fitter.step, data.sensor_noise)
+        process = confident * _equivalent_noise(sim, values, initial, data)
         try:
             found.append(fitter.fit(values, initial, process))
         except SymidError as error:
@@ -55,7 +55,7 @@ def _grow(model: Model, data: Data, values: dict[str, float], initial: np.ndarra
     longest = max(len(e.time) for e in data.segments)
     fixed = tuple(model.parameters)
     for seconds in (*GROWING, np.inf):
-        length = int(min(longest, max(8, seconds / data.segments[0].step)))
+        length = int(min(longest, max(8, seconds * data.pace / data.segments[0].step)))
         head = data.with_segments(e.head(length) for e in data.segments)
         fit = Fitter(model, head, fixed if seconds == GROWING[0] else ()).fit(
             values, initial, np.zeros(len(model.noises))
@@ -79,12 +79,13 @@ def _observed_state(model: Model, recorded: np.ndarray) -> list[float]:
     return [float(shown.get(name, 0.0)) for name in model.states]
 
 
-def _equivalent_noise(sim, values, initial, step: float, sensor: np.ndarray) -> np.ndarray:
-    """(w,) size of each noise that moves an output by its sensor noise within a fifth of a second."""
+def _equivalent_noise(sim, values, initial, data: Data) -> np.ndarray:
+    """(w,) size of each noise that moves an output by its sensor noise within a fifth of the pace."""
+    step = data.segments[0].step
     linear = linearised_along(sim, np.array([values[k] for k in sim.parameters]), initial, points=1)
     A, G, C = linear.without_delay()
     state, moved = np.zeros_like(G), np.zeros((len(C), G.shape[1]))
-    for _ in range(max(1, int(0.2 / step))):
+    for _ in range(max(1, int(0.2 * data.pace / step))):
         state = state + step * (A @ state + G)
         moved = np.maximum(moved, np.abs(C @ state))
-    return 1.0 / np.maximum((moved / sensor[:, None]).max(0), 1e-12)
+    return 1.0 / np.maximum((moved / data.sensor_noise[:, None]).max(0), 1e-12)

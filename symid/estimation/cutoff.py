@@ -21,7 +21,7 @@ ORDERS = (2, 3, 4)
 RATES = (1, 2, 4)
 """Samples of the filter for each one that was kept."""
 LOOK = 12.0
-"""Seconds of one look at a spectrum, which is steep: shorter ones smear it."""
+"""So many times the pace lasts one look at a spectrum, which is steep: shorter ones smear it."""
 SHORTEST = 6
 """Or this part of a recording that is shorter than so many looks."""
 MOTION = 0.02
@@ -30,14 +30,16 @@ CUTOFFS = 16
 """Cutoffs that are tried before the best one is refined."""
 
 
-def estimated_filter(outputs: Sequence[np.ndarray], inputs: Sequence[np.ndarray], step: float) -> ZeroPhase:
+def estimated_filter(
+    outputs: Sequence[np.ndarray], inputs: Sequence[np.ndarray], step: float, pace: float = 1.0
+) -> ZeroPhase:
     """The zero-phase Butterworth filter behind (N,) `outputs`, which have been found to be filtered.
 
     Parameters
     ----------
-    inputs : (N,) what drove them. step : between samples [s].
+    inputs : (N,) what drove them. step : between samples [s]. pace : of the motion [s].
     """
-    frequency, power = _unexplained(outputs, inputs, step)
+    frequency, power = _unexplained(outputs, inputs, step, LOOK * pace)
     low = max(_end_of_motion(frequency, p) for p in power)
     use = (frequency > low) & (frequency < 0.97 * frequency[-1])
     f, power = frequency[use], power[:, use]
@@ -55,9 +57,9 @@ def estimated_filter(outputs: Sequence[np.ndarray], inputs: Sequence[np.ndarray]
     return ZeroPhase(order, float(best.x), rate / step)
 
 
-def _unexplained(outputs, inputs, step: float) -> tuple[np.ndarray, np.ndarray]:
+def _unexplained(outputs, inputs, step: float, look: float) -> tuple[np.ndarray, np.ndarray]:
     """Frequencies and power spectra of what is no linear answer to any one input."""
-    n = int(min(LOOK / step, len(outputs[0]) / SHORTEST)) // 2 * 2
+    n = int(min(look / step, len(outputs[0]) / SHORTEST)) // 2 * 2
     how = {"fs": 1 / step, "window": "blackmanharris", "nperseg": n, "noverlap": 2 * n // 3, "detrend": "linear"}
     found = []
     for y in outputs:

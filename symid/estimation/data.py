@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -20,6 +20,10 @@ LONGER = 1.5
 """A segment is cut only where it is so many times longer than wished."""
 SWINGS = 5
 """Swings of one piece of a motion that nothing drives: a few show losses, many bury the parameters in chaos."""
+PACES = 0.25, 4.0
+"""Motions whose swing lasts so many seconds have the pace of one second for which laws and searches are stated."""
+TURNING = 0.25
+"""A motion swings over where it leaves its mean by this part of its deviation on the other side: noise does not."""
 MOST_SAMPLES = 8000
 """More samples than this tell a fit of free motion nothing new."""
 
@@ -150,6 +154,7 @@ class Data:
     rounding : (m,) step of each output's encoder, 0 for none, SI.
     memory : samples that the noise remembers: the order of the autoregression that whitens the innovations.
     filter : what the recording was filtered with and is undone.
+    pace : of the motion [s], whatever is stated in seconds is so many times longer; `pace_of` the segments if left out.
     """
 
     segments: tuple[Segment, ...]
@@ -158,6 +163,11 @@ class Data:
     rounding: np.ndarray | float = 0.0
     memory: int = 0
     filter: ZeroPhase | None = None
+    pace: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.pace:
+            object.__setattr__(self, "pace", pace_of(self.segments))
 
     @property
     def samples(self) -> int:
@@ -305,6 +315,19 @@ def swing(segment: Segment) -> float:
         at = time[k] + (time[k + 1] - time[k]) * y[k] / (y[k] - y[k + 1])
         found.append(2 * (at[-1] - at[0]) / (len(at) - 1) if len(at) > 1 else 2 * (time[-1] - time[0]))
     return float(min(found))
+
+
+def pace_of(segments: Sequence[Segment]) -> float:
+    """One second for all motions of people and machines that swing about once in one, else the seconds of one swing."""
+    swings = float(np.median([min(_turns(e.time, y) for y in e.recorded.T) for e in segments]))
+    return 1.0 if PACES[0] <= swings <= PACES[1] else swings
+
+
+def _turns(time: np.ndarray, y: np.ndarray) -> float:
+    """Seconds of one swing of a signal, from how often it goes over to the other side of its mean."""
+    side = np.sign(y - y.mean()) * (np.abs(y - y.mean()) > TURNING * y.std())
+    side = side[side != 0]
+    return 2 * float(time[-1] - time[0]) / max(int(np.sum(side[1:] != side[:-1])), 1)
 
 
 def piece_length(segments: tuple[Segment, ...]) -> float:

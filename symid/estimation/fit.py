@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.data import Data, Segment, swing
+from symid.estimation.data import Data, Segment
 from symid.estimation.growth import growth, growth_normal, runs_away
 from symid.estimation.kalman import kalman_gain, linearised_along
 from symid.estimation.step import damped_step
@@ -25,11 +25,8 @@ from symid.simulation import Simulator, simulator
 
 TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
-LONGEST_STEP = {True: 0.02, False: 0.005}
-"""First longest step of the integrator [s], with random forces and without: free motion shows dry friction's
-corners."""
-STEPS_A_SWING = 300
-"""Motion that is slower than that takes longer steps: so many of Runge and Kutta's a swing err by 1e-9 of it."""
+LONGEST_STEP = 0.02
+"""First longest step of the integrator [s], of a motion with the pace of a second."""
 SEEN, MOST_SUBSTEPS = 3.0, 32
 """What the integrator may cost of twice the log-likelihood; its steps are halved until then. A systematic error that
 the likelihood sees looks like physics. The error of every step stays in a shaft that turns freely, and the corners of
@@ -39,7 +36,7 @@ PATIENCE = 8
 SHARPEST = 4.0
 """A filter is sharp within this factor of what the spectra show: its cutoff of order 2 within a factor of 1.4."""
 REACH = 0.03
-"""The motion at the start of an segment is continued backwards for so long [s], for signals that are late."""
+"""The motion at the start of a segment is continued backwards for so long [s], for signals that are late."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,8 +117,7 @@ class Fitter:
         self.tuned += [self.noises] if data.cutoff_free else []
         self.near, self.bounded = near, False
         self.step = data.segments[0].step
-        longest = LONGEST_STEP[self.driven]
-        longest = max(longest, min(swing(s) for s in data.segments) / STEPS_A_SWING)
+        longest = LONGEST_STEP * data.pace
         self.substeps = max(near.substeps if near else 1, int(np.ceil(self.step / (1.01 * longest))))
 
     # ---- one evaluation --------------------------------------------------------------
@@ -152,7 +148,7 @@ class Fitter:
         x = segment.head(3).simulate(self.sim, p, start, substeps=self.substeps, keep="states").x
         if not np.isfinite(x).all():
             return None
-        ago = np.linspace(-REACH, 0.0, 7)[:, None]
+        ago = np.linspace(-REACH * self.data.pace, 0.0, 7)[:, None]
         slope, bend = (4 * x[1] - 3 * x[0] - x[2]) / (2 * self.step), (x[2] - 2 * x[1] + x[0]) / self.step**2
         return segment.time[0] + ago[:, 0], x[0] + ago * slope + ago**2 / 2 * bend
 

@@ -16,7 +16,7 @@ class FreeRun:
     """Time, recorded and simulated outputs of a window; errors are those without `settling` seconds.
 
     `lengths` are the samples of each segment, which begins with a state of its own; `errors` (m,) the rms of each
-    output.
+    output; `pace` that of the motion.
     """
 
     time: np.ndarray
@@ -24,6 +24,7 @@ class FreeRun:
     simulated: np.ndarray
     errors: np.ndarray
     lengths: tuple[int, ...]
+    pace: float = 1.0
 
     @property
     def rms(self) -> float:
@@ -53,7 +54,7 @@ def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
 
     Several beginnings are tried, because a free initial state has more than one basin.
     """
-    free = Data(data.segments, data.sensor_noise, driven=False)
+    free = Data(data.segments, data.sensor_noise, driven=False, pace=data.pace)
     fitter = Fitter(fit.model, free, fixed=tuple(fit.values))
     runs = [r for r in (_run(fitter, fit, x0) for x0 in _beginnings(fit, data)) if r is not None]
     time = np.concatenate([e.time for e in data.segments])
@@ -68,6 +69,7 @@ def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
         simulated,
         np.sqrt(np.mean((simulated - recorded)[use] ** 2, axis=0)),
         tuple(len(e.time) for e in data.segments),
+        data.pace,
     )
 
 
@@ -100,9 +102,9 @@ def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
 
 
 def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:
-    """States fitted to the first second only, then to the whole: rates come out near enough."""
-    count = max(8, int(1.0 / data.segments[0].step))
-    head = Data(tuple(e.head(count) for e in data.segments), data.sensor_noise, driven=False)
+    """States fitted to the first second (of its pace) only, then to the whole: rates come out near enough."""
+    count = max(8, int(data.pace / data.segments[0].step))
+    head = Data(tuple(e.head(count) for e in data.segments), data.sensor_noise, driven=False, pace=data.pace)
     try:
         return [Fitter(fit.model, head, fixed=tuple(fit.values)).fit(fit.values, plain, fit.process).initial]
     except SymidError:

@@ -10,7 +10,8 @@ from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 
 BLOCK = 3.0
-"""Seconds of a block of one long segment: longer than what innovations remember of earlier ones."""
+"""Seconds of a block of one long segment at the pace of a second: longer than errors remember in all recordings at
+hand."""
 FEWEST_BLOCKS = 8
 
 
@@ -38,7 +39,7 @@ def with_robust_errors(fit: Fit, data: Data) -> Fit:
     sums = []
     for e, c, rest in zip(data.segments, columns, rests, strict=True):
         moves = (c / scale * rest[:, None]).reshape(len(e.time), m, q).sum(1) @ inverse
-        sums += [part.sum(0) for part in np.array_split(moves, _blocks(e.time, len(data.segments)))]
+        sums += [part.sum(0) for part in np.array_split(moves, _blocks(e.time, len(data.segments), BLOCK * data.pace))]
     spread = np.sqrt((np.array(sums) ** 2).sum(0) * len(sums) / max(len(sums) - 1, 1)) / scale
     return replace(
         fit,
@@ -47,8 +48,8 @@ def with_robust_errors(fit: Fit, data: Data) -> Fit:
     )
 
 
-def _blocks(time: np.ndarray, segments: int) -> int:
-    """Into how many blocks an segment is cut."""
+def _blocks(time: np.ndarray, segments: int, length: float) -> int:
+    """Into how many blocks a segment is cut."""
     if segments >= FEWEST_BLOCKS:
         return 1
-    return max(int((time[-1] - time[0]) / BLOCK), -(-FEWEST_BLOCKS // segments))
+    return max(int((time[-1] - time[0]) / length), -(-FEWEST_BLOCKS // segments))

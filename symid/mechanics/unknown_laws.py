@@ -16,20 +16,24 @@ from symid.model import Equation, Law, LawParameter, Model, State
 WAVE = 1.0
 """A distortion of a sensor is built of waves of this many radians per rms of what it shows, and its multiples."""
 BRIEF = 0.02
-"""Half width of a push that is short beside any motion [s]."""
+"""Half width of a push that is short beside any motion with the pace of a second [s]."""
 MEMORY_TIMES = (0.05, 0.2, 0.8)
-"""Time constants [s] of the filtered positions that let a flexible force remember."""
+"""Time constants, in paces of the motion, of the filtered positions that let a flexible force remember."""
 
 
-SHORT_PUSH = effort_law(
-    "short_push",
-    "joint",
-    (LawParameter("impulse_Nms", "N*m*s"), LawParameter("time_s", "s", null=None)),
-    lambda model, port, p: p.impulse_Nms * sm.exp(-(((model.time - p.time_s) / BRIEF) ** 2)) / (BRIEF * sm.sqrt(sm.pi)),
-    "",
-    "",
-)
-"""A push of unit impulse, to see how a loop answers."""
+def short_push(pace: float = 1.0) -> Law:
+    """A push of unit impulse, to see how a loop answers."""
+    width = BRIEF * pace
+    return effort_law(
+        "short_push",
+        "joint",
+        (LawParameter("impulse_Nms", "N*m*s"), LawParameter("time_s", "s", null=None)),
+        lambda model, port, p: (
+            p.impulse_Nms * sm.exp(-(((model.time - p.time_s) / width) ** 2)) / (width * sm.sqrt(sm.pi))
+        ),
+        "",
+        "",
+    )
 
 
 def _parameters(count: int) -> tuple[LawParameter, ...]:
@@ -43,25 +47,27 @@ def _memory_states(model: Model, place: str) -> list[State]:
     return [model[f"unknown_{where}_memory{i}"] for i in range(len(MEMORY_TIMES))]
 
 
-def _filter(model: Model, states: list[State], signal: sm.Expr) -> None:
+def _filter(model: Model, states: list[State], signal: sm.Expr, pace: float) -> None:
     for z, tau in zip(states, MEMORY_TIMES, strict=True):
-        setattr(model, f"{z.name}_equation", Equation(tau * z.dot - signal + z.symbol))
+        setattr(model, f"{z.name}_equation", Equation(pace * tau * z.dot - signal + z.symbol))
 
 
-def _memories(model: Model, place: str, signal: sm.Expr) -> list[sm.Symbol]:
+def _memories(model: Model, place: str, signal: sm.Expr, pace: float) -> list[sm.Symbol]:
     """What `signal` was, through a filter of each of the `MEMORY_TIMES`."""
     states = _memory_states(model, place)
-    _filter(model, states, signal)
+    _filter(model, states, signal, pace)
     return [z.symbol for z in states]
 
 
-def unknown_force(role: str, scales: Mapping[str, tuple[float, float]], span: tuple[float, float]) -> Law:
+def unknown_force(
+    role: str, scales: Mapping[str, tuple[float, float]], span: tuple[float, float], pace: float = 1.0
+) -> Law:
     """A force at a port: polynomials of position and rate, friction, memory and drift.
 
     Parameters
     ----------
     role : role of the ports. scales : place -> rms of position and rate there.
-    span : start and end of the recording [s].
+    span : start and end of the recording [s]. pace : of the motion [s].
     """
 
     def build(model: Model, place: str, p) -> None:
@@ -86,7 +92,7 @@ def unknown_force(role: str, scales: Mapping[str, tuple[float, float]], span: tu
             x * t,
             v * t,
         ]
-        shapes += _memories(model, place, x)
+        shapes += _memories(model, place, x, pace)
         model.add_effort(port.name, sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
 
     return Law(
@@ -98,7 +104,7 @@ def unknown_force(role: str, scales: Mapping[str, tuple[float, float]], span: tu
     )
 
 
-def unknown_sensor(scales: Mapping[str, float], span: tuple[float, float]) -> Law:
+def unknown_sensor(scales: Mapping[str, float], span: tuple[float, float], pace: float = 1.0) -> Law:
     """A sensor whose error depends on what it shows, now and before, how fast that changes, and time."""
 
     def build(model: Model, place: str, p) -> None:
@@ -106,7 +112,7 @@ def unknown_sensor(scales: Mapping[str, float], span: tuple[float, float]) -> La
             y = sensor.expr / scales[place]
             t = (2 * model.time - span[0] - span[1]) / (span[1] - span[0])
             waves = [f(k * WAVE * y) for k in (1, 2, 3, 4) for f in (sm.sin, sm.cos)]
-            shapes = [y, *waves, t, y * t, time_derivative(model, y), *_memories(model, place, y)]
+            shapes = [y, *waves, t, y * t, time_derivative(model, y), *_memories(model, place, y, pace)]
             model.redefine(
                 sensor.name, sensor.expr + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes))
             )
@@ -120,7 +126,7 @@ def unknown_sensor(scales: Mapping[str, float], span: tuple[float, float]) -> La
     )
 
 
-def unknown_input(scales: Mapping[str, float], span: tuple[float, float]) -> Law:
+def unknown_input(scales: Mapping[str, float], span: tuple[float, float], pace: float = 1.0) -> Law:
     """An excitation whose error depends on what was recorded, now and before, and on time."""
 
     def build(model: Model, place: str, p) -> None:
@@ -139,7 +145,7 @@ def unknown_input(scales: Mapping[str, float], span: tuple[float, float]) -> Law
             model.substitute(
                 {u.symbol: u.symbol + scales[place] * sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes))}
             )
-            _filter(model, before, present)
+            _filter(model, before, present, pace)
 
     return Law(
         "unknown_input_error",

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.signal import welch
 
 from symid.estimation.cutoff import estimated_filter
-from symid.estimation.data import Segment
+from symid.estimation.data import Segment, pace_of
 from symid.estimation.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
@@ -66,19 +66,20 @@ def audit(
     """Sensor noise and `filter` as stated, or else from the recording; and where its spectrum is empty."""
     table = given if isinstance(given, Mapping) else recording.noise if given is None else {}
     names = [y.channel for y in model.outputs.values()]
-    cutoff = np.array([_cutoff([e.recorded[:, i] for e in segments], segments[0].step) for i in range(len(names))])
+    step, pace = segments[0].step, pace_of(segments)
+    cutoff = np.array([_cutoff([e.recorded[:, i] for e in segments], step, pace) for i in range(len(names))])
     rounding = np.array([_step(np.concatenate([e.recorded[:, i] for e in segments])) for i in range(len(names))])
     known = filter is not None
     filter = filter or (_filter(model, segments) if np.isfinite(cutoff).any() else None)
     inputs = (
         filter is not None
         and not known
-        and any(np.isfinite(_cutoff([e.inputs[u] for e in segments], segments[0].step)) for u in model.inputs)
+        and any(np.isfinite(_cutoff([e.inputs[u] for e in segments], step, pace)) for u in model.inputs)
     )
     if isinstance(given, (int, float)):
         return Audit(np.full(len(names), float(given)), True, cutoff, rounding, filter, inputs, known)
     noise = [
-        float(table[c]) if c in table else _noise([e.recorded[:, i] for e in segments], segments[0].step, filter)
+        float(table[c]) if c in table else _noise([e.recorded[:, i] for e in segments], step, filter)
         for i, c in enumerate(names)
     ]
     return Audit(np.array(noise), all(c in table for c in names), cutoff, rounding, filter, inputs, known)
@@ -86,7 +87,8 @@ def audit(
 
 def _filter(model: Model, segments: tuple[Segment, ...]) -> ZeroPhase:
     longest = max(segments, key=lambda e: len(e.time))
-    return estimated_filter(list(longest.recorded.T), [longest.inputs[u] for u in model.inputs], longest.step)
+    inputs = [longest.inputs[u] for u in model.inputs]
+    return estimated_filter(list(longest.recorded.T), inputs, longest.step, pace_of(segments))
 
 
 def _noise(pieces: list[np.ndarray], step: float, filter: ZeroPhase | None) -> float:
@@ -129,14 +131,14 @@ def _grid(levels: np.ndarray) -> float:
     return step if np.all(np.abs(counts - np.round(counts)) < 0.1) else 0.0
 
 
-def _cutoff(pieces: list[np.ndarray], step: float) -> float:
+def _cutoff(pieces: list[np.ndarray], step: float, pace: float) -> float:
     """Frequency above which a signal is empty although its sampling would show noise there [Hz], or NaN."""
     x = max(pieces, key=len)
     if len(x) < 128:
         return np.nan
     # A window whose side lobes lie below the rounding of most files: what is seen is no leakage.
     f, power = welch(
-        x, 1 / step, window="blackmanharris", nperseg=min(len(x), max(128, int(5 / step))), detrend="linear"
+        x, 1 / step, window="blackmanharris", nperseg=min(len(x), max(128, int(5 * pace / step))), detrend="linear"
     )
     total = np.cumsum(power[::-1])[::-1]
     middle, top, lower, upper = (

@@ -24,18 +24,18 @@ def flexible_terms(fit: Fit, data: Data) -> list[Term]:
     for role in ("joint", "link"):
         ports = [p for p in model.ports.values() if p.role == role]
         scales = {p.at: (_size(along(path, p.position, model)), _size(along(path, p.rate, model))) for p in ports}
-        law = unknown_force(role, scales, data.span)
+        law = unknown_force(role, scales, data.span, data.pace)
         terms += [law.at(p.at) for p in ports if _first(model, p)]
     recorded = np.vstack([e.recorded for e in data.segments])
     scale = {y.at: _size(recorded[:, i]) for i, y in enumerate(model.outputs.values())}
-    law = unknown_sensor(scale, data.span)
+    law = unknown_sensor(scale, data.span, data.pace)
     terms += [law.at(y.at) for y in model.outputs.values() if y.role == "sensor"]
     scale = {
         u.at: _size(np.concatenate([e.inputs[k] for e in data.segments]))
         for k, u in model.inputs.items()
         if u.role == "excitation"
     }
-    law = unknown_input(scale, data.span)
+    law = unknown_input(scale, data.span, data.pace)
     return terms + [law.at(place) for place in scale]
 
 

@@ -18,8 +18,8 @@ from symid.estimation.free_run import FreeRun
 from symid.estimation.kalman import linearised_along
 from symid.model import Model, Noise
 
-PACES = (0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
-"""Rates of the random walk that are tried, in torques that move an output by its error, per root second."""
+WANDERS = (0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
+"""Sizes of the random walk that are tried, in torques that move an output by its error, per root of the pace."""
 _ORDER = 6
 TURNING = 40
 """The linearisation is the mean over so many states of the run."""
@@ -53,10 +53,11 @@ def latent_torques(fit: Fit, run: FreeRun) -> tuple[Latent, ...]:
     )
     A, G, C = linear.without_delay()
     residual = run.recorded - run.simulated
-    size = _moving(A, G, C, residual)
+    size = _moving(A, G, C, residual, run.pace)
     ends = np.cumsum([len(s) for s in fit.innovations])
     pieces = list(zip([0, *ends[:-1]], ends, strict=True)) if ends[-1] == len(run.time) else [(0, len(run.time))]
-    torque, variance = _most_likely(A, G * size, C, residual, step, _sensor_noise(run.recorded), pieces)
+    noise = _sensor_noise(run.recorded)
+    torque, variance = _most_likely(A, G * size, C, residual, step, noise, pieces, run.pace)
     error = np.sqrt(variance)
     size = size * [_sign(model, w) for w in model.noises.values()]
     return tuple(
@@ -65,16 +66,16 @@ def latent_torques(fit: Fit, run: FreeRun) -> tuple[Latent, ...]:
     )
 
 
-def _most_likely(A, G, C, residual, step, noise, pieces):
-    """Torques (N, w) and their variances, with the pace of the walk that makes the error most likely."""
+def _most_likely(A, G, C, residual, step, noise, pieces, pace: float):
+    """Torques (N, w) and their variances, with the size of the walk that makes the error most likely."""
     n, w = G.shape
     H, R = np.hstack([C, np.zeros((len(C), w))]), np.diag(noise**2)
     spread = 10 * max(np.sqrt(np.mean(residual**2)), noise.max())
     start = np.diag([spread] * n + [1.0] * w) ** 2
     longest = max(end - begin for begin, end in pieces)
     best = None
-    for pace in PACES:
-        F, Q = _walk(A, G, step, pace)
+    for wander in WANDERS:
+        F, Q = _walk(A, G, step, wander / np.sqrt(pace))
         steps = _covariances(F, Q, H, R, start, longest)
         value, before, after = _filtered(F, H, residual, pieces, steps)
         if best is None or value > best[0]:
@@ -117,22 +118,22 @@ def _states(model: Model, run: FreeRun, step: float) -> np.ndarray:
     )
 
 
-def _moving(A, G, C, residual) -> np.ndarray:
-    """(w,) size of each torque that, held for a second, moves an output by its error."""
+def _moving(A, G, C, residual, pace: float) -> np.ndarray:
+    """(w,) size of each torque that, held for the pace of the motion, moves an output by its error."""
     n = len(A)
     block = np.zeros((n + G.shape[1],) * 2)
     block[:n, :n], block[:n, n:] = A, G
-    moved = np.abs(C @ expm(block)[:n, n:]) / np.maximum(np.sqrt(np.mean(residual**2, axis=0)), 1e-12)[:, None]
+    moved = np.abs(C @ expm(block * pace)[:n, n:]) / np.maximum(np.sqrt(np.mean(residual**2, axis=0)), 1e-12)[:, None]
     return 1.0 / np.maximum(moved.max(0), 1e-12)
 
 
-def _walk(A, G, step: float, pace: float) -> tuple[np.ndarray, np.ndarray]:
+def _walk(A, G, step: float, wander: float) -> tuple[np.ndarray, np.ndarray]:
     """Transition and process covariance of state and torque over one sample, the torque a random walk."""
     n, w = G.shape
     block = np.zeros((n + w, n + w))
     block[:n, :n], block[:n, n:] = A * step, G * step
     Q = np.zeros_like(block)
-    Q[n:, n:] = np.eye(w) * pace**2 * step
+    Q[n:, n:] = np.eye(w) * wander**2 * step
     return expm(block), Q
 
 

@@ -12,18 +12,18 @@ from scipy.signal import fftconvolve
 from symid.discrepancy.locate.flexible import along, fitted_path
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import Suspect
-from symid.mechanics.unknown_laws import SHORT_PUSH
+from symid.mechanics.unknown_laws import short_push
 from symid.model import Port
 from symid.simulation import simulator
 
 HIGHEST = 2.0
-"""Up to here a change of stiffness or damping is looked for [Hz]."""
+"""Up to here a change of stiffness or damping is looked for in a motion with the pace of a second [Hz]."""
 SPACING = 0.5
 """Spacing of the frequencies, in parts of one over the recording."""
 RATE = 12.0
-"""Slow forces are scored by means over so many parts of a second, some five for the fastest swing [Hz]."""
+"""Slow forces are scored by means over so many parts of the pace, some five for the fastest swing."""
 LASTS = 10.0
-"""So long the answer to a push is followed [s]."""
+"""So many times the pace the answer to a push is followed."""
 PARTS = 4
 """Position and rate, each times sine and cosine."""
 
@@ -34,9 +34,9 @@ def modulated(projection: Projection) -> list[tuple[str, float, int]]:
     Nothing where random forces do not act, pieces of the recording have each a start of their own, or it is too short.
     """
     data, model, found = projection.data, projection.fit.model, []
-    every = max(1, int(1 / (RATE * data.segments[0].step)))
+    every = max(1, int(data.pace / (RATE * data.segments[0].step)))
     time = _coarse(data.segments[0].time - data.segments[0].time[0], every)
-    frequencies = np.arange(1.5, HIGHEST * time[-1], SPACING) / time[-1]
+    frequencies = np.arange(1.5, HIGHEST * time[-1] / data.pace, SPACING) / time[-1]
     if not data.driven or len(data.segments) > 1 or not len(frequencies):
         return found
     path, slow = _coarse(fitted_path(projection.fit, data), every), _Slow(projection, every)
@@ -90,14 +90,19 @@ class _Slow:
 
 def _answer(projection: Projection, port: Port) -> np.ndarray | None:
     """(K, m) whitened change of the predictions after a push at a joint, sample by sample."""
-    suspect, segment = Suspect(SHORT_PUSH.at(port.at), established=False), projection.data.segments[0]
+    pace = projection.data.pace
+    suspect, segment = Suspect(short_push(pace).at(port.at), established=False), projection.data.segments[0]
     start = len(segment.time) // 2
     column = projection.response(
         suspect,
         simulator(projection.fit.model.with_term(suspect.term)),
         {"impulse_Nms": 0.0, "time_s": float(segment.time[start])},
     )
-    return None if column is None else column.reshape(-1, projection.outputs)[start : start + int(LASTS / segment.step)]
+    return (
+        None
+        if column is None
+        else column.reshape(-1, projection.outputs)[start : start + int(LASTS * pace / segment.step)]
+    )
 
 
 def _to_force(answer: np.ndarray, force: np.ndarray) -> np.ndarray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any, cast
 
@@ -27,7 +27,7 @@ KINDS = {
 }
 """Role of the parts that a law changes -> kind of suspect; "state" where it is none of these, nor follows a clock."""
 HIGHEST_FREQUENCY = 5.0
-"""Up to here a periodic suspect is looked for [Hz]."""
+"""Up to here a periodic suspect is looked for in a motion with the pace of a second [Hz]."""
 
 
 @dataclass(frozen=True)
@@ -125,7 +125,9 @@ class Suspect:
         span = t1 - t0
         for values in self.shapes():
             if q.clock == "frequency":
-                places = np.arange(max(q.bounds[0], 1.5 / span), min(q.bounds[1], HIGHEST_FREQUENCY), 0.75 / span)
+                places = np.arange(
+                    max(q.bounds[0], 1.5 / span), min(q.bounds[1], HIGHEST_FREQUENCY / data.pace), 0.75 / span
+                )
             elif q.clock == "moment":
                 places = np.linspace(t0 + 0.04 * span, t1 - 0.04 * span, 40)
             else:
@@ -135,8 +137,10 @@ class Suspect:
                 yield values | {q.key: float(place)}
 
 
-def suspects(model: Model) -> list[Suspect]:
+def suspects(model: Model, pace: float = 1.0) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses.
+
+    pace : seconds of the recorded motion that laws stated in seconds take for one.
 
     Of laws that write the same equations, such as a drag on the first link and friction at its joint, the first stands.
 
@@ -149,10 +153,24 @@ def suspects(model: Model) -> list[Suspect]:
     """
     found: dict[Any, Any] = {}
     for term in terms_of(model):
+        term = replace(term, law=_at_pace(term.law, pace))
         equations = _equations(model, term)
         if equations is not None:
             found.setdefault(equations, Suspect(term, term.name in ESTABLISHED))
     return list(found.values())
+
+
+def _at_pace(law: Law, pace: float) -> Law:
+    """The law with bounds and starts of times and frequencies for a motion of this pace."""
+    powers = {"s": 1, "Hz": -1}
+    return replace(law, parameters=tuple(_scaled(q, pace ** powers.get(q.unit, 0)) for q in law.parameters))
+
+
+def _scaled(q: LawParameter, by: float) -> LawParameter:
+    """The parameter with all of its sizes so many times larger."""
+    low, high = q.bounds
+    starts = tuple(by * v for v in q.starts)
+    return replace(q, bounds=(by * low, by * high), starts=starts, typical=by * q.typical, plausible=by * q.plausible)
 
 
 PLAIN = ("constant_torque", "quadratic_stiffness", "joint_drag", "link_drag")

@@ -10,7 +10,7 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.simulation import Simulator
 
 RATE = 40.0
-"""So many samples per second tell frequencies of interest apart [Hz]: this choice needs no more."""
+"""So many samples in the pace of a motion tell frequencies of interest apart [Hz]: this choice needs no more."""
 SPACING = 0.4
 """Spacing of the simulated frequencies, in parts of one over the longest segment. Between them the
 response is interpolated: it is smooth where its phase is counted from the middle of each segment."""
@@ -30,7 +30,7 @@ def comb(
     highest, width = min(q.bounds[1], highest), SPACING / max(float(e.time[-1] - e.time[0]) for e in segments)
     fine = np.arange(max(q.bounds[0], 1.5 / (t1 - t0)), highest, FINE / (t1 - t0))
     known = np.arange(max(fine[0] - 2 * width, 0.25 * width), highest + 3 * width, width)
-    rows = np.arange(0, projection.data.samples, max(1, int(1 / (RATE * segments[0].step))))
+    rows = np.arange(0, projection.data.samples, max(1, int(projection.data.pace / (RATE * segments[0].step))))
     middles = [0.5 * float(e.time[0] + e.time[-1]) for e in segments]
     answers = []
     for f in known:

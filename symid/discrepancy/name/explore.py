@@ -25,7 +25,7 @@ BEYOND = 3.0
 KEPT = 0.5
 """A fit that explains less than this part of its forecast may have gone astray: the next start is tried."""
 MOMENTS = 0.3
-"""Spacing [s] of the moments at which a lasting change is tried."""
+"""Spacing [s] at the pace of a second of the moments at which a lasting change is tried."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,7 +181,7 @@ def _profiled(best: Hypothesis, data: Data) -> Start | None:
     if q is None or q.clock != "moment" or best.log_ratio < POLICY.worth_refitting:
         return None
     fit, name = best.fit, best.suspect.term.parameter_name(q.key)
-    moments, values = moment_profile(fit, data, name, data.span, MOMENTS)
+    moments, values = moment_profile(fit, data, name, data.span, MOMENTS * data.pace)
     value, moment = values.max(), float(moments[np.argmax(values)])
     own = {k.key: fit.values[best.suspect.term.parameter_name(k.key)] for k in best.suspect.law.parameters}
     return Start(best.forecast, best.suspect, own | {q.key: moment}) if value > fit.loglik2 + 0.1 else None

@@ -21,7 +21,12 @@ def scan(projection: Projection, suspect: Suspect, model: Model) -> list[tuple[f
     elif projection.data.driven and suspect.scanned.clock == "frequency":
         grid = sweep(projection, suspect, sim)
     elif suspect.scanned.clock == "frequency":
-        grid = comb(projection, suspect, sim, min(HIGHEST_FREQUENCY, 0.4 / projection.data.segments[0].step))
+        grid = comb(
+            projection,
+            suspect,
+            sim,
+            min(HIGHEST_FREQUENCY / projection.data.pace, 0.4 / projection.data.segments[0].step),
+        )
     else:
         grid = suspect.grid(projection.data)
     for values in grid:
@@ -47,7 +52,7 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
     is scored exactly afterwards.
     """
     (t0, t1), found = projection.data.span, []
-    step = projection.data.segments[0].step
+    step, pace = projection.data.segments[0].step, projection.data.pace
     rest = projection.rest.reshape(-1, projection.outputs)
     for values in suspect.shapes():
         middle = 0.5 * (t0 + t1)
@@ -55,10 +60,10 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
         if column is None:
             continue
         first = int((middle - t0) / step) - 1
-        kernel = column.reshape(rest.shape)[first : first + int(10 / step)]
+        kernel = column.reshape(rest.shape)[first : first + int(10 * pace / step)]
         score = sum(fftconvolve(rest[:, o], kernel[::-1, o])[len(kernel) - 1 :] for o in range(rest.shape[1]))
         gain = score**2 / (kernel**2).sum()
-        for k in _peaks(gain, int(0.5 / step), keep):
+        for k in _peaks(gain, int(0.5 * pace / step), keep):
             found.append((gain[k], values | {suspect.scanned.key: float(t0 + (k + 1) * step)}))
     return [v for _, v in sorted(found, key=lambda f: -f[0])[: 2 * keep]]
 
@@ -66,9 +71,9 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
 def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 6) -> list[dict[str, float]]:
     """The best frequencies: the response is known from a few and interpolated, innovations by FFT."""
     rest = projection.rest.reshape(-1, projection.outputs)
-    n, step = len(rest), projection.data.segments[0].step
+    n, step, pace = len(rest), projection.data.segments[0].step, projection.data.pace
     time = np.arange(n) * step
-    known = np.geomspace(0.05, HIGHEST_FREQUENCY, 24)
+    known = np.geomspace(0.05, HIGHEST_FREQUENCY, 24) / pace
     answers = []
     for f in known:
         column = projection.response(
@@ -82,7 +87,7 @@ def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
         answers.append(c[0] - 1j * c[1])
     size = 4 * n
     f = np.fft.rfftfreq(size, step)
-    use = (f > 1.0 / time[-1]) & (f < HIGHEST_FREQUENCY)
+    use = (f > 1.0 / time[-1]) & (f < HIGHEST_FREQUENCY / pace)
     spectrum = np.fft.rfft(rest, size, axis=0)[use]
     G = np.column_stack(
         [

@@ -24,7 +24,7 @@ def null_maxima(projection: Projection, fit: Fit) -> np.ndarray:
     """
     rng = np.random.default_rng(0)
     rest = np.concatenate([s.reshape(-1) for s in fit.remaining])
-    signs = np.concatenate([_signs(rng, s) for s in projection.data.segments])
+    signs = np.concatenate([_signs(rng, s, projection.data.pace) for s in projection.data.segments])
     signs = np.repeat(signs, fit.covariance.shape[0], axis=0)
     if len(signs) != len(rest):
         return np.zeros(0)
@@ -35,9 +35,9 @@ def null_maxima(projection: Projection, fit: Fit) -> np.ndarray:
     return best
 
 
-def _signs(rng: np.random.Generator, segment) -> np.ndarray:
+def _signs(rng: np.random.Generator, segment, pace: float) -> np.ndarray:
     """(N, nulls) one random sign for each block of a segment."""
-    blocks = max(1, int((segment.time[-1] - segment.time[0]) / POLICY.block))
+    blocks = max(1, int((segment.time[-1] - segment.time[0]) / (POLICY.block * pace)))
     block = np.minimum(np.arange(len(segment.time)) * blocks // len(segment.time), blocks - 1)
     return rng.choice((-1.0, 1.0), (blocks, POLICY.nulls))[block]
 

@@ -77,7 +77,7 @@ def _located(left: Sequence[Test]) -> Test:
 def _moment(fit: Fit, data: Data, name: str, error: float) -> tuple[float, float]:
     """Mean and deviation of a moment under its likelihood, which has many peaks."""
     at = fit.values[name]
-    moments, values = moment_profile(fit, data, name, (at - 4.0, at + 4.0), 0.1)
+    moments, values = moment_profile(fit, data, name, (at - 4.0 * data.pace, at + 4.0 * data.pace), 0.1 * data.pace)
     weight = np.exp(0.5 * (values - values.max()))
     mean = float(np.sum(weight * moments) / weight.sum())
     return mean, float(np.hypot(error, np.sqrt(np.sum(weight * (moments - mean) ** 2) / weight.sum())))
@@ -97,7 +97,8 @@ def _effect(suspect: Suspect, found: Hypothesis) -> Effect:
     elif moment in parameters:
         at, error = _moment(fit, found.data, term.parameter_name(moment), parameters[moment][1])
         parameters[moment] = (at, error)
-        window = (at - min(2 * error, 3.0), at + min(2 * error, 3.0))
+        wide = min(2 * error, 3.0 * found.data.pace)
+        window = (at - wide, at + wide)
     return Effect(
         term.name,
         term.location,
