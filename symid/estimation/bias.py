@@ -16,7 +16,7 @@ import numpy as np
 from symid.errors import SymidError
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
-from symid.estimation.kalman import holds_of
+from symid.estimation.kalman import held
 
 REPEATS = 8
 ITERATIONS = 8
@@ -62,10 +62,12 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
     rng, sim, segments, data = np.random.default_rng(seed), fit.simulator, [], data.remembering(data.memory)
     fitter = Fitter.of(fit, data)
     for e, x0 in zip(data.segments, fit.initial, strict=True):
-        holds = holds_of(e.step)
+        holds, size = held(e.step)
         time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)
         fine = np.interp(np.arange((len(e.time) - 1) * e.ratio + 1) / e.ratio, np.arange(len(e.time)), e.time)
-        noise = {k: s * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process, strict=True)}
+        noise = {
+            k: s * size * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process, strict=True)
+        }
         run = sim.simulate(
             fit.values,
             x0,

@@ -44,19 +44,23 @@ def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np
     return np.zeros((len(linear.A), len(C)))
 
 
-def holds_of(step: float) -> int:
-    """So many times a random force changes within a sample of `step` seconds."""
-    return min(max(1, round(step / HOLD)), MOST_HOLDS)
+def held(step: float) -> tuple[int, float]:
+    """How often a random force changes within a sample of `step` seconds, and its size in parts of the stated one.
+
+    Where it changes less often than it would it is smaller, so that its power at low frequencies is the same.
+    """
+    holds = max(1, round(step / HOLD))
+    return (holds, 1.0) if holds <= MOST_HOLDS else (MOST_HOLDS, float(np.sqrt(HOLD * MOST_HOLDS / step)))
 
 
 def _moved(A, G, step: float, process: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Transition over a sample and the covariance of what the noise adds (Anderson & Moore 1979, 4.4)."""
     n, w = G.shape
-    holds = holds_of(step)
+    holds, size = held(step)
     block = np.zeros((n + w, n + w))
     block[:n, :n], block[:n, n:] = A * step / holds, G * step / holds
     exact = expm(block)
-    F, B = exact[:n, :n], exact[:n, n:] * process
+    F, B = exact[:n, :n], exact[:n, n:] * process * size
     one, Q = B @ B.T, np.zeros((n, n))
     for _ in range(holds):
         Q = F @ Q @ F.T + one

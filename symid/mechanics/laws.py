@@ -33,13 +33,14 @@ def port_at(model: Model, role: str, place: str) -> Port:
     return found[0]
 
 
-def is_linear(model: Model, place: str) -> bool:
-    """Whether a force [N] along a displacement acts at `place`, instead of a torque."""
-    return any(
-        c.unit in ("N", "m", "m/s^2")
-        for role in ("joint", "link", "feedback_torque", "feedback_error")
-        for c in model.find(role, place)
-    )
+def coordinate_unit(model: Model, place: str) -> str:
+    """Unit of what moves at `place`: "rad" of a joint that turns, "m" where a force [N] acts along a displacement."""
+    ports = [c for role in ("joint", "link") for c in model.find(role, place) if isinstance(c, Port)]
+    units = {s.unit for port in ports for s in model.states.values() if s.symbol in port.position.free_symbols}
+    if units:
+        return "rad" if "rad" in units else min(units)
+    parts = [c for role in ("feedback_torque", "feedback_error") for c in model.find(role, place)]
+    return "m" if any(c.unit in ("N", "m", "m/s^2") for c in [*ports, *parts]) else "rad"
 
 
 def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -48,7 +49,7 @@ def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
     In an equation that was divided by the mass, in m/s^2, it reads 1/s^2.
     """
     force = next((c.unit for c in model.find("joint", place) + model.find("link", place) if isinstance(c, Port)), "")
-    length = "m" if is_linear(model, place) else "rad"
+    length = coordinate_unit(model, place)
     force = force or ("N" if length == "m" else "N*m")
     if (force, length) != ("N*m", "rad"):
         for key, s in vars(p).items():
@@ -83,7 +84,7 @@ def dry(model: Model, port: Port, law: str) -> sm.Expr:
         model,
         parameter_name(law, port.at, "speed_width"),
         FRICTION_SPEED,
-        "m/s" if is_linear(model, port.at) else "rad/s",
+        f"{coordinate_unit(model, port.at)}/s",
         "width of the smoothed jump of dry friction",
     )
     return sm.tanh(port.rate / width)

@@ -48,7 +48,7 @@ def quick(monkeypatch):
     monkeypatch.setattr(
         import_module("symid.discrepancy.diagnose"),
         "suspects_of",
-        lambda model: [s for s in suspects(model) if s.term.name == "sensor_offset"],
+        lambda model, pace: [s for s in suspects(model, pace) if s.term.name == "sensor_offset"],
     )
 
 

@@ -22,8 +22,9 @@ FALLING = 4.0
 FLAT = 1.12
 """A spectrum that falls by less than this from one half of the top of its band to the other has a floor there. That of
 a filter falls by 1.25 even where every other sample was left out after it; over 100 s the scatter is 0.05."""
-ROUNDING = 1e-5
-"""A floor this small beside the motion is the rounding of a file and no sensor."""
+ROUNDING, DIGITS = 1e-5, 1e-7
+"""A floor this small beside the motion may be the rounding of a file instead of a sensor, and is the rounding where
+its steps cannot be seen any more."""
 NOTHING = 1e-3
 """Above the cutoff lies less than this part of the motion."""
 MOST_LEVELS = 0.5
@@ -136,10 +137,7 @@ def _cutoff(pieces: list[np.ndarray], step: float, pace: float) -> float:
     x = max(pieces, key=len)
     if len(x) < 128:
         return np.nan
-    # A window whose side lobes lie below the rounding of most files: what is seen is no leakage.
-    f, power = welch(
-        x, 1 / step, window="blackmanharris", nperseg=min(len(x), max(128, int(5 * pace / step))), detrend="linear"
-    )
+    f, power = _spectrum(x, step, pace)
     total = np.cumsum(power[::-1])[::-1]
     middle, top, lower, upper = (
         float(np.sqrt(np.median(power[(f > a * f[-1]) & (f <= b * f[-1])])))
@@ -147,7 +145,20 @@ def _cutoff(pieces: list[np.ndarray], step: float, pace: float) -> float:
     )
     floor = np.sqrt(top**2 * f[-1] / (total[1] * f[1] + 1e-300))
     # The rounding of a file after the filter leaves a floor, too: (step^2 / 12) over the whole band.
-    of_sensor = lower < FLAT * upper and top > 2 * _grid(_levels(x)) * np.sqrt(step / 6)
-    if floor > ROUNDING and (middle < FALLING * top or of_sensor):
+    of_sensor = lower < FLAT * upper and floor > DIGITS and top > 2 * _grid(_levels(x)) * np.sqrt(step / 6)
+    if of_sensor or (floor > ROUNDING and middle < FALLING * top):
         return np.nan
     return float(f[np.argmax(total < NOTHING**2 * total[1])])
+
+
+def _spectrum(x: np.ndarray, step: float, pace: float) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies [Hz] above zero and the power of each, without what slow motion leaks into the fast.
+
+    The second differences, which are nearly white, are looked at through a window and their gain is taken out again
+    (prewhitening; Blackman & Tukey 1958).
+    """
+    n = min(len(x) - 2, max(128, int(5 * pace / step)))
+    f, power = welch(np.diff(x, 2), 1 / step, window="blackmanharris", nperseg=n, detrend="linear")
+    power[1:] /= (2 * np.sin(np.pi * f[1:] * step)) ** 4
+    power[0] = power[1]
+    return f, power

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from symid.estimation.data import Segment, swing
-from symid.mechanics.laws import is_linear
+from symid.mechanics.laws import coordinate_unit
 from symid.model import Constant, Model, Port
 
 PARTS = 1e-4, 0.005
@@ -31,7 +31,7 @@ def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.nd
         if weights is not None:
             width = Constant(
                 widths(segments, weights, noise)[0],
-                unit="m/s" if is_linear(model, port.at) else "rad/s",
+                unit=f"{coordinate_unit(model, port.at)}/s",
                 role="friction_speed",
                 at=port.at,
                 meaning="width of the smoothed jump of dry friction",

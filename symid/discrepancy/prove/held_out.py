@@ -70,7 +70,9 @@ def _blocks(run: FreeRun) -> list[slice]:
     """Segments, cut where they are longer than a block."""
     found, ends = [], np.cumsum(run.lengths)
     for a, b in zip([0, *ends[:-1]], ends, strict=True):
-        parts = max(1, int((run.time[b - 1] - run.time[a]) / (POLICY.block * run.pace)))
+        parts = max(
+            -(-POLICY.fewest_blocks // len(ends)), int((run.time[b - 1] - run.time[a]) / (POLICY.block * run.pace))
+        )
         edges = np.linspace(a, b, parts + 1).astype(int)
         found += [slice(i, j) for i, j in zip(edges[:-1], edges[1:], strict=True)]
     return found

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
+from symid.mechanics.laws import coordinate_unit
 from symid.model import Model
 from symid.units import quantity
 
@@ -49,7 +50,8 @@ def sentence(suspect: Suspect, parameters: Mapping[str, tuple[float, float]], mo
         lambda the: place if the[1] == "t" else place[:1].upper() + place[1:],
         " and ".join(_sure_clauses(suspect, parameters)),
     )
-    if model is not None and any(p.at == suspect.term.location and p.unit == "N" for p in model.ports.values()):
+    at = suspect.term.location
+    if model is not None and any(p.at == at and coordinate_unit(model, at) != "rad" for p in model.ports.values()):
         template = re.sub(r"\b(torque|angle|turns|inertia)\b", lambda word: _STRAIGHT[word[0]], template)
     return template.format(place=place.removeprefix("the "), **filled)
 

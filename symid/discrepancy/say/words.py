@@ -228,11 +228,12 @@ def _chance(s: Story) -> list[str]:
         return []
     size = f"{s.chance:.2g}" if s.chance >= 1e-6 else "below one in a million"
     what = "the least certain effect" if s.effects else "the best suspect"
+    dear = ", but it does not explain enough to pay for its unknowns" if not s.effects and s.chance < 0.05 else ""
     return [
         f"With nothing missing, chance alone would make a suspect look as good as {what} here "
-        f"with a probability of {size}."
+        f"with a probability of {size}{dear}."
         if s.chance >= 1e-6
-        else f"With nothing missing, chance alone would make a suspect look like this with a probability {size}."
+        else f"With nothing missing, chance alone would make a suspect look like this with a probability {size}{dear}."
     ]
 
 
