@@ -156,7 +156,8 @@ def likeliest(errors: list[Errors]) -> list[Errors]:
 def whiteness(errors: list[Errors]) -> float:
     """Probability, were the noise white, of autocorrelations in the residuals at least as large (Ljung & Box 1978).
 
-    The correlation that the fit itself makes is taken off first.
+    The correlation that the fit itself makes is taken off first. Noise that is larger at some times than at others
+    scatters the correlations more, by the mean product of squares of near samples (Diebold 1986), and is white still.
     """
     statistic = degrees = 0.0
     for r in errors:
@@ -172,8 +173,11 @@ def whiteness(errors: list[Errors]) -> float:
                 lag_products(error, error, lags)[lags + 1 :, 0, 0] / r.deviation[j] ** 2
                 + lag_products(q, q, lags)[lags + 1 :, 0, 0]
             )
-            pairs = lag_products(there, there, lags)[lags + 1 :, 0, 0]
-            statistic += np.sum(c**2 * (count + 2) / count / np.maximum(pairs, 1))
+            pairs, squares = (
+                lag_products(x, x, lags)[lags + 1 :, 0, 0] for x in (there, error**2 / r.deviation[j] ** 2)
+            )
+            scatter = max(np.sum(squares) / max(np.sum(pairs), 1.0), 1.0)
+            statistic += np.sum(c**2 * (count + 2) / count / np.maximum(pairs, 1)) / scatter
             degrees += lags
     return float(scipy.special.chdtrc(degrees, statistic)) if degrees else 1.0
 

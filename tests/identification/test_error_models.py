@@ -10,6 +10,7 @@ import symid as si
 from symid.errors import SolveError, TranscriptionError
 from symid.files import plain
 from symid.identification.error_models import Errors, bandwidth, coloured, white, whiteness
+from symid.identification.uneven import by_sample, uneven
 
 
 @pytest.mark.parametrize("make", [integrator, oscillator])
@@ -161,6 +162,21 @@ def test_coloured_covariance_is_that_of_an_autoregression():
     np.testing.assert_allclose(np.mean(found, axis=0) / np.diag(exact), 1, atol=0.15)
     plain_white = [np.diag(white([fitted(autoregressive(rng, 1500, 0.95), shapes)], [influence])[0]) for _ in range(5)]
     assert np.mean(plain_white, axis=0)[1] < 0.2 * exact[1, 1]
+
+
+def test_noise_in_proportion_to_the_motion_is_white_and_counts_by_sample():
+    rng, time = np.random.default_rng(3), np.arange(600)
+    shapes = np.column_stack([np.sin(time / 40), np.cos(time / 40)]) * np.exp(-time / 200)[:, None]
+    influence, size = np.linalg.pinv(shapes).T[:, None, :], 0.05 + np.abs(shapes[:, :1])
+    exact = np.einsum("kiq,ki,kip->qp", influence, size**2, influence)
+    left = [fitted(size * rng.standard_normal((600, 1)), shapes) for _ in range(40)]
+    assert np.mean([whiteness([r]) < 0.01 for r in left]) < 0.1
+    assert all(uneven([r], [influence]) for r in left)
+    found = np.mean([np.diag(by_sample([r], [influence])[0]) for r in left], axis=0)
+    np.testing.assert_allclose(found / np.diag(exact), 1, atol=0.1)
+    assert np.mean([np.diag(white([r], [influence])[0]) for r in left], axis=0)[1] < 0.8 * exact[1, 1]
+    even = [fitted(rng.standard_normal((600, 1)), shapes) for _ in range(100)]
+    assert np.mean([uneven([r], [influence]) for r in even]) < 0.05
 
 
 def test_a_slow_wave_in_the_residual_makes_no_standard_error_vanish():
