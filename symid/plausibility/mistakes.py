@@ -22,9 +22,9 @@ MOSTLY = 0.1
 BETTER = 1.5
 """A mistake is named where undoing it leaves so many times less unexplained ...
 
-Chosen on 24 recordings of standing: none that was right is blamed, 215 of 240 planted mistakes are named. The others
-are in recordings in which process noise or missing physics dominates. `tests/recording/test_plausibility.py` asks for
-remarks on such recordings.
+On 16 recordings of standing, angles and platform alone, none that is right is blamed, and 159 of 160 planted mistakes
+are named; the other is given another name, where a dead zone hides the motion. None of 300 right recordings of 25 other
+systems is blamed.
 """
 CLEAR = 0.5
 """... and no more than this: where nothing explains the motion, nothing is blamed."""
