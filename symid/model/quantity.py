@@ -113,6 +113,8 @@ class AlongTime(Quantity):
 
 def refuse_calculus(expr: sm.Basic) -> None:
     """ModelError for what SymPy has not worked out: no number comes from it at a point."""
+    if expr.atoms(sm.AccumBounds):
+        raise ModelError(f"{str(expr)[:80]} is a range (AccumBounds), of which no number comes; write it otherwise")
     left = expr.atoms(sm.Derivative, sm.Integral, sm.Sum, sm.Product, sm.Limit, sm.Subs)
     if left:
         raise ModelError(

@@ -75,3 +75,20 @@ def test_a_free_run_elsewhere_knows_no_disturbance_and_no_boundary_of_the_fitted
     assert run.fit["rms"]["all"] == pytest.approx(alike.fit["rms"]["all"], rel=1e-5)
     assert run.fit["rms"]["all"] == pytest.approx(plain.fit_on((4, 6))["rms"]["all"], rel=0.1)
     assert gusty.free_run((0, 2)).model.boundaries
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda x: sm.Derivative(x**2, x), "contains a Derivative that is not worked out"),
+        (lambda x: sm.Integral(x**2, x), "contains a Integral that is not worked out"),
+        (lambda x: sm.AccumBounds(sm.exp(x - 1), sm.exp(x + 1)), "is a range"),
+        (lambda x: x + sm.AccumBounds(-1, 1), "is a range"),
+    ],
+)
+def test_what_gives_no_number_is_refused(make, words):
+    m = pendulum()
+    with pytest.raises(ModelError, match=words):
+        m.extra = si.Equation(make(m.angle.symbol))
+    with pytest.raises(ModelError, match=words):
+        m.redefine("measured", make(m.angle.symbol))
