@@ -18,7 +18,7 @@ few = settings(
     deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow, HealthCheck.data_too_large],
 )
-"""Some seconds in the normal run; ``SYMID_FUZZ=20000`` (`make fuzz`) is ten minutes of each kind."""
+"""Some seconds in the normal run; `make fuzz` asks for as many as take minutes of each kind."""
 LIMIT_S = 5.0
 """Processor time [s] beyond which an answer is a hang."""
 
