@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from conftest import pendulum, pendulum_recording
 from error_systems import integrator, oscillator, spring_with_sensor, two_dampings
 
 import symid as si
@@ -202,3 +203,20 @@ def test_bandwidth_grows_with_the_memory_of_the_noise():
     rng = np.random.default_rng(2)
     lags = [np.median([bandwidth(autoregressive(rng, 2000, a)) for _ in range(5)]) for a in (0.0, 0.6, 0.95)]
     assert lags[0] < 12 < lags[1] < lags[2] <= 500
+
+
+@pytest.mark.parametrize("weight", [1e-10, 1e6])
+def test_a_parameter_at_its_bound_is_told_however_large_the_objective_is(weight):
+    model = pendulum().with_bounds(damping=(0.6, 5.0))  # the recorded one is 0.4
+    problem = si.Identification(model, pendulum_recording(0.4, noise=0.01), weights={"measured": weight})
+    assert problem.solve().parameters["at_bound"]["damping"]
+
+
+def test_episodes_that_are_alike_say_no_more_than_one():
+    recording = pendulum_recording(0.4, noise=0.01)
+    one = si.Identification(pendulum(), recording).solve().with_errors("coloured").parameters["std_error"]["damping"]
+    for count in (2, 4):
+        episodes = si.Episodes(count, amplitude=1e-9, seed=1)
+        several = si.Identification(pendulum(), recording, episodes=episodes).solve()
+        assert several.errors.model == "coloured"
+        assert several.parameters["std_error"]["damping"] == pytest.approx(one, rel=1e-4)
