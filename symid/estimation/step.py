@@ -9,7 +9,7 @@ def damped_step(system, damping: float, bounds: np.ndarray, at: np.ndarray) -> n
     """The damped step; parameters that would leave their bounds are held there."""
     H, g, q = system
     held = np.zeros(len(g), dtype=bool)
-    d = np.maximum(np.diag(H), 1e-12 * max(np.diag(H).max(), 1e-300))
+    d = np.where(np.diag(H) > 0, np.diag(H), 1.0)  # units of the unknowns may differ by any power of ten
     for _ in range(q + 1):
         use = ~held
         scale = np.sqrt(d[use])

@@ -26,31 +26,34 @@ def spring(pace: float) -> si.Model:
     return m
 
 
-def recorded(pace: float, cubic: float, seed: int = 0) -> tuple[si.Model, si.Recording]:
-    """30 paces of it with a stiffness that grows, driven by noise without what is faster than the recording shows."""
+def recorded(pace: float, cubic: float, size: float = 1.0, seed: int = 0) -> tuple[si.Model, si.Recording]:
+    """30 paces of it with a stiffness that grows, driven by noise without what is faster than the recording shows.
+
+    size : of all motions and forces.
+    """
     model, rng = spring(pace), np.random.default_rng(seed)
     time = np.arange(1501) * 0.02 * pace
-    push = np.convolve(rng.standard_normal(time.size + 40), np.hanning(41) / 4, mode="valid")[: time.size]
+    push = size * np.convolve(rng.standard_normal(time.size + 40), np.hanning(41) / 4, mode="valid")[: time.size]
     law = si.mechanics.LIBRARY["cubic_stiffness"].at("spring")
     true = model.with_term(law)
-    values = {"mass": pace**2, "damping": 0.4 * pace, "stiffness": 10.0, law.parameter_name("k3_Nm_rad3"): cubic}
+    values = {"mass": pace**2, "damping": 0.4 * pace, "stiffness": 10.0, law.parameter_name("k3_Nm_rad3"): cubic / size**2}
     run = simulator(true).simulate(values, np.zeros(2), time, {"push": push}, substeps=8)
     position = run.outputs["position"] if "position" in run.outputs else run.y[:, 0]
     return model, si.Recording(
         name="spring",
         time=time,
-        channels={"push": push, "position": position + NOISE * rng.standard_normal(time.size)},
+        channels={"push": push, "position": position + size * NOISE * rng.standard_normal(time.size)},
         units={"push": "N", "position": "m"},
     )
 
 
-@pytest.mark.parametrize("pace", [1e-3, 1.0, 200.0])
-def test_a_law_is_found_at_any_pace(pace):
-    model, recording = recorded(pace, cubic=150.0)
+@pytest.mark.parametrize(("pace", "size"), [(1e-3, 1.0), (1e-4, 1e-6), (1.0, 1.0), (200.0, 10.0)])
+def test_a_law_is_found_at_any_pace_and_size(pace, size):
+    model, recording = recorded(pace, cubic=150.0, size=size)
     found = si.diagnose(model, recording, fit_window=(0, 20 * pace), held_out=(20 * pace, 30 * pace), threads=1)
     assert [e.name for e in found.effects] == ["cubic_stiffness"], found.words
     value, error = found.effects[0].parameters["k3_Nm_rad3"]
-    assert abs(value - 150.0) < 3 * error < 15.0
+    assert abs(value * size**2 - 150.0) < 3 * error * size**2 < 15.0
     assert found.proof.confirmed
     assert "N/m³" in found.words and "position" in found.words
 

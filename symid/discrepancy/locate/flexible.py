@@ -53,7 +53,10 @@ def fitted_path(fit: Fit, data: Data) -> np.ndarray:
     """(N, n) states of the fit, all segments one below the other."""
     sim = simulator(fit.model)
     return np.vstack(
-        [e.simulate(sim, fit.values, x0, fit.kalman_gain).x for e, x0 in zip(data.segments, fit.initial, strict=True)]
+        [
+            e.simulate(sim, fit.values, x0, fit.kalman_gain, substeps=fit.substeps).x
+            for e, x0 in zip(data.segments, fit.initial, strict=True)
+        ]
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -46,8 +47,15 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
         unknown = () if place == unestablished.term.location else (_unknown(place, left, rest, found),)
         return "unexplained", (*unknown, *effects), equivalent
     if rest is not None:
-        return "unexplained", (_unknown(_voted(flexible(), effects[0], rest), left, rest, found), *effects), equivalent
+        unknown = _unknown(_voted(flexible(), effects[0], rest), left, rest, found)
+        return "unexplained", (unknown, *(_as_survived(e, evidence) for e in effects)), equivalent
     return "missing_physics", effects, equivalent
+
+
+def _as_survived(effect: Effect, evidence: Evidence) -> Effect:
+    """The effect, not established where the halves of the recording contradict it: it may only imitate the rest."""
+    fallen = {(v.name, v.location) for v in evidence.survived if v.reason}
+    return replace(effect, established=effect.established and (effect.name, effect.location) not in fallen)
 
 
 def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> bool:

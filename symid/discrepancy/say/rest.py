@@ -17,7 +17,9 @@ from symid.mechanics.places import signal_unit
 from symid.model import Model, Port
 from symid.units import quantity, reduced, same_dimension
 
-NOUNS = {"N*m": "torque", "N": "force", "m/s^2": "acceleration", "rad/s^2": "acceleration"}
+NOUNS = {"N*m": "torque", "N": "force", **dict.fromkeys(("m/s^2", "rad/s^2", "1/s^2"), "acceleration")}
+AMOUNTS = ("m^3", "cm^3", "L", "mL", "kg", "g", "mol", "mmol")
+"""What flows where a unit is one of these over a time."""
 ORDER = ("first", "middle", "last")
 UNEVEN = 1.5
 """A part of the motion where the force is so many times what it is elsewhere is named."""
@@ -73,7 +75,7 @@ def rest_words(rest: Rest) -> list[str]:
 
 def noun(unit: str) -> str:
     """What a force with this unit is called."""
-    return NOUNS.get(unit, "flow")
+    return NOUNS.get(unit, "flow" if unit.partition("/")[0] in AMOUNTS else "force")
 
 
 def signal_name(model: Model, port: Port, signal) -> str:

@@ -123,7 +123,7 @@ def words(story: Story) -> str:
     first = (losses, _finding(story)) if len(losses) and " not enough" in losses[0] else (_finding(story) + losses,)
     parts = (
         *first,
-        nameless_words(story.evidence.unnamed, story.error),
+        nameless_words(story.evidence.unnamed, story.error) if story.verdict == "unexplained" else [],
         _alike(story),
         _proof(story) + _rest(story),
         _halves(story) + _verdicts_of_halves(story),
