@@ -48,7 +48,7 @@ def quick(monkeypatch):
     monkeypatch.setattr(
         import_module("symid.discrepancy.diagnose"),
         "suspects_of",
-        lambda model, pace: [s for s in suspects(model, pace) if s.term.name == "sensor_offset"],
+        lambda model, pace, reach: [s for s in suspects(model, pace, reach) if s.term.name == "sensor_offset"],
     )
 
 

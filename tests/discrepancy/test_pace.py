@@ -36,7 +36,12 @@ def recorded(pace: float, cubic: float, size: float = 1.0, seed: int = 0) -> tup
     push = size * np.convolve(rng.standard_normal(time.size + 40), np.hanning(41) / 4, mode="valid")[: time.size]
     law = si.mechanics.LIBRARY["cubic_stiffness"].at("spring")
     true = model.with_term(law)
-    values = {"mass": pace**2, "damping": 0.4 * pace, "stiffness": 10.0, law.parameter_name("k3_Nm_rad3"): cubic / size**2}
+    values = {
+        "mass": pace**2,
+        "damping": 0.4 * pace,
+        "stiffness": 10.0,
+        law.parameter_name("k3_Nm_rad3"): cubic / size**2,
+    }
     run = simulator(true).simulate(values, np.zeros(2), time, {"push": push}, substeps=8)
     position = run.outputs["position"] if "position" in run.outputs else run.y[:, 0]
     return model, si.Recording(

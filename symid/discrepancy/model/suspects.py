@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any, cast
 
 import numpy as np
 
+from symid.discrepancy.model.dry import weights_of
 from symid.errors import ModelError
 from symid.estimation.data import Data, Segment
 from symid.mechanics import CANONICAL
@@ -26,6 +27,8 @@ KINDS = {
     "length": "geometry",
 }
 """Role of the parts that a law changes -> kind of suspect; "state" where it is none of these, nor follows a clock."""
+REACHES, REACH = (0.003, 3.0), 0.1
+"""Motions of so many radians or metres, rms, are what laws are stated for, and one that is typical of them."""
 HIGHEST_FREQUENCY = 5.0
 """Up to here a periodic suspect is looked for in a motion with the pace of a second [Hz]."""
 
@@ -137,10 +140,11 @@ class Suspect:
                 yield values | {q.key: float(place)}
 
 
-def suspects(model: Model, pace: float = 1.0) -> list[Suspect]:
+def suspects(model: Model, pace: float = 1.0, reach: Mapping[str, float] | None = None) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses.
 
     pace : seconds of the recorded motion that laws stated in seconds take for one.
+    reach : by place, what laws stated in radians or metres take for one of them.
 
     Of laws that write the same equations, such as a drag on the first link and friction at its joint, the first stands.
 
@@ -153,17 +157,30 @@ def suspects(model: Model, pace: float = 1.0) -> list[Suspect]:
     """
     found: dict[Any, Any] = {}
     for term in terms_of(model):
-        term = replace(term, law=_at_pace(term.law, pace))
+        term = replace(term, law=_sized(term.law, pace, (reach or {}).get(term.location, 1.0)))
         equations = _equations(model, term)
         if equations is not None:
             found.setdefault(equations, Suspect(term, term.name in ESTABLISHED))
     return list(found.values())
 
 
-def _at_pace(law: Law, pace: float) -> Law:
-    """The law with bounds and starts of times and frequencies for a motion of this pace."""
-    powers = {"s": 1, "Hz": -1}
-    return replace(law, parameters=tuple(_scaled(q, pace ** powers.get(q.unit, 0)) for q in law.parameters))
+def reaches(model: Model, data: Data) -> dict[str, float]:
+    """By joint that moves much less or more than people and machines do, so many times `REACH`."""
+    found = {}
+    for port in (p for p in model.ports.values() if p.role == "joint"):
+        weights = weights_of(model, port)
+        moved = 0.0 if weights is None else float(np.median([np.std(e.recorded @ weights) for e in data.segments]))
+        if moved and not REACHES[0] <= moved <= REACHES[1]:
+            found[port.at] = moved / REACH
+    return found
+
+
+def _sized(law: Law, pace: float, reach: float) -> Law:
+    """The law with bounds and starts of times, frequencies, ways and speeds for such a motion."""
+    sizes = {"s": pace, "Hz": 1 / pace, "rad": reach, "rad/s": reach / pace}
+    return replace(
+        law, parameters=tuple(_scaled(q, 1.0 if q.clock == "phase" else sizes.get(q.unit, 1.0)) for q in law.parameters)
+    )
 
 
 def _scaled(q: LawParameter, by: float) -> LawParameter:
