@@ -44,7 +44,7 @@ def diagnose(folder: Path) -> int:
     def one_suspect() -> None:
         from symid.discrepancy import suspects
 
-        few = lambda model, pace, reach: [s for s in suspects(model, pace, reach) if s.term.name == "viscous_friction"]  # noqa: E731
+        few = lambda model, sizes: [s for s in suspects(model, sizes) if s.term.name == "viscous_friction"]  # noqa: E731
         import_module("symid.discrepancy.diagnose").suspects_of = few
 
     made_small("diagnose", one_suspect)

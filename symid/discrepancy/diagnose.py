@@ -11,7 +11,8 @@ from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.locate.given import fitted_as_given
 from symid.discrepancy.model.dry import with_friction_speeds
 from symid.discrepancy.model.hypothesis import Hypothesis
-from symid.discrepancy.model.suspects import Suspect, reaches
+from symid.discrepancy.model.sizes import sizes_of
+from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.model.suspects import suspects as suspects_of
 from symid.discrepancy.name.error_model import with_error_model
 from symid.discrepancy.name.jump import with_likeliest_jumps
@@ -97,7 +98,6 @@ def diagnose(
     given = task.model
     task = replace(task, model=with_friction_speeds(given, pieces, checked.noise))
     plain = Data(pieces, checked.noise, driven, checked.rounding).thinned()
-    pool = list(suspects_of(task.model, plain.pace, reaches(task.model, plain)) if suspects is None else suspects)
     window = task.fit_window, task.segment_length
 
     def fits(start: dict[str, float]) -> list[tuple[Data, Fit]]:
@@ -105,7 +105,9 @@ def diagnose(
 
     possible = fitted_as_given(task, plain, fits)
     possible = [(data, with_likeliest_jumps(given, fit, data)) for data, fit in possible]
-    progress(f"the model as given is fitted ({possible[0][1].iterations} iterations)")
+    data, fit = possible[0]
+    pool = list(suspects_of(task.model, sizes_of(fit, data)) if suspects is None else suspects)
+    progress(f"the model as given is fitted ({fit.iterations} iterations)")
 
     # Name: the laws that explain it.
     search, found, ranking = with_error_model(possible, searched, progress)

@@ -65,8 +65,8 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
         holds, size = held(e.step)
         time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)
         fine = np.interp(np.arange((len(e.time) - 1) * e.ratio + 1) / e.ratio, np.arange(len(e.time)), e.time)
-        noise = {
-            k: s * size * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process, strict=True)
+        noise = {  # the last of `process` may be the sharpness of a filter
+            k: s * size * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process, strict=False)
         }
         run = sim.simulate(
             fit.values,

@@ -8,8 +8,10 @@ the balances as -T, so that a positive gain on the joint's own angle resists.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
 import sympy as sm
 
 from symid.errors import ModelError
@@ -234,3 +236,19 @@ def full_state_gains(model: Model, joints: tuple[str, ...], suffix: str = "") ->
                     )
                 )
     return list(rows.values())
+
+
+def torques_along(model: Model, path: np.ndarray, values: Mapping[str, float]) -> dict[str, np.ndarray]:
+    """(N,) feedback torque by place along states (N, n), of the loops in which it follows from the present state alone.
+
+    Parameters
+    ----------
+    values : of the parameters [SI].
+    """
+    known = {model[k].symbol: v for k, v in values.items()} | {c.symbol: c.value for c in model.constants.values()}
+    states, found = [s.symbol for s in model.states.values()], {}
+    for part in model.find("feedback_torque"):
+        torque = model.inline(part.expr).subs(known)
+        if torque.free_symbols <= set(states):
+            found[part.at] = np.broadcast_to(sm.lambdify(states, torque, "numpy")(*path.T), len(path))
+    return found

@@ -48,7 +48,7 @@ def quick(monkeypatch):
     monkeypatch.setattr(
         import_module("symid.discrepancy.diagnose"),
         "suspects_of",
-        lambda model, pace, reach: [s for s in suspects(model, pace, reach) if s.term.name == "sensor_offset"],
+        lambda model, sizes: [s for s in suspects(model, sizes) if s.term.name == "sensor_offset"],
     )
 
 

@@ -6,6 +6,7 @@ import pytest
 import symid as si
 from symid.discrepancy.locate.audit import audit
 from symid.estimation.data import Data, pace_of, segments_of
+from symid.mechanics.feedback import torques_along
 from symid.simulation import simulator
 
 NOISE = 1e-4
@@ -61,6 +62,20 @@ def test_a_law_is_found_at_any_pace_and_size(pace, size):
     assert abs(value * size**2 - 150.0) < 3 * error * size**2 < 15.0
     assert found.proof.confirmed
     assert "N/m³" in found.words and "position" in found.words
+
+
+def test_laws_are_looked_for_at_the_size_of_the_motion():
+    from symid.discrepancy.model.sizes import Sizes
+
+    model = si.mechanics.PD().close(spring(1.0))
+    (torque,) = torques_along(model, np.array([[0.3, -2.0], [0.0, 1.0]]), dict.fromkeys(model.parameters, 0.5)).values()
+    assert torque == pytest.approx([0.5 * (0.3 - 0.5) + 0.5 * -2.0, 0.5 * (0.0 - 0.5) + 0.5 * 1.0])
+    usual, small = (
+        next(s for s in si.suspects(model, sizes) if s.term.name == "torque_saturation")
+        for sizes in (None, Sizes(torque={"spring": 1e-3}))
+    )
+    assert small.law.parameters[0].bounds == tuple(1e-3 * b for b in usual.law.parameters[0].bounds)
+    assert small.law.parameters[0].starts == tuple(1e-3 * v for v in usual.law.parameters[0].starts)
 
 
 def test_the_pace_is_that_of_the_motion_and_not_of_its_noise():

@@ -1,5 +1,6 @@
 """Bias and spread of estimates in simulated repeats."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -34,6 +35,12 @@ def with_repeats(monkeypatch, shift, spread):
 def test_repeats_of_an_honest_fit_change_nothing():
     fit, data = fitted()
     assert unbiased(fit, data, list(TRUE)).values == fit.values
+
+
+def test_the_sharpness_of_a_filter_is_no_size_of_a_noise():
+    fit, data = fitted()
+    filtered = replace(fit, process=np.append(fit.process, 1.3))
+    assert unbiased(filtered, data, list(TRUE)).values == unbiased(fit, data, list(TRUE)).values
 
 
 def test_repeats_scatter_as_the_standard_errors_say():

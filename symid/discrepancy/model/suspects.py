@@ -9,7 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 
-from symid.discrepancy.model.dry import weights_of
+from symid.discrepancy.model.sizes import Sizes
 from symid.errors import ModelError
 from symid.estimation.data import Data, Segment
 from symid.mechanics import CANONICAL
@@ -27,8 +27,6 @@ KINDS = {
     "length": "geometry",
 }
 """Role of the parts that a law changes -> kind of suspect; "state" where it is none of these, nor follows a clock."""
-REACHES, REACH = (0.003, 3.0), 0.1
-"""Motions of so many radians or metres, rms, are what laws are stated for, and one that is typical of them."""
 HIGHEST_FREQUENCY = 5.0
 """Up to here a periodic suspect is looked for in a motion with the pace of a second [Hz]."""
 
@@ -140,11 +138,10 @@ class Suspect:
                 yield values | {q.key: float(place)}
 
 
-def suspects(model: Model, pace: float = 1.0, reach: Mapping[str, float] | None = None) -> list[Suspect]:
+def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses.
 
-    pace : seconds of the recorded motion that laws stated in seconds take for one.
-    reach : by place, what laws stated in radians or metres take for one of them.
+    sizes : of the recorded motion, at which laws with bounds are looked for.
 
     Of laws that write the same equations, such as a drag on the first link and friction at its joint, the first stands.
 
@@ -157,30 +154,18 @@ def suspects(model: Model, pace: float = 1.0, reach: Mapping[str, float] | None 
     """
     found: dict[Any, Any] = {}
     for term in terms_of(model):
-        term = replace(term, law=_sized(term.law, pace, (reach or {}).get(term.location, 1.0)))
+        term = replace(term, law=_sized(term.law, (sizes or Sizes()).at(term.location)))
         equations = _equations(model, term)
         if equations is not None:
             found.setdefault(equations, Suspect(term, term.name in ESTABLISHED))
     return list(found.values())
 
 
-def reaches(model: Model, data: Data) -> dict[str, float]:
-    """By joint that moves much less or more than people and machines do, so many times `REACH`."""
-    found = {}
-    for port in (p for p in model.ports.values() if p.role == "joint"):
-        weights = weights_of(model, port)
-        moved = 0.0 if weights is None else float(np.median([np.std(e.recorded @ weights) for e in data.segments]))
-        if moved and not REACHES[0] <= moved <= REACHES[1]:
-            found[port.at] = moved / REACH
-    return found
-
-
-def _sized(law: Law, pace: float, reach: float) -> Law:
-    """The law with bounds and starts of times, frequencies, ways and speeds for such a motion."""
-    sizes = {"s": pace, "Hz": 1 / pace, "rad": reach, "rad/s": reach / pace}
-    return replace(
-        law, parameters=tuple(_scaled(q, 1.0 if q.clock == "phase" else sizes.get(q.unit, 1.0)) for q in law.parameters)
-    )
+def _sized(law: Law, sizes: Mapping[str, float]) -> Law:
+    """The law with bounds and starts of parameters with these units so many times larger."""
+    kept = ("phase",)
+    factors = [1.0 if q.clock in kept else sizes.get(q.unit, 1.0) for q in law.parameters]
+    return replace(law, parameters=tuple(_scaled(q, f) for q, f in zip(law.parameters, factors, strict=True)))
 
 
 def _scaled(q: LawParameter, by: float) -> LawParameter:

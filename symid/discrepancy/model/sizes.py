@@ -1,0 +1,74 @@
+"""How fast, how far and how hard a machine moves, where that is not as people and their machines do."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from symid.discrepancy.model.dry import weights_of
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit
+from symid.mechanics.feedback import torques_along
+
+REACHES, REACH = (0.003, 3.0), 0.1
+"""Motions of so many radians or metres, rms, are what laws are stated for, and one that is typical of them."""
+TORQUES, TORQUE = (1.0, 1000.0), 30.0
+"""Likewise of feedback torques [N m or N]."""
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """What laws that are stated in seconds, radians or metres, and newton metres take for one of them.
+
+    Attributes
+    ----------
+    pace : seconds. reach, torque : by place, where they are not as usual.
+    """
+
+    pace: float = 1.0
+    reach: Mapping[str, float] = field(default_factory=dict)
+    torque: Mapping[str, float] = field(default_factory=dict)
+
+    def at(self, place: str) -> dict[str, float]:
+        """By unit."""
+        reach = self.reach.get(place, 1.0)
+        return {
+            "s": self.pace,
+            "Hz": 1 / self.pace,
+            "rad": reach,
+            "rad/s": reach / self.pace,
+            "N*m": self.torque.get(place, 1.0),
+        }
+
+
+def sizes_of(fit: Fit, data: Data) -> Sizes:
+    """Of a fitted model and the motion to which it was fitted."""
+    return Sizes(data.pace, _reaches(fit, data), _torques(fit, data))
+
+
+def _reaches(fit: Fit, data: Data) -> dict[str, float]:
+    found = {}
+    for port in (p for p in fit.model.ports.values() if p.role == "joint"):
+        weights = weights_of(fit.model, port)
+        moved = 0.0 if weights is None else float(np.median([np.std(e.recorded @ weights) for e in data.segments]))
+        if moved and not REACHES[0] <= moved <= REACHES[1]:
+            found[port.at] = moved / REACH
+    return found
+
+
+def _torques(fit: Fit, data: Data) -> dict[str, float]:
+    """Of the loops whose torques follow from states and parameters alone."""
+    sim, found = fit.simulator, {}
+    path = np.vstack(
+        [
+            e.simulate(sim, fit.values, x0, fit.kalman_gain, substeps=fit.substeps).x
+            for e, x0 in zip(data.segments, fit.initial, strict=True)
+        ]
+    )
+    for place, torque in torques_along(fit.model, path, fit.values).items():
+        size = float(np.std(torque))
+        if size and not TORQUES[0] <= size <= TORQUES[1]:
+            found[place] = size / TORQUE
+    return found
