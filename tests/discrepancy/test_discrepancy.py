@@ -20,7 +20,7 @@ from symid.discrepancy.prove.certain import sure
 from symid.errors import DiagnosisError
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import segments_between
-from symid.estimation.kalman import HOLD, holds_of, kalman_gain
+from symid.estimation.kalman import HOLD, kalman_gain
 from symid.mechanics import LIBRARY
 from symid.model import Equation, Input, Law, LawParameter, Model, Output, Parameter, State
 from symid.recording import Recording
@@ -64,7 +64,7 @@ def test_kalman_gain_of_a_random_walk():
         np.zeros(0),
         np.zeros(0, int),
     )
-    gain = kalman_gain(linear, 1.0, np.array([holds_of(1.0) ** 0.5]), np.array([1.0]))
+    gain = kalman_gain(linear, 1.0, np.array([1.0 / HOLD**0.5]), np.array([1.0]))
     golden = (1 + 5**0.5) / 2  # P = (1 + sqrt 5)/2 solves P^2 = P + 1
     assert gain[0, 0] == pytest.approx(golden / (golden + 1), rel=1e-6)
 
