@@ -11,9 +11,9 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
+from symid.estimation.path import fitted_path
 from symid.mechanics.unknown_laws import unknown_force, unknown_input, unknown_sensor
 from symid.model import Model, Port, Term
-from symid.simulation import simulator
 
 MOST_ITERATIONS = 20
 
@@ -47,17 +47,6 @@ def _first(model: Model, port: Port) -> bool:
 
 def _size(x: np.ndarray) -> float:
     return float(np.sqrt(np.mean(x**2))) or 1.0
-
-
-def fitted_path(fit: Fit, data: Data) -> np.ndarray:
-    """(N, n) states of the fit, all segments one below the other."""
-    sim = simulator(fit.model)
-    return np.vstack(
-        [
-            e.simulate(sim, fit.values, x0, fit.kalman_gain, substeps=fit.substeps).x
-            for e, x0 in zip(data.segments, fit.initial, strict=True)
-        ]
-    )
 
 
 def along(path: np.ndarray, expr, model: Model) -> np.ndarray:

@@ -8,7 +8,8 @@ from math import log
 
 import numpy as np
 
-from symid.discrepancy.locate.flexible import along, fitted_path
+from symid.discrepancy.locate.flexible import along
+from symid.estimation.path import fitted_path
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.model.hypothesis import extended

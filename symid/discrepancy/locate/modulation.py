@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import fftconvolve
 
-from symid.discrepancy.locate.flexible import along, fitted_path
+from symid.discrepancy.locate.flexible import along
+from symid.estimation.path import fitted_path
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import Suspect
 from symid.mechanics.unknown_laws import short_push

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symid.discrepancy.locate.flexible import along, fitted_path
+from symid.discrepancy.locate.flexible import along
+from symid.estimation.path import fitted_path
 from symid.discrepancy.locate.flexible_law import chosen_blocks, numbers, placed
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection

@@ -10,6 +10,7 @@ import numpy as np
 from symid.discrepancy.model.dry import weights_of
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
+from symid.estimation.path import fitted_path
 from symid.mechanics.feedback import torques_along
 
 REACHES, REACH = (0.003, 3.0), 0.1
@@ -60,14 +61,8 @@ def _reaches(fit: Fit, data: Data) -> dict[str, float]:
 
 def _torques(fit: Fit, data: Data) -> dict[str, float]:
     """Of the loops whose torques follow from states and parameters alone."""
-    sim, found = fit.simulator, {}
-    path = np.vstack(
-        [
-            e.simulate(sim, fit.values, x0, fit.kalman_gain, substeps=fit.substeps).x
-            for e, x0 in zip(data.segments, fit.initial, strict=True)
-        ]
-    )
-    for place, torque in torques_along(fit.model, path, fit.values).items():
+    found = {}
+    for place, torque in torques_along(fit.model, fitted_path(fit, data), fit.values).items():
         size = float(np.std(torque))
         if size and not TORQUES[0] <= size <= TORQUES[1]:
             found[place] = size / TORQUE

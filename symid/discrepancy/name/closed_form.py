@@ -9,7 +9,8 @@ from math import log
 import numpy as np
 from scipy.optimize import minimize
 
-from symid.discrepancy.locate.flexible import along, fitted_path
+from symid.discrepancy.locate.flexible import along
+from symid.estimation.path import fitted_path
 from symid.discrepancy.locate.flexible_law import FlexibleLaw, names_of
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from symid.discrepancy.locate.flexible import fitted_path
+from symid.estimation.path import fitted_path
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError

@@ -1,0 +1,19 @@
+"""The states along a fit."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit
+
+
+def fitted_path(fit: Fit, data: Data) -> np.ndarray:
+    """(N, n) states of the fit, all segments one below the other."""
+    sim = fit.simulator
+    return np.vstack(
+        [
+            e.simulate(sim, fit.values, x0, fit.kalman_gain, substeps=fit.substeps).x
+            for e, x0 in zip(data.segments, fit.initial, strict=True)
+        ]
+    )
