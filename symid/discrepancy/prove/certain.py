@@ -49,7 +49,7 @@ def sure(found: Hypothesis) -> Hypothesis:
         if _certainty(doubtful, found.fit) > POLICY.sure:
             break
         less = _without([s for s in found.suspects if s is not doubtful], found, white=False)
-        if not less.suspects:
+        if less is None:
             break
         found = less
     return found
@@ -70,16 +70,20 @@ def beyond_chance(
         if chance is None or chance <= POLICY.chance:
             return found, chance
         doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
-        less = [s for s in found.suspects if s is not doubtful]
-        found = _without(less, found, white)
+        less = _without([s for s in found.suspects if s is not doubtful], found, white)
+        if less is None:
+            return found, chance
+        found = less
     return found, false_alarm_probability(max((h.log_ratio for h in ranking), default=0.0), maxima)
 
 
-def _without(kept: Sequence[Suspect], found: Hypothesis, white: bool) -> Hypothesis:
-    """The hypothesis of these suspects alone, with honest errors; of none where it cannot be fitted."""
-    less = hypothesis(kept, found.fit, found.base, found.data) if kept else None
-    if less is None:
+def _without(kept: Sequence[Suspect], found: Hypothesis, white: bool) -> Hypothesis | None:
+    """The hypothesis of these suspects alone, with honest errors; None where it cannot be fitted."""
+    if not kept:
         return Hypothesis((), found.base, found.base, found.data)
+    less = hypothesis(kept, found.fit, found.base, found.data)
+    if less is None:
+        return None
     less = polished(less)
     return less if white else replace(less, fit=with_robust_errors(less.fit, less.data))
 
