@@ -66,7 +66,8 @@ def beyond_chance(
         found the probability is that of the best of them.
     """
     while found.suspects:
-        chance = false_alarm_probability(weakest(found), maxima)
+        # Honest errors count independent samples only, the maxima count all: the same units are compared.
+        chance = false_alarm_probability(weakest(found, 1.0 if white else found.share), maxima)
         if chance is None or chance <= POLICY.chance:
             return found, chance
         doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
@@ -88,9 +89,12 @@ def _without(kept: Sequence[Suspect], found: Hypothesis, white: bool) -> Hypothe
     return less if white else replace(less, fit=with_robust_errors(less.fit, less.data))
 
 
-def weakest(found: Hypothesis) -> float:
-    """Log-likelihood ratio of the least certain effect to nothing, by its standard errors; of all if none can be 0."""
-    return min((min(_certainty(s, found.fit) ** 2, found.log_ratio) for s in found.suspects), default=0.0)
+def weakest(found: Hypothesis, share: float = 1.0) -> float:
+    """Log-likelihood ratio of the least certain effect to nothing, by its standard errors; of all if none can be 0.
+
+    share : of the samples for which the standard errors count.
+    """
+    return min((min(_certainty(s, found.fit) ** 2 / share, found.log_ratio) for s in found.suspects), default=0.0)
 
 
 def _certainty(suspect: Suspect, fit: Fit) -> float:

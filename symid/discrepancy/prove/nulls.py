@@ -37,7 +37,7 @@ def null_maxima(projection: Projection, fit: Fit) -> np.ndarray:
 
 def _signs(rng: np.random.Generator, segment, pace: float) -> np.ndarray:
     """(N, nulls) one random sign for each block of a segment."""
-    blocks = max(1, int((segment.time[-1] - segment.time[0]) / (POLICY.block * pace)))
+    blocks = max(POLICY.fewest_blocks, int((segment.time[-1] - segment.time[0]) / (POLICY.block * pace)))
     block = np.minimum(np.arange(len(segment.time)) * blocks // len(segment.time), blocks - 1)
     return rng.choice((-1.0, 1.0), (blocks, POLICY.nulls))[block]
 
