@@ -1,11 +1,17 @@
 """Held-out data prove, or do not; chance is counted."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from driven_cart import cart
 
+from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.model.suspects import suspects
 from symid.discrepancy.policy import POLICY
+from symid.discrepancy.prove import certain
 from symid.discrepancy.prove.held_out import compare
-from symid.discrepancy.prove.nulls import false_alarm_probability
+from symid.discrepancy.prove.nulls import _signs, false_alarm_probability
 from symid.estimation.free_run import FreeRun
 from symid.estimation.independence import independent_share
 
@@ -82,3 +88,33 @@ def test_outputs_of_other_units_count_by_how_much_they_move():
     metres = of(1e-3, 0.1)
     rng = np.random.default_rng(1)
     assert of(1e-3, 0.1, unit=1e3).relative == pytest.approx(metres.relative)
+
+
+def two_frictions() -> Hypothesis:
+    """Two suspects, five and three standard errors from nothing, of a fit that explains 1000 more than its base."""
+    chosen = [s for s in suspects(cart()) if s.term.name in ("viscous_friction", "coulomb_friction")]
+    names = [s.term.parameter_name(q.key) for s in chosen for q in s.law.parameters]
+    fit = SimpleNamespace(
+        values=dict(zip(names, (5.0, 3.0), strict=True)), errors=dict.fromkeys(names, 1.0), loglik2=1000.0
+    )
+    return Hypothesis(tuple(chosen), fit, SimpleNamespace(loglik2=0.0), data=None)
+
+
+def test_the_least_certain_effect_counts_in_the_samples_of_its_errors():
+    assert certain.weakest(two_frictions()) == pytest.approx(9.0)
+    assert certain.weakest(two_frictions(), share=0.1) == pytest.approx(90.0)
+    assert certain.weakest(two_frictions(), share=0.001) == pytest.approx(1000.0)
+
+
+def test_effects_that_cannot_be_left_out_stay(monkeypatch):
+    found, chance_makes_more = two_frictions(), np.linspace(400.0, 500.0, POLICY.nulls)
+    monkeypatch.setattr(certain, "hypothesis", lambda *arguments: None)
+    kept, chance = certain.beyond_chance(found, chance_makes_more, [], white=True)
+    assert kept is found and chance > POLICY.chance
+
+
+def test_a_push_within_a_short_segment_is_no_constant():
+    segment = SimpleNamespace(time=np.arange(600) * 0.001)  # a fifth of a block
+    signs = _signs(np.random.default_rng(0), segment, pace=1.0).reshape(POLICY.fewest_blocks, -1, POLICY.nulls)
+    assert np.all(signs == signs[:, :1]) and set(np.unique(signs)) == {-1.0, 1.0}
+    assert np.all(np.ptp(signs[:, 0], axis=1) == 2) and np.ptp(np.abs(signs[:, 0].sum(axis=0))) > 0

@@ -9,7 +9,6 @@ from math import log
 import numpy as np
 
 from symid.discrepancy.locate.flexible import along
-from symid.estimation.path import fitted_path
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.model.hypothesis import extended
@@ -17,6 +16,7 @@ from symid.errors import SymidError
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.independence import independent_share
+from symid.estimation.path import fitted_path
 from symid.mechanics.places import other_signals, places, with_places
 from symid.mechanics.spline_law import Block, knots_of, spline_law
 from symid.model import Model, Port, Term

@@ -33,7 +33,7 @@ def fitted_as_given(task: Task, plain: Data, fits: Callable[[dict[str, float]], 
     start, problem, found = dict(task.start), None, None
     try:
         found = fits(start)
-        if found[0][1].kalman_gain is not None or not task.model.parameters or _near(*found[0]):
+        if found[0][1].kalman_gain is not None or start.keys() >= task.model.parameters.keys() or _near(*found[0]):
             return found
     except DiagnosisError as error:
         problem = error

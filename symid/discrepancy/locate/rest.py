@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.discrepancy.locate.flexible import along
-from symid.estimation.path import fitted_path
 from symid.discrepancy.locate.flexible_law import chosen_blocks, numbers, placed
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
 from symid.estimation.data import Data, swing
 from symid.estimation.fit import Fit
 from symid.estimation.independence import independent_share
+from symid.estimation.path import fitted_path
 from symid.mechanics.places import places
 from symid.mechanics.spline_law import Block
 from symid.model import Model, Port

@@ -141,9 +141,11 @@ class Suspect:
 def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses.
 
-    sizes : of the recorded motion, at which laws with bounds are looked for.
-
     Of laws that write the same equations, such as a drag on the first link and friction at its joint, the first stands.
+
+    Parameters
+    ----------
+    sizes : of the recorded motion, at which laws with bounds are looked for; as of people and machines if left out.
 
     Examples
     --------
@@ -163,8 +165,7 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
 
 def _sized(law: Law, sizes: Mapping[str, float]) -> Law:
     """The law with bounds and starts of parameters with these units so many times larger."""
-    kept = ("phase",)
-    factors = [1.0 if q.clock in kept else sizes.get(q.unit, 1.0) for q in law.parameters]
+    factors = [1.0 if q.clock == "phase" else sizes.get(q.unit, 1.0) for q in law.parameters]
     return replace(law, parameters=tuple(_scaled(q, f) for q, f in zip(law.parameters, factors, strict=True)))
 
 

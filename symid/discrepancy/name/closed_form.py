@@ -10,7 +10,6 @@ import numpy as np
 from scipy.optimize import minimize
 
 from symid.discrepancy.locate.flexible import along
-from symid.estimation.path import fitted_path
 from symid.discrepancy.locate.flexible_law import FlexibleLaw, names_of
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
@@ -19,6 +18,7 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.independence import independent_share
+from symid.estimation.path import fitted_path
 from symid.mechanics.dictionary import Shape, closed_expression, closed_law, shapes_of
 from symid.model import Law, Model, Port, Term
 

@@ -8,13 +8,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from symid.estimation.path import fitted_path
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.data import Data, Segment
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.kalman import HOLD
+from symid.estimation.path import fitted_path
 from symid.model import Model
 from symid.recording import Recording
 from symid.simulation import Simulator
