@@ -22,9 +22,12 @@ class CodegenWarning(UserWarning):
 
 
 def cache_directory() -> Path:
-    """SYMID_CACHE_DIR, else symid under XDG_CACHE_HOME, else ~/.cache/symid."""
+    """SYMID_CACHE_DIR, else symid under XDG_CACHE_HOME, else ~/.cache/symid.
+
+    Links are followed here: what is looked at is then what is used, wherever they point later.
+    """
     own, xdg = os.environ.get("SYMID_CACHE_DIR"), os.environ.get("XDG_CACHE_HOME")
-    return Path(own) if own else Path(xdg or Path(os.path.expanduser("~")) / ".cache") / "symid"
+    return Path(os.path.realpath(own or Path(xdg or os.path.join(os.path.expanduser("~"), ".cache"), "symid")))
 
 
 def find(key: str) -> Path | None:
@@ -42,7 +45,10 @@ def keep(key: str, library: bytes) -> Path:
     reason = distrusted(folder)
     if reason is None:
         try:
-            return _written(key, library, folder)
+            _make(folder)
+            reason = distrusted(folder)  # again: another user may have made it first
+            if reason is None:
+                return _written(key, library, folder)
         except OSError as problem:
             reason = problem.strerror or str(problem)
     return _written(key, library, _spare_folder(folder, reason))
@@ -60,6 +66,7 @@ def keep_text(key: str, text: str) -> None:
     folder = cache_directory()
     if distrusted(folder) is None:
         with suppress(OSError):
+            _make(folder)
             _written(key, text.encode(), folder, ".json")
 
 
@@ -71,7 +78,7 @@ def distrusted(folder: Path) -> str | None:
     """
     if not hasattr(os, "geteuid"):  # Windows has other rights
         return None
-    folder, own = Path(os.path.realpath(folder)), os.geteuid()
+    own = os.geteuid()
     for place in (folder, *folder.parents):
         try:
             found = place.stat()
@@ -100,9 +107,13 @@ def _seal(key: str, content: bytes) -> bytes:
     return hashlib.sha256(key.encode() + content).digest()
 
 
+def _make(folder: Path) -> None:
+    """The folder and those above it, for this user alone."""
+    for place in reversed([p for p in (folder, *folder.parents) if not p.exists()]):
+        place.mkdir(mode=0o700, exist_ok=True)
+
+
 def _written(key: str, content: bytes, folder: Path, ending: str = ".so") -> Path:
-    folder.parent.mkdir(parents=True, exist_ok=True)
-    folder.mkdir(mode=0o700, exist_ok=True)
     handle, name = tempfile.mkstemp(dir=folder, prefix="new-")
     try:
         with os.fdopen(handle, "wb") as file:

@@ -308,6 +308,13 @@ class Solution:
 
 
 def build_solution(problem: Identification, result: SolverResult, starts: tuple[StartRow, ...], best: int) -> Solution:
+    """The solution of `problem` that has this result; SolveError where it cannot be that of this problem."""
+    unknowns = problem.transcription.layout.size
+    if result.z.size != unknowns:
+        raise SolveError(
+            f"the result that was read has {result.z.size} unknowns, and its problem {unknowns}: its files were "
+            "exchanged; solve the problem again"
+        )
     return Solution(
         problem, result, starts, best, problem.model.fingerprint, datetime.now(UTC).isoformat(timespec="seconds")
     )

@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 import json
 import warnings
-import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -22,7 +21,7 @@ from symid.files import plain, write_atomically, write_json
 from symid.identification.identity import VERSION, digest
 from symid.identification.start_row import StartRow
 from symid.identification.worker import Outcome
-from symid.ipopt_solver.kept import put_together, taken_apart, with_nan
+from symid.ipopt_solver.kept import as_declared, put_together, taken_apart
 
 FORMAT = "symid study 2"
 
@@ -123,7 +122,7 @@ class StudyDirectory:
             whole = sums == {"content": _sha256(_text(content)), "arrays": _sha256(arrays)}
             whole = whole and content.get("key", key) == key  # earlier versions did not write it
             return _put_together(content, arrays) if whole else None
-        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError, EOFError, zipfile.BadZipFile):
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return None
 
     def __getitem__(self, key: str) -> Outcome:
@@ -166,7 +165,7 @@ def _taken_apart(outcome: Outcome) -> tuple[dict, bytes]:
 
 
 def _put_together(content: dict, arrays: bytes) -> Outcome:
-    return Outcome(StartRow(**with_nan(content["row"], StartRow)), put_together(content["result"], arrays))
+    return Outcome(StartRow(**as_declared(content["row"], StartRow)), put_together(content["result"], arrays))
 
 
 def _text(content: dict) -> bytes:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import io
 from dataclasses import asdict, fields
+from math import nan
+from types import UnionType
+from typing import Any, get_type_hints
 
 import numpy as np
 
-from symid.files import plain
+from symid.files import plain, read_arrays
 from symid.ipopt_solver.linear import LinearSolver
 from symid.ipopt_solver.result import SolverResult, WorstConstraint
 
@@ -38,14 +41,40 @@ def put_together(values: dict | None, arrays: bytes) -> SolverResult | None:
     worst = values["worst_constraint"]
     noted = values.get("linear_solver", {"name": "mumps", "reason": "solved before it was noted which"})
     parts = {
-        "worst_constraint": None if worst is None else WorstConstraint(**with_nan(worst, WorstConstraint)),
-        "linear_solver": LinearSolver(**noted),
+        "worst_constraint": None if worst is None else WorstConstraint(**as_declared(worst, WorstConstraint)),
+        "linear_solver": LinearSolver(**as_declared(noted, LinearSolver)),
     }
-    with np.load(io.BytesIO(arrays), allow_pickle=False) as file:
-        return SolverResult(**with_nan(values | parts, SolverResult), **{name: file[name] for name in ARRAYS})
+    found = read_arrays(arrays)
+    sizes = {name: found[name].size for name in ARRAYS if found[name].dtype == float and found[name].ndim == 1}
+    unknowns = sizes["z"], sizes["bound_multipliers_lower"], sizes["bound_multipliers_upper"]
+    if len(set(unknowns)) > 1 or sizes["constraints"] != sizes["multipliers"]:
+        raise ValueError("the arrays of a result do not belong together")
+    return SolverResult(**as_declared(values | parts, SolverResult), **{name: found[name] for name in ARRAYS})
 
 
-def with_nan(values: dict, kind: type) -> dict:
-    """JSON has no NaN: a number that is null was one."""
-    numbers = {f.name for f in fields(kind) if f.type in ("float", float)}
-    return {k: np.nan if v is None and k in numbers else v for k, v in values.items()}
+def as_declared(values: dict, kind: type) -> dict:
+    """Values of a dataclass from JSON, where a number that is null was NaN; TypeError where one is of another type."""
+    types, said = get_type_hints(kind), {}
+    for name, value in values.items():
+        said[name] = _with_nan(value, types.get(name))
+        if not _is_of(said[name], types.get(name)):
+            raise TypeError(f"{name} is of another type")
+    return said
+
+
+def _with_nan(value: Any, wanted: Any) -> Any:
+    if wanted is float and value is None:
+        return nan
+    if wanted == dict[str, float] and isinstance(value, dict):
+        return {k: nan if v is None else v for k, v in value.items()}
+    return value
+
+
+def _is_of(value: Any, wanted: Any) -> bool:
+    if isinstance(wanted, UnionType):
+        return any(_is_of(value, one) for one in wanted.__args__)
+    if wanted == dict[str, float]:
+        return isinstance(value, dict) and all(_is_of(v, float) for v in value.values())
+    if isinstance(value, bool):
+        return wanted is bool
+    return isinstance(value, (int, float) if wanted is float else wanted)

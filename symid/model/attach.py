@@ -42,7 +42,7 @@ def completed(model: Model, part: Component, name: str) -> Component:
         changes["unit"] = part.unit or getattr(shown, "unit", "") or _unit_of_sum(model, changes["expr"])
         changes["channel"] = part.channel or (shown.name if isinstance(shown, AlongTime) else name)
     if isinstance(getattr(part, "bounds", None), tuple):
-        with suppress(TypeError, ValueError):  # what is no pair of numbers, check() says in words
+        with suppress(TypeError, ValueError, OverflowError):  # what is no pair of numbers, check() says in words
             changes["bounds"] = tuple(float(b) for b in part.bounds)
     if isinstance(part, Input):
         changes["channel"] = part.channel or name

@@ -8,7 +8,7 @@ from numbers import Real
 
 import sympy as sm
 
-from symid.checked import nearest
+from symid.checked import nearest, shown
 from symid.errors import ModelError, SymidError
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
@@ -54,7 +54,7 @@ def _values(model: Model) -> Iterator[str]:
             known = ", ".join(map(repr, _holds(c)))
             yield f"the {type(c).__name__.lower()} '{c.name}' has hold={c.hold!r}; known: {known}"
         if isinstance(c, Process) and not (isfinite(_number(c.size)) and c.size > 0):
-            yield f"the process noise '{c.name}' has size={c.size}; give a positive number [{c.unit}*sqrt(s)]"
+            yield f"the process noise '{c.name}' has size={shown(c.size)}; give a positive number [{c.unit}*sqrt(s)]"
         if isinstance(c, Parameter) and c.prior is not None and not isinstance(c.prior, Prior):
             yield f"the prior {c.prior!r} of '{c.name}' is none: give Normal(mean, std) or LogNormal(median, factor)"
         if isinstance(c, Parameter) and isinstance(c.prior, LogNormal) and not _ends(c.bounds)[0] > 0:
@@ -66,7 +66,7 @@ def _values(model: Model) -> Iterator[str]:
             if isnan(lo) or isnan(hi) or lo > hi:
                 yield f"the bounds {c.bounds} of '{c.name}' are not an interval; give (lower, upper)"
             elif isinstance(c, Parameter) and c.guess is not None and not lo <= _number(c.guess) <= hi:
-                guess = f"{c.guess:g}" if isinstance(c.guess, Real) else repr(c.guess)
+                guess = f"{c.guess:g}" if isfinite(_number(c.guess)) else shown(c.guess)
                 yield f"the guess {guess} of parameter '{c.name}' is outside its bounds ({lo:g}, {hi:g}), or no number"
 
 
@@ -76,14 +76,18 @@ def _holds(part: Input | Control) -> tuple[str, ...]:
 
 
 def _number(value) -> float:
-    return value if isinstance(value, Real) else nan
+    """NaN for what is no number, or larger than a float can be."""
+    try:
+        return float(value) if isinstance(value, Real) else nan
+    except OverflowError:
+        return nan
 
 
 def _ends(bounds) -> tuple[float, float]:
     """Lower and upper bound; NaN where `bounds` is no pair of numbers."""
     try:
         lo, hi = map(float, bounds)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return nan, nan
     return lo, hi
 

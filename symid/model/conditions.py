@@ -190,7 +190,7 @@ def _interval(value: Any) -> tuple[Any, Any]:
         low, high = (checked.number(v, "Boundary: a limit", ModelError) for v in value)
         return low, high
     value = sympified(value)
-    return (float(value), float(value)) if value.is_number else (None, value)
+    return (limit := _limit(value, value), limit) if value.is_number else (None, value)
 
 
 def row_of(condition: Any, lower: float | None = None, upper: float | None = None) -> Row:
@@ -221,10 +221,21 @@ def row_of(condition: Any, lower: float | None = None, upper: float | None = Non
     small, large = condition.lhs, condition.rhs
     if not isinstance(condition, (sm.Eq, sm.Le, sm.Lt)):
         small, large = large, small
+    if not large.is_number and not small.is_number:
+        return Row(small - large, 0.0 if isinstance(condition, sm.Eq) else -inf, 0.0)
+    if not large.is_number:
+        return Row(large, _limit(small, condition), _limit(small, condition) if isinstance(condition, sm.Eq) else inf)
+    limit = _limit(large, condition)
     if isinstance(condition, sm.Eq):
-        return Row(small, float(large), float(large)) if large.is_number else Row(small - large, 0.0, 0.0)
-    if isinstance(small, sm.Abs) and large.is_number:
-        return Row(small.args[0], -float(large), float(large))
-    if large.is_number:
-        return Row(small, -inf, float(large))
-    return Row(large, float(small), inf) if small.is_number else Row(small - large, -inf, 0.0)
+        return Row(small, limit, limit)
+    if isinstance(small, sm.Abs):
+        return Row(small.args[0], -limit, limit)
+    return Row(small, -inf, limit)
+
+
+def _limit(value: sm.Expr, where: Any) -> float:
+    """A number in a condition as a float."""
+    try:
+        return float(value)
+    except (TypeError, OverflowError):
+        raise ModelError(f"{where}: {value} is no real number that a quantity can be held to") from None

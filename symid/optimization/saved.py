@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-import zipfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +12,7 @@ import numpy as np
 
 from symid import checked
 from symid.errors import SolveError
-from symid.files import write_atomically
+from symid.files import read_arrays, write_atomically
 from symid.ipopt_solver.kept import put_together, taken_apart
 from symid.optimization.plan import Plan
 
@@ -46,14 +45,14 @@ def load(path: str | Path, problem: Optimization) -> Plan:
     """
     path = checked.path(path, "Optimization.load", SolveError)
     try:
-        with np.load(path, allow_pickle=False) as file:
-            about, arrays = json.loads(str(file["about"])), file["arrays"].tobytes()
-        found, known = about["format"], about["problem"]
+        file = read_arrays(path.read_bytes())
+        about, arrays = json.loads(str(file["about"])), file["arrays"].tobytes()
+        found, known = about["format"], dict(about["problem"])
     except OSError as absent:
         raise SolveError(
             f"{path} cannot be read ({absent.strerror or absent}): give a file that Plan.save wrote"
         ) from None
-    except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile):
+    except (ValueError, KeyError, TypeError, RecursionError):
         raise SolveError(f"{path} is damaged or no plan: give a file that Plan.save wrote") from None
     if found != FORMAT:
         raise SolveError(f"{path} has the format {str(found)[:60]!r}, and this version of symid reads '{FORMAT}'")
@@ -64,8 +63,11 @@ def load(path: str | Path, problem: Optimization) -> Plan:
     try:
         if about["sha256"] != _sum(arrays):
             raise ValueError
-        return Plan(problem, put_together(about["result"], arrays))
-    except (ValueError, KeyError, TypeError, zipfile.BadZipFile):
+        result = put_together(about["result"], arrays)
+        if result is None or result.z.size != problem.transcription.layout.size:
+            raise ValueError
+        return Plan(problem, result)
+    except (ValueError, KeyError, TypeError, AttributeError):
         raise SolveError(f"{path} is damaged: solve the problem again") from None
 
 

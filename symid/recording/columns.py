@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from symid import checked
 from symid.errors import RecordingError, SymidError
 from symid.recording.header import LABELS, Column, contradictions, measured_column
 from symid.recording.readers.raw import RawColumn
@@ -32,13 +33,13 @@ def load_columns(source: Mapping[str, str] | str | os.PathLike) -> dict[str, str
     """
     table, name = source, "columns"
     if not isinstance(source, Mapping):
-        name = str(source)
+        name = str(checked.path(source, "a mapping of columns", RecordingError))
         try:
-            table = tomllib.loads(Path(source).read_text(encoding="utf-8-sig"))
+            table = tomllib.loads(Path(name).read_text(encoding="utf-8-sig"))
         except OSError as error:
             raise RecordingError(f"{name}: cannot be read: {error.strerror}") from error
-        except (UnicodeDecodeError, tomllib.TOMLDecodeError) as error:
-            raise RecordingError(f"{name}: is not TOML: {error}") from None
+        except (ValueError, RecursionError) as error:  # also of a number with thousands of digits
+            raise RecordingError(f"{name}: is not TOML: {str(error)[:200]}") from None
         table = table.get("columns", table)
     if not isinstance(table, Mapping) or not table:
         raise RecordingError(f'{name}: entries such as ankle_angle_deg = "Ankle Flexion" are expected')

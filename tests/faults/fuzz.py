@@ -1,5 +1,6 @@
 """What the fuzzed tests share: odd values, and that only a sentence of symid's own may come out, soon."""
 
+import json
 import os
 import time
 import warnings
@@ -37,6 +38,23 @@ odd = st.one_of(
     st.sampled_from([10**400, "9" * 500, 1j, b"x", object(), ..., int, len, np.nan, np.array([1.0, np.nan])]),
     st.sampled_from([np.zeros((2, 0)), pd.DataFrame(), sm.nan, sm.oo, sm.I, sm.true, sm.Symbol("x"), sm.eye(2), set()]),
 )
+
+
+@st.composite
+def spoiled(draw, content):
+    """The content with one entry exchanged, renamed or left out, also inside tables."""
+    content = json.loads(json.dumps(content))
+    table = content
+    while True:
+        key = draw(st.sampled_from(sorted(table)))
+        if not isinstance(table[key], dict) or not table[key] or draw(st.booleans()):
+            break
+        table = table[key]
+    kind = draw(st.sampled_from(["exchanged", "renamed", "left out"]))
+    value = table.pop(key)
+    if kind != "left out":
+        table[draw(st.text(max_size=12)) if kind == "renamed" else key] = value if kind == "renamed" else draw(of_json)
+    return content
 
 
 def told(function: Callable, *arguments, also: tuple[type[Exception], ...] = (), **options):

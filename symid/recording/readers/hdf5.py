@@ -1,26 +1,39 @@
-"""HDF5 files: every dataset of numbers, with its attribute ``units``."""
+"""HDF5 files, MATLAB's of version 7.3 among them: every dataset of numbers, with its attribute ``units``."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from symid.recording.readers.matlab import columns_of, longest_of
-from symid.recording.readers.raw import RawColumn, cannot_be_read, library
+from symid.errors import RecordingError
+from symid.recording.readers.limits import refuse_elsewhere
+from symid.recording.readers.raw import RawColumn, cannot_be_read, columns_of, library, longest_of
 
 
 def read_hdf5(path: Path) -> list[RawColumn]:
-    """Vectors, and columns of matrices, as long as the longest; ``group/name`` is called ``group_name``."""
+    """Vectors, and columns of matrices, as long as the longest; ``group/name`` is called ``group_name``.
+
+    What is reached by links within the file is not followed, and links to other files are refused.
+    """
     h5py, found = library("h5py", path), []
 
     def visit(name: str, node) -> None:
-        if isinstance(node, h5py.Dataset) and node.dtype.kind in "fiu" and node.size > 1:
+        if isinstance(node, h5py.Dataset) and node.dtype.kind in "fiu" and node.size > 1 and not _of_matlab(name, node):
             unit = node.attrs.get("units", node.attrs.get("unit"))
             text = unit.decode() if isinstance(unit, bytes) else unit
             found.extend(columns_of(name.replace("/", "_"), node[()], text or None))
 
     try:
         with h5py.File(path, "r") as file:
+            refuse_elsewhere(path, file)
             file.visititems(visit)
-    except (OSError, RuntimeError, ValueError) as error:
+    except RecordingError:
+        raise
+    except Exception as error:  # of a damaged file it raises whatever it stumbles over
         raise cannot_be_read(path, error) from error
     return longest_of(found)
+
+
+def _of_matlab(name: str, node) -> bool:
+    """Whether these numbers are MATLAB's texts, its empty arrays' shapes, or parts of its cells and objects."""
+    kind = node.attrs.get("MATLAB_class", b"")
+    return name.startswith("#") or "MATLAB_empty" in node.attrs or kind in (b"char", "char")

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from symid.errors import RecordingError
-from symid.recording.readers.raw import RawColumn
+from symid.recording.readers.raw import RawColumn, number_of
 
 
 def read_trc(path: Path) -> list[RawColumn]:
@@ -77,7 +77,7 @@ def _numbers(path: Path, lines: list[str], start: int, names: list[str], mark: s
         if len(cells) != len(names):
             raise RecordingError(f"{path}: line {line} has {len(cells)} cells, the header names {len(names)} columns")
         try:
-            rows.append([float(cell) if cell.strip() else np.nan for cell in cells])
+            rows.append([number_of(cell) if cell.strip() else np.nan for cell in cells])
         except ValueError as error:
             raise RecordingError(f"{path}: line {line}: {error}") from None
     if not rows:

@@ -1,7 +1,8 @@
-"""What all readers give, and how they say that a file or a library is missing."""
+"""What all readers give, how matrices become columns, and how readers say that a file or a library is missing."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -36,3 +37,30 @@ def cannot_be_read(path: Path, error: Exception) -> RecordingError:
     """For whatever a library raises about a file that is not what its name says."""
     reason = " ".join(str(error).split())[:200] or type(error).__name__
     return RecordingError(f"{path}: cannot be read as a {path.suffix} file: {reason}")
+
+
+def number_of(cell: str) -> float:
+    """ValueError with a short sentence for what is none; Python would also take 1_000 and digits of other scripts."""
+    try:
+        return float(cell if cell.isascii() and "_" not in cell else "no number")
+    except ValueError:
+        raise ValueError(f"{cell[:40]!r} is not a number") from None
+
+
+def longest_of(columns: Iterator[RawColumn] | list[RawColumn]) -> list[RawColumn]:
+    """The columns that have as many values as the one that has most: the samples, and no settings."""
+    columns = list(columns)
+    most = max((c.values.size for c in columns), default=0)
+    return [c for c in columns if c.values.size == most]
+
+
+def columns_of(name: str, values, unit: str | None = None) -> Iterator[RawColumn]:
+    """A vector, or the columns of a matrix with more rows than columns, or its rows."""
+    array = np.squeeze(np.asarray(values))
+    if array.dtype.kind not in "fiu" or array.ndim not in (1, 2):
+        return
+    if array.ndim == 1:
+        yield RawColumn(name, array.astype(float), unit)
+        return
+    for i, row in enumerate(array if array.shape[0] < array.shape[1] else array.T, 1):
+        yield RawColumn(f"{name}_{i}", row.astype(float), unit)

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from symid.errors import RecordingError
-from symid.recording.readers.raw import RawColumn, cannot_be_read, library
+from symid.recording.readers.limits import refuse_huge, refuse_huge_zip
+from symid.recording.readers.raw import RawColumn, cannot_be_read, library, number_of
 
 LABELS = ("segment", "split")
 MISSING = {"", "nan", "na", "n/a", "null", "none"}
@@ -45,9 +46,9 @@ def _text_column(name: str, cells: tuple[str, ...], lines: list[int]) -> RawColu
     values = np.empty(len(cells))
     for i, cell in enumerate(cells):
         try:
-            values[i] = np.nan if cell.strip().lower() in MISSING else float(cell if "_" not in cell else "no number")
-        except ValueError:
-            fault = f"column '{name}', row {i + 1} (line {lines[i]}): {cell[:40]!r} is not a number"
+            values[i] = np.nan if cell.strip().lower() in MISSING else number_of(cell)
+        except ValueError as error:
+            fault = f"column '{name}', row {i + 1} (line {lines[i]}): {error}"
             return RawColumn(name, np.array(cells, dtype=str), fault=fault)
     return RawColumn(name, values)
 
@@ -55,31 +56,55 @@ def _text_column(name: str, cells: tuple[str, ...], lines: list[int]) -> RawColu
 def read_excel(path: Path) -> list[RawColumn]:
     """The first sheet of a workbook."""
     library("openpyxl", path)
-    import pandas as pd
 
-    return _of_frame(path, lambda: pd.read_excel(path))
+    def read():
+        import pandas as pd
+
+        refuse_huge_zip(path)
+        return pd.read_excel(path, engine="openpyxl")
+
+    return _of_frame(path, read)
 
 
 def read_parquet(path: Path) -> list[RawColumn]:
     """A Parquet table."""
-    import pandas as pd
 
-    return _of_frame(path, lambda: pd.read_parquet(path).reset_index(allow_duplicates=True))
+    def read():
+        import pandas as pd
+        from pyarrow.parquet import read_metadata
+
+        facts = read_metadata(path)
+        refuse_huge(path, 8 * facts.num_rows * facts.num_columns)
+        return pd.read_parquet(path).reset_index(allow_duplicates=True)
+
+    return _of_frame(path, read)
 
 
 def _of_frame(path: Path, read) -> list[RawColumn]:
     try:
         frame = read()
+    except RecordingError:
+        raise
     except Exception as error:  # many libraries, many kinds of exception
         raise cannot_be_read(path, error) from error
     found = []
-    for name in frame.columns:
+    for place, name in enumerate(frame.columns):
         if str(name) == "index":  # the row numbers that pandas adds
             continue
-        kind = str if name == "split" else float
-        try:
-            found.append(RawColumn(str(name), frame[name].to_numpy(dtype=kind)))
-        except (TypeError, ValueError):
-            text, fault = frame[name].to_numpy(dtype=str), f"column '{name}' holds something that is not a number"
-            found.append(RawColumn(str(name), text, fault=fault))
+        found.append(_frame_column(str(name), frame.iloc[:, place]))
     return found
+
+
+def _frame_column(name: str, column) -> RawColumn:
+    """Numbers, or texts of a split; pandas would also make numbers of dates, durations and texts."""
+    if name == "split":
+        return RawColumn(name, column.to_numpy(dtype=str))
+    try:
+        kind = column.dtype.kind
+        if kind in "mM" or (kind == "O" and any(isinstance(cell, (str, bytes)) for cell in column)):
+            raise ValueError
+        return RawColumn(name, column.to_numpy(dtype=float))
+    except (TypeError, ValueError):
+        return RawColumn(
+            name, column.to_numpy(dtype=str), fault=f"column '{name}' holds something that is not a number"
+        )
