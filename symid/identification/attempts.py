@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp
 from symid.errors import SolveError
 from symid.identification.starts.further import drawn_starts, far, further_starts
 from symid.ipopt_solver import Iteration, SolverResult
+from symid.transcription import BackwardEuler
 
 if TYPE_CHECKING:
     import numpy as np
@@ -75,6 +77,21 @@ class Attempts:
             if self.done:
                 return
 
+    def damped(self, z: np.ndarray) -> None:
+        """From the end of the same problem by backward Euler.
+
+        Of a motion that is far faster than the samples the symmetric schemes keep any error, with alternating sign, and
+        the explicit simulation of a start diverges; backward Euler forgets it within a step (Hairer & Wanner 1996,
+        IV.3).
+        """
+        problem = replace(self.problem, scheme=BackwardEuler())
+        if problem.scheme.name == self.problem.scheme.name:
+            return
+        attempts, t = Attempts(problem, self.on_iteration, self.options), problem.transcription
+        attempts.run(t.start_from(self.t, z), MANY)
+        if attempts.solved:
+            self.run(self.t.start_from(t, attempts.best.z), MANY)
+
     @property
     def solved(self) -> bool:
         return self.best is not None and self.best.solved
@@ -102,6 +119,8 @@ def solve_default(problem: Identification, z: np.ndarray, on_iteration, options:
     try:
         if problem.episodes.count == 1 and not attempts.done:
             attempts.further(z)
+            if not (simulated or attempts.done):
+                attempts.damped(z)
         if simulated and not ended and not attempts.done:
             attempts.run(z, MANY, near=True)
         if not attempts.solved:

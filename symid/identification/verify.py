@@ -1,8 +1,6 @@
 """A solution checked by others than its solver: a finer mesh, an integrator, the optimality conditions.
 
-The integrator is the compiled simulator with steps that are halved until the outputs agree: 0.03 s for 5000 samples.
-SciPy's, which call Python at every step, take more than a second for a thousand samples of a driven model, longer
-than the solve; that they find the same departures is a test.
+The integrator is that of `identification.integrate`.
 """
 
 from __future__ import annotations
@@ -14,10 +12,9 @@ import numpy as np
 
 from symid.errors import SymidError
 from symid.identification.elsewhere import said_of_optimum
+from symid.identification.integrate import Reintegration
 from symid.nlp import OptimalityReport, check_optimality
-from symid.simulation import simulator
 from symid.threads import one_blas_thread
-from symid.transcription.known import input_at
 from symid.units import unit_symbol
 
 if TYPE_CHECKING:
@@ -34,9 +31,6 @@ ROUNDED = 1e-6
 DEPARTS = 0.01
 """Part of the recorded outputs' standard deviation by which an integrated motion may depart from the fitted one, or by
 as much as the fit errs."""
-PIECES, HALVINGS, AGREES = 8, 6, 1e-4
-"""Of a sample interval into pieces, of which the integrator halves its steps until the outputs agree to that part of
-their standard deviation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,56 +111,25 @@ def mesh_error(solution: Solution) -> pd.DataFrame | None:
 
 def integrated(solution: Solution) -> tuple[np.ndarray, ...] | None:
     """See `Verification.departures`."""
-    t, found = solution.transcription, []
     try:
-        loop = simulator(t.model)
-        for e, frame in enumerate(solution.trajectories):
-            y = _integrate(solution, loop, e)
-            fitted = frame[list(t.model.outputs)].to_numpy()
-            found.append(np.nan_to_num(np.abs(y - fitted), nan=np.inf).max(axis=0))
+        again = Reintegration(solution)
+        return tuple(again.departures(e) for e in range(len(solution.trajectories)))
     except SymidError:
         return None
-    return tuple(found)
-
-
-def _integrate(solution: Solution, loop, e: int) -> np.ndarray:
-    """(samples, m) outputs, with steps that are halved until they agree."""
-    t = solution.transcription
-    m, d, parameters = t.measured[t.recording_of[e]], t.program.data[e], t.layout.parameters(solution.result.z)
-    time = m.mesh(PIECES)
-    inputs = {u: np.append(input_at(t.model, t.scheme, m, u, 0.0, PIECES), m.inputs[u][m.last]) for u in m.inputs}
-    if t.scheme.order == 2 and t.layout.refine == 1:  # its mesh sees straight lines
-        inputs |= {u: np.interp(time, m.time, m.inputs[u]) for u in m.inputs if t.model.inputs[u].hold == "smooth"}
-    noise = {w: np.append(np.repeat(x, PIECES), 0.0) for w, x in zip(t.model.noises, d.noise.T, strict=True)}
-    before = slice(0, m.first + 1)
-    history = (m.time[before], m.states[before]) if t.model.delays and m.first else None
-    size, last = np.std(m.targets[m.nodes], axis=0), None
-    for halvings in range(HALVINGS):
-        run = loop.simulate(
-            parameters[t.layout.parameter_index[e]],
-            t.layout.states(solution.result.z, e)[0],
-            time,
-            inputs,
-            noise=noise,
-            history=history,
-            substeps=2**halvings,
-            limit=1e200,
-            keep="outputs",
-        ).y[::PIECES]
-        large = np.maximum(np.maximum(size, np.abs(run)), np.finfo(float).tiny)  # a recording of zeros has no size
-        if last is not None and np.nanmax(np.abs(run - last) / large, initial=0.0) < AGREES:
-            break
-        last = run
-    return run
 
 
 def _departs(solution: Solution, departures) -> bool:
+    return departures is not None and any(
+        np.any(d > allowed) for d, allowed in zip(departures, _allowed(solution), strict=True)
+    )
+
+
+def _allowed(solution: Solution) -> list[np.ndarray]:
+    """Per episode (m,) how far an integrated motion may depart, see `DEPARTS`."""
     t = solution.transcription
     rms = np.array([solution.fit["rms"][name] for name in t.model.outputs])
     size = [np.std(t.measured[r].targets[t.measured[r].nodes], axis=0) for r in t.recording_of]
-    return departures is not None and any(
-        np.any(d > np.maximum(DEPARTS * s, 3 * rms)) for d, s in zip(departures, size, strict=True)
-    )
+    return [np.maximum(DEPARTS * s, 3 * rms) for s in size]
 
 
 def _said_of_departure(solution: Solution, departures) -> str:
@@ -175,11 +138,27 @@ def _said_of_departure(solution: Solution, departures) -> str:
         f"{name} by up to {x:.3g} {unit_symbol(y.unit)}".strip()
         for (name, y), x in zip(solution.model.outputs.items(), worst, strict=True)
     ]
+    followed = _followed(solution)
     return (
         "No integrator reproduces this motion: from the fitted initial state with the fitted parameters it departs "
-        "from the "
-        f"fitted one, {', '.join(parts)}. The model with these parameters is unstable, or the mesh far too coarse"
+        f"from the fitted one, {', '.join(parts)}. "
+    ) + (
+        "Nor does it follow from one sample to the next: the mesh is far too coarse"
+        if followed is None
+        else f"Begun anew every {followed:.3g} s it follows: the motion solves the equations, but the model with these "
+        "parameters is unstable, and small errors grow"
     )
+
+
+def _followed(solution: Solution) -> float | None:
+    """Time [s], halved from the whole, for which an integration from any fitted state follows the fit; or None."""
+    again, allowed, t = Reintegration(solution), _allowed(solution), solution.transcription
+    length = max(m.intervals for m in t.measured) // 2
+    while length:
+        if all(np.all(again.departures(e, length) <= allowed[e]) for e in range(len(allowed))):
+            return length * t.measured[0].step
+        length //= 2
+    return None
 
 
 def _said_of_mesh(solution: Solution, mesh: pd.DataFrame | None) -> list[str]:

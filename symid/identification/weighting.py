@@ -161,20 +161,12 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
         tables = [dict(zip(p.model.outputs, map(float, row), strict=True)) for row in noise]
         problem = replace(p, noise=tables)
         options = {"tol": TIGHT} | (solver.get("options") or {})
-        z = _moved(solution, problem)
+        z = problem.transcription.start_from(solution.transcription, solution.result.z)
         result = problem.solve_from(z, **solver | {"options": options, "near": True})
         if not result.solved or result.objective > LOST * problem.transcription.program.objective(z):
             break
         solution, old = replace(solution, problem=problem, result=result), noise
     return solution
-
-
-def _moved(solution: Solution, problem: Identification) -> np.ndarray:
-    """The solution as a free vector of the problem with other weights, which scale the unknowns otherwise."""
-    old, new, z = solution.transcription.layout, problem.transcription, solution.result.z
-    found = new.layout.fill([old.nodes(z, e) for e in range(len(old.intervals))], old.parameters(z))
-    new.program.settle_late(found)
-    return np.clip(found, new.program.lower, new.program.upper)
 
 
 def _refuse(problem: Identification, what: str, name: str) -> None:

@@ -71,7 +71,15 @@ class Transcription:
         states = [
             self.measured[r].on_mesh(x, self.layout.refine) for r, x in zip(self.recording_of, states, strict=True)
         ]
-        z = self.layout.fill(states, parameters)
+        return self._settled(self.layout.fill(states, parameters))
+
+    def start_from(self, other: Transcription, z: np.ndarray) -> np.ndarray:
+        """The free vector `z` of another problem of the same model, recordings and mesh as one of this problem."""
+        layout = other.layout
+        nodes = [layout.nodes(z, e) for e in range(len(layout.intervals))]
+        return self._settled(self.layout.fill(nodes, layout.parameters(z)))
+
+    def _settled(self, z: np.ndarray) -> np.ndarray:
         self.program.settle_late(z)
         return np.clip(z, self.program.lower, self.program.upper)
 

@@ -1,5 +1,6 @@
 """Solutions that others do not confirm are said to be so: coarse meshes, unstable motions, bounds, bad optima."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from scipy.integrate import solve_ivp
 import symid as si
 from more_systems import lateral_car
 from small_systems import any_pendulum, dc_motor, lotka_volterra, three_links
+from unfamiliar_systems import bicycle, measured, stiff_oscillator, stiff_pair
 from symid.recording import Recording
 
 
@@ -63,6 +65,27 @@ def test_a_motion_that_no_integrator_reproduces_is_said():
     assert solution.solved and solution.values["k"] == pytest.approx(20, abs=0.5)
     assert solution.verification.departs
     assert "No integrator reproduces this motion" in str(solution)
+    assert "the model with these parameters is unstable" in str(solution)
+
+
+def test_an_unstable_motion_that_solves_the_equations_is_told_from_a_coarse_mesh():
+    solution = measured(bicycle, "white", 1).problem().solve(check=False)
+    (said,) = solution.verification.sentences
+    followed = float(re.search(r"Begun anew every ([\d.]+) s it follows", said)[1])
+    assert 1 < followed < 12
+    coarse = swing(2).solve(check=False)
+    assert "Nor does it follow from one sample to the next" in str(coarse.verification)
+
+
+@pytest.mark.parametrize("scheme", [si.Midpoint(), si.HermiteSimpson()], ids=lambda s: s.name)
+@pytest.mark.parametrize("make", [stiff_oscillator, stiff_pair])
+def test_a_stiff_motion_is_integrated_by_an_implicit_method(make, scheme):
+    solution = make(0, scheme).solve(check=False)
+    v = solution.verification
+    assert not v.departs and v.departures[0] == pytest.approx(0, abs=0.005), repr(v)
+    truth = {"mu": 300.0, "a": 1.0, "b": 2.0}
+    table = solution.parameters
+    assert all(abs(table.value[k] - truth[k]) < 4 * table.std_error[k] for k in table.index)
 
 
 @pytest.mark.parametrize("scheme", [si.Midpoint(), si.HermiteSimpson()])
