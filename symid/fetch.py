@@ -11,6 +11,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -31,6 +32,8 @@ RECORD_PAGE = "https://zenodo.org/records/3819630"
 RECORDINGS = ("recording_100hz.csv", "recording_50hz.csv", "body.json")
 SHA256 = "cb5136b4d24d530b82ae7a6d38500f2de6da95965c615c35ffaabadec49a32fa"
 """Of recording_100hz.csv, which holds every number of the two files that were measured, to nine digits."""
+BODY_SHA256 = "c3127b580625e938ecfe72b3b19323db3f6e1a053faf73da70cadb9acc9d1239"
+"""Of body.json as it is made."""
 HEADER = (
     "time_s,ankle_angle_deg,hip_angle_deg,ankle_velocity_deg_s,hip_velocity_deg_s,"
     "platform_position_m,platform_velocity_m_s,platform_acceleration_m_s2"
@@ -68,11 +71,37 @@ def standing(folder: str | Path | None = None) -> Path:
     """
     place = Path(folder or os.environ.get(FOLDER_VARIABLE) or _cache() / "standing_subject05")
     if not all((place / name).is_file() for name in RECORDINGS):
-        files = {name: _found(place, name) or _downloaded(SOURCE + name, place) for name in (ANGLES, SWAY, BODY)}
-        for name, content in prepared(files[ANGLES], files[SWAY], files[BODY]).items():
+        _writable(place)
+        there = {name: _found(place, name) for name in (ANGLES, SWAY, BODY)}
+        files = {name: path or _downloaded(SOURCE + name, place) for name, path in there.items()}
+        try:
+            made = prepared(files[ANGLES], files[SWAY], files[BODY])
+            for name, right in ((RECORDINGS[0], SHA256), (RECORDINGS[2], BODY_SHA256)):
+                if hashlib.sha256(made[name].encode()).hexdigest() != right:
+                    raise RecordingError(f"{place}: what the authors' files hold is not the article's {name} (SHA-256)")
+        except RecordingError as problem:
+            for name, path in there.items():
+                if path is None:
+                    files[name].unlink(missing_ok=True)
+            kept = ", ".join(str(path) for path in there.values() if path is not None)
+            cure = f"remove {kept}, and fetch again" if kept else "what was downloaded is removed; fetch again"
+            raise RecordingError(f"{problem}; {cure}") from None
+        for name, content in made.items():
             write_atomically(place / name, content)
     _compare(place / RECORDINGS[0])
     return place
+
+
+def _writable(place: Path) -> None:
+    """RecordingError where nothing can be put into a folder; made if it is not there."""
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=place):
+            pass
+    except OSError as problem:
+        raise RecordingError(
+            f"{place}: cannot be written to ({problem.strerror}); name another folder with --folder or {FOLDER_VARIABLE}"
+        ) from None
 
 
 def prepared(angles: Path, sway: Path, body: Path) -> dict[str, str]:
@@ -109,7 +138,7 @@ def _numbers(path: Path, columns: int) -> np.ndarray:
     try:
         rows = np.loadtxt(path, ndmin=2)
     except (ValueError, OSError) as problem:
-        raise RecordingError(f"{path}: is no table of numbers: {problem}") from None
+        raise RecordingError(f"{path}: is no table of numbers: {str(problem).rstrip('.')}") from None
     if rows.shape[1] != columns:
         raise RecordingError(f"{path}: has {rows.shape[1]} columns; {columns} are needed")
     return rows
@@ -162,13 +191,14 @@ def standing_raw(folder: str | Path | None = None) -> Path:
         The record or a file cannot be downloaded, or a file is not what was downloaded first.
     """
     place = Path(folder or _cache() / "standing_raw")
+    _writable(place)
     locked = read_json(place / LOCK) if (place / LOCK).is_file() else {}
     for name, url, checksum in _listed(place) if not locked else ((k, "", "") for k in locked):
         path = place / name
-        if not path.is_file():
-            if not url:
-                raise RecordingError(f"{path}: is missing; remove {place / LOCK} to fetch the record anew")
+        if url:  # one that is there already is compared with what the record states
             _retrieved(url, name, checksum, place)
+        elif not path.is_file():
+            raise RecordingError(f"{path}: is missing; remove {place / LOCK} to fetch the record anew")
         if locked.setdefault(name, _sha256(path)) != _sha256(path):
             raise RecordingError(
                 f"{path}: is not what was downloaded first ({LOCK}); remove it and {LOCK} to fetch it anew"

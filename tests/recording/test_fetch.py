@@ -55,8 +55,34 @@ def test_rows_of_the_published_file_give_the_published_rates(tmp_path):
 def test_other_numbers_are_refused(sources):
     path = sources / "unpacked" / fetch.ANGLES
     path.write_text(path.read_text().replace("0.724017108", "0.724017109", 1))
-    with pytest.raises(RecordingError, match="is not the article's recording"):
+    with pytest.raises(RecordingError, match="is not the article's recording_100hz.csv.*remove .*JointsGF0003.txt"):
         fetch.standing(sources)
+    assert path.is_file() and not (sources / "recording_100hz.csv").exists()
+
+
+@pytest.mark.parametrize(("name", "damage"), [(fetch.ANGLES, "<html>please log in</html>"), (fetch.BODY, None)])
+def test_a_damaged_download_is_removed_and_the_next_one_is_right(sources, tmp_path, monkeypatch, name, damage):
+    original = (sources / "unpacked" / name).read_text()
+    (sources / "unpacked" / name).write_text(damage or original.replace("7", "8", 1))
+
+    def delivered(url, place):
+        copy = place / url.rsplit("/", 1)[-1]
+        copy.write_bytes((sources / "unpacked" / url.removeprefix(fetch.SOURCE)).read_bytes())
+        return copy
+
+    monkeypatch.setattr(fetch, "_downloaded", delivered)
+    with pytest.raises(RecordingError, match="what was downloaded is removed"):
+        fetch.standing(tmp_path / "new")
+    assert not list((tmp_path / "new").iterdir())
+    (sources / "unpacked" / name).write_text(original)
+    assert (fetch.standing(tmp_path / "new") / "body.json").is_file()
+
+
+@pytest.mark.parametrize("what", [fetch.standing, fetch.standing_raw])
+def test_a_folder_that_cannot_be_written_to_is_refused_before_the_network_is_asked(tmp_path, what):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(RecordingError, match="file: cannot be written to.*--folder"):
+        what(tmp_path / "file")
 
 
 def test_without_a_network_one_sentence_says_what_to_download_and_where_to_put_it(tmp_path, monkeypatch, capsys):
