@@ -100,7 +100,8 @@ def _writable(place: Path) -> None:
             pass
     except OSError as problem:
         raise RecordingError(
-            f"{place}: cannot be written to ({problem.strerror}); name another folder with --folder or {FOLDER_VARIABLE}"
+            f"{place}: cannot be written to ({problem.strerror}); name another folder with --folder or "
+            f"{FOLDER_VARIABLE}"
         ) from None
 
 

@@ -7,12 +7,13 @@ from symid.recording.prepare import differentiate, fill_gaps, lowpass, rate_name
 from symid.recording.read import read_recording
 from symid.recording.recording import Recording
 from symid.recording.smooth import smooth_states, spline_of
-from symid.recording.spikes import find_spikes
+from symid.recording.spikes import find_dropouts, find_spikes
 
 __all__ = [
     "Recording",
     "differentiate",
     "fill_gaps",
+    "find_dropouts",
     "find_spikes",
     "joint_angles",
     "load_columns",

@@ -1,5 +1,6 @@
 """The cells of a comma-separated file: read fast, and where that fails again, one by one, to say which is at fault."""
 
+import re
 import warnings
 from itertools import islice
 from pathlib import Path
@@ -7,38 +8,45 @@ from pathlib import Path
 import numpy as np
 
 from symid.errors import RecordingError
-from symid.recording.header import Column, file_rows
+from symid.recording.dialect import MISSING, Dialect, dialect_of
+from symid.recording.header import file_rows
+from symid.recording.names import ROW_NUMBERS, Column
 
 NO_WEIGHT = "read with allow_gaps=True (--allow-gaps on the command line), which gives it no weight"
-_MISSING = {"", "nan", "na", "n/a", "null", "none"}
 
 
 def read_table(path: Path, columns: list[Column], allow_gaps: bool) -> dict[str, np.ndarray]:
     """Column name -> shape(N,), as in the file: numbers as float64, split labels as text."""
     import pandas as pd  # here and not at the top: 0.4 s that a mere `import symid` should not pay
 
+    found = dialect_of(path)
     _check_first_row(path, columns)
     if allow_gaps:
         _check_lengths(path, columns)
     kinds = {c.name: str if c.name == "split" else np.float64 for c in columns}
+    above = [line - 1 for line in range(1, max(found.header, found.units) + 1)]
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("error", pd.errors.ParserWarning)
             frame = pd.read_csv(
                 path,
-                header=0,
+                sep=found.mark or r"\s+",
+                decimal=found.decimal,
+                skiprows=above,
+                header=None,
                 names=list(kinds),
                 index_col=False,
                 dtype=kinds,
-                skipinitialspace=True,
-                encoding="utf-8-sig",
+                na_values=sorted(MISSING),
+                skipinitialspace=found.mark != "\t",
+                encoding=found.encoding,
                 **every_digit(pd.__version__),
             )
     except (ValueError, pd.errors.ParserWarning) as error:
-        raise _explained(path, columns, allow_gaps, str(error)) from error
-    table = {name: frame[name].to_numpy() for name in kinds}
+        raise _explained(path, found, columns, allow_gaps, str(error)) from error
+    table = {name: frame[name].to_numpy() for name in kinds if name != ROW_NUMBERS}
     if not _usable(table, allow_gaps):
-        raise _explained(path, columns, allow_gaps, "a value is missing or not finite")
+        raise _explained(path, found, columns, allow_gaps, "a value is missing or not finite")
     return table
 
 
@@ -60,8 +68,12 @@ def _check_lengths(path: Path, columns: list[Column]) -> None:
 
 def _wrong_length(path: Path, row: int, line: int, found: int, expected: int) -> RecordingError:
     return RecordingError(
-        f"{path}: row {row} (line {line}) has {found} cells, the header has {expected}; leave the cell of a missing "
-        f"value empty, but keep its comma"
+        f"{path}: row {row} (line {line}) has {found} cells, the header has {expected}; "
+        + (
+            "decimal commas ask for semicolons between the cells"
+            if found == 2 * expected
+            else "leave the cell of a missing value empty, but keep the mark between the cells"
+        )
     )
 
 
@@ -86,7 +98,7 @@ def _usable(table: dict[str, np.ndarray], allow_gaps: bool) -> bool:
     return True
 
 
-def _explained(path: Path, columns: list[Column], allow_gaps: bool, last_resort: str) -> RecordingError:
+def _explained(path: Path, found: Dialect, columns: list[Column], allow_gaps: bool, last_resort: str) -> RecordingError:
     """A RecordingError for the first cell that cannot be used."""
     rows = file_rows(path)
     next(rows)
@@ -95,26 +107,25 @@ def _explained(path: Path, columns: list[Column], allow_gaps: bool, last_resort:
         if len(cells) != len(columns):
             return _wrong_length(path, row, line, len(cells), len(columns))
         for column, cell in zip(columns, cells, strict=True):
-            fault = _cell_fault(column, cell.strip(), allow_gaps)
+            fault = _cell_fault(found, column, cell, allow_gaps)
             if fault:
                 return RecordingError(f"{path}: column '{column.text}', {place}: {fault}")
     return RecordingError(f"{path}: cannot be read as numbers: {last_resort}")
 
 
-def _cell_fault(column: Column, cell: str, allow_gaps: bool) -> str | None:
-    if cell.lower() in _MISSING:
+def _cell_fault(found: Dialect, column: Column, cell: str, allow_gaps: bool) -> str | None:
+    if cell.lower() in MISSING:
         if allow_gaps and column.unit and column.name != "time":
             return None
-        found = f"'{cell}'" if cell else "nothing"
+        there = f"'{cell}'" if cell else "nothing"
         cure = f"; {NO_WEIGHT}" if column.unit else ""
-        return f"a value is missing (found {found}){cure if column.name != 'time' else ''}"
+        return f"a value is missing (found {there}){cure if column.name != 'time' else ''}"
     if column.name == "split":
         return None
     try:
-        # Python alone would also take 1_000 and the digits of other scripts for numbers.
-        value = float(cell if cell.isascii() and "_" not in cell else "no number")
+        value = found.number(cell)
     except ValueError:
-        return f"{_shown(cell)} is not a number"
+        return f"{_shown(cell)} is not a number{_marks_in(cell, found.decimal)}"
     if not np.isfinite(value):
         return f"{_shown(cell)} is not finite"
     if column.name == "segment" and (value != round(value) or abs(value) >= 2**53):
@@ -125,3 +136,14 @@ def _cell_fault(column: Column, cell: str, allow_gaps: bool) -> str | None:
 def _shown(cell: str) -> str:
     """A cell in quotes, on one line and not too long."""
     return repr(cell if len(cell) <= 40 else cell[:37] + "...")
+
+
+def _marks_in(cell: str, decimal: str) -> str:
+    """What to do about a number that is written otherwise than the rest of the file."""
+    if re.fullmatch(r"[+-]?\d{1,3}([.,' \xa0]\d{3})+([.,]\d+)?", cell):
+        return "; write it without a mark between thousands"
+    if re.fullmatch(r"[+-]?\d+[.,]\d+", cell):
+        return f"; the file's decimal mark is '{decimal}'"
+    if cell[:1] in "\u2212\u2013\u2012":
+        return "; its minus is no hyphen (-)"
+    return "" if re.search(r"\d", cell) else "; leave the cell of a missing value empty"

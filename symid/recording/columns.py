@@ -11,12 +11,10 @@ import numpy as np
 
 from symid import checked
 from symid.errors import RecordingError, SymidError
-from symid.recording.header import LABELS, Column, contradictions, measured_column
+from symid.recording.header import MAP_THEM, MOST_NAMED, no_time
+from symid.recording.names import LABELS, Column, contradictions, measured_column, unit_of
 from symid.recording.readers.raw import RawColumn
-from symid.units import known_unit, nearest
-
-MOST_NAMED = 12
-"""Columns that a message lists."""
+from symid.units import column_name, nearest
 
 
 def load_columns(source: Mapping[str, str] | str | os.PathLike) -> dict[str, str]:
@@ -64,51 +62,110 @@ def mapped(path: Path, raw: list[RawColumn], mapping: Mapping[str, str]) -> tupl
             raise RecordingError(f"{path}: {found.fault}")
         try:
             column = Column(ours, ours, None) if ours in LABELS else measured_column(ours)
+            if column.unit:
+                _agrees(column, found)
         except SymidError as error:
             problems.append(str(error))
             continue
         columns.append(column)
         table[column.name] = sign * found.values if sign < 0 else found.values
-    return _checked(path, columns, problems), table
+    sizes = {name: len(values) for name, values in table.items()}
+    if len(set(sizes.values())) > 1:
+        problems.append("columns have different numbers of values: " + ", ".join(f"{k} {n}" for k, n in sizes.items()))
+    return _checked(path, columns, problems, raw), table
 
 
-def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str, np.ndarray]]:
-    """All columns: those with a unit in the file under their own name, the others by the unit that ends their names."""
+def _agrees(ours: Column, theirs: RawColumn) -> None:
+    """RecordingError where a mapping and the file state two units of one kind, such as mm and m."""
+    try:
+        stated = unit_of(theirs.unit) if theirs.unit else measured_column(theirs.text).unit
+    except SymidError:
+        return
+    if stated and ours.unit and stated.si == ours.unit.si and stated.factor != ours.unit.factor:
+        raise RecordingError(
+            f"'{ours.text}' would be in {ours.unit.text}, but the file has '{theirs.text}' in {stated.text}; "
+            f"call it {column_name(ours.name, stated.text)}"
+        )
+
+
+def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str, np.ndarray], list[str]]:
+    """All columns: those with a unit in the file under their own name, the others by the unit that ends their names;
+    and what is left out, because its unit is not told or it has another number of values.
+    """
     columns, table, problems = [], {}, []
+    every = _without_stem(raw)
+    raw = _of_one_length(path, every)
     for c in raw:
-        if c.fault:
-            raise RecordingError(f"{path}: {c.fault}; a mapping of columns may leave it out")
         try:
             column = _column(c)
         except SymidError as error:
             problems.append(str(error))
             continue
+        if c.fault:
+            raise RecordingError(f"{path}: {c.fault}; a mapping of columns may leave it out")
         columns.append(column)
         table[column.name] = c.values
-    if problems and not any(c.unit for c in raw):
+    measured = any(c.unit and c.name != "time" for c in columns)
+    if problems and not (measured and any(c.unit for c in raw)):
         problems = [
             *problems[:3],
             *([f"and {len(problems) - 3} more columns"] if problems[3:] else []),
-            "or map the columns: read_recording(columns=...), --columns MAP.toml",
+            *([] if any(c.name == "time" for c in columns) else [no_time([c.text for c in raw])]),
+            MAP_THEM,
         ]
     elif problems:
         problems = []  # a file that states units may hold columns of other kinds, which are left out
-    return _checked(path, columns, problems), table
+    used = {c.text for c in columns} | {"_".join(c.text.split()) for c in columns}
+    left = [c.text for c in every if c.text not in used and "_".join(c.text.split()) not in used]
+    return _checked(path, columns, problems, raw), table, left
+
+
+def _without_stem(raw: list[RawColumn]) -> list[RawColumn]:
+    """Columns of one structure or group, such as ``trial_time_s`` and ``trial_angle_deg``, without its name."""
+    stem = os.path.commonprefix([c.text for c in raw]).rpartition("_")[0]
+    bare = [c._replace(text=c.text[len(stem) + 1 :]) for c in raw] if stem and len(raw) > 1 else raw
+    return bare if any(_is_time(c) for c in bare) else raw
+
+
+def _of_one_length(path: Path, raw: list[RawColumn]) -> list[RawColumn]:
+    """The columns that are as long as the time: the samples, and no settings."""
+    lengths = {len(c.values) for c in raw}
+    times = {len(c.values) for c in raw if _is_time(c)}
+    if len(lengths) > 1 and not times:
+        told = ", ".join(f"{c.text} {len(c.values)}" for c in raw[:MOST_NAMED])
+        raise RecordingError(
+            f"{path}: columns have different numbers of values ({told}), and none is time_s; {MAP_THEM}"
+        )
+    return [c for c in raw if not times or len(c.values) in times]
+
+
+def _is_time(c: RawColumn) -> bool:
+    try:
+        return not c.fault and _column(c).name == "time"
+    except SymidError:
+        return False
 
 
 def _column(c: RawColumn) -> Column:
     name = "_".join(c.text.split())
     if name in LABELS:
         return Column(name, name, None)
-    if name.lower() in ("time", "time_s"):
-        return Column(c.text, "time", known_unit(c.unit or "s"))
-    return measured_column(name) if c.unit is None else Column(c.text, name, known_unit(c.unit))
+    if c.unit is not None:
+        unit = unit_of(c.unit)
+        is_time = name.lower() in ("t", "time", "time_s") and unit.si == "s"
+        return Column(c.text, "time" if is_time else name, unit)
+    try:
+        return measured_column(c.text)
+    except SymidError:
+        if name == c.text:
+            raise
+        return measured_column(name)
 
 
-def _checked(path: Path, columns: list[Column], problems: list[str]) -> list[Column]:
+def _checked(path: Path, columns: list[Column], problems: list[str], raw: list[RawColumn]) -> list[Column]:
     problems = [*problems, *contradictions(columns)]
     if not any(c.name == "time" for c in columns) and not problems:
-        problems.append("there is no time column (time_s)")
+        problems.append(no_time([c.text for c in raw]))
     if not any(c.unit and c.name != "time" for c in columns) and not problems:
         problems.append("there is no channel besides time")
     if problems:

@@ -11,9 +11,10 @@ import numpy as np
 from symid import checked
 from symid.errors import RecordingError, RecordingWarning
 from symid.recording.cells import NO_WEIGHT, read_table
-from symid.recording.header import Column, file_rows, read_header, require_file
+from symid.recording.header import file_rows, is_dated, read_header, require_file
+from symid.recording.names import CELSIUS, Column
 from symid.recording.recording import Recording
-from symid.recording.spikes import find_spikes
+from symid.recording.spikes import find_dropouts, find_spikes
 from symid.recording.timing import on_grid, time_fault
 from symid.units import FloatArray
 
@@ -37,18 +38,18 @@ def read_recording(
 ) -> Recording:
     """Read a recording into SI, from a file whose ending says what it is.
 
-    ========================== ==================================================================
-    .csv, .tsv, .txt           one row a sample, a header of names that end in units
-    .xlsx, .parquet            likewise
+    ========================== ============================================================================
+    .csv, .tsv, .txt           one row a sample below a line of names; marks, decimals and encoding are found
+    .xlsx, .parquet            likewise; the first sheet that holds a table
     .c3d, .trc                 markers, as ``<marker>_x`` in m, and analog channels
     .mot, .sto                 tables of OpenSim
-    .mat, .h5, .hdf5           vectors and columns of matrices, by the names they have
-    ========================== ==================================================================
+    .mat, .h5, .hdf5           vectors and columns of matrices, as long as the time, by the names they have
+    ========================== ============================================================================
 
-    Columns are named ``<name>_<unit>``, such as ``ankle_angle_deg``; the channel is then called
-    ``ankle_angle`` and is in rad. Columns ``segment`` (whole numbers) and ``split`` (words) part
-    the rows into separate runs, each with its own evenly spaced time. Where a file has other names,
-    `columns` says which is which; the others are left out.
+    Columns are named ``<name>_<unit>``, such as ``ankle_angle_deg`` (or ``ankle angle [deg]``, or with a line of units
+    below the names); the channel is then called ``ankle_angle`` and is in rad. Columns ``segment`` (whole numbers) and
+    ``split`` (words) part the rows into separate runs, each with its own evenly spaced time. Where a file has other
+    names, `columns` says which is which; the others are left out.
 
     Parameters
     ----------
@@ -65,19 +66,22 @@ def read_recording(
     Warns
     -----
     RecordingWarning
-        For single samples that stand out (by row).
+        For single samples that stand out, and runs of one value that stands for none (by row).
 
     Examples
     --------
     >>> read_recording("walk.csv", columns={"time_s": "t", "hip_angle_deg": "Hip"})  # doctest: +SKIP
     """
     path = checked.path(path, "read_recording", RecordingError)
-    if columns is None and not _has_reader(path):
+    left: list[str] = []
+    if columns is None and not _has_reader(path) and not is_dated(path):
         found = read_header(path)
         table = read_table(path, found, allow_gaps)
     else:
-        found, table = _read_other(path, columns, allow_gaps)
+        found, table, left = _read_other(path, columns, allow_gaps)
     recording = _assemble(path, found, table, allow_gaps)
+    if left:
+        recording = recording.noted(f"left out, their unit or length is another: {', '.join(left)}")
     remarks = _spike_remarks(path, found, recording)
     for remark in remarks:
         warnings.warn(remark, RecordingWarning, stacklevel=2)
@@ -92,8 +96,8 @@ def _has_reader(path: Path) -> bool:
     return path.suffix.lower() in READERS
 
 
-def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column], dict[str, np.ndarray]]:
-    """Columns and values of a file with names of its own, or in a format of its own."""
+def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column], dict[str, np.ndarray], list[str]]:
+    """Columns and values of a file with names of its own, or in a format of its own; and names that are left out."""
     from symid.recording.columns import load_columns, mapped, own_names
     from symid.recording.readers import READERS
 
@@ -103,7 +107,7 @@ def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column
         raise RecordingError(f"{path}: files that end in '{path.suffix}' are not read; known: {', '.join(READERS)}")
     require_file(path)
     raw = reader(path)
-    columns, table = own_names(path, raw) if chosen is None else mapped(path, raw, chosen)
+    columns, table, left = own_names(path, raw) if chosen is None else (*mapped(path, raw, chosen), [])
     for column in columns:
         values = table[column.name]
         wrong: Any = np.flatnonzero(~np.isfinite(values)) if column.name != "split" else []
@@ -114,7 +118,7 @@ def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column
             )
     if table["time"].size < 2:
         raise RecordingError(f"{path}: a recording needs at least two samples")
-    return columns, table
+    return columns, table, left
 
 
 def _assemble(path: Path, columns: list[Column], table: dict[str, np.ndarray], allow_gaps: bool) -> Recording:
@@ -122,7 +126,10 @@ def _assemble(path: Path, columns: list[Column], table: dict[str, np.ndarray], a
     units = {c.name: c.unit for c in columns if c.unit}
     history = [f"read {path.name}: {table['time'].size} samples"]
     for name, unit in units.items():
-        if unit.text != unit.si:
+        if unit.text == "degC":
+            history.append(f"{name} converted from degC to K: + {CELSIUS:g}")
+            table[name] = table[name] + CELSIUS
+        elif unit.text != unit.si:
             history.append(f"{name} converted from {unit.text} to {unit.si}: x {unit.factor:.9g}")
             table[name] = table[name] * unit.factor
     text = next(column.text for column in columns if column.name == "time")
@@ -187,9 +194,25 @@ def _place(path: Path, row: int, more: str = "") -> str:
 
 
 def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> list[str]:
+    """What stands out in the channels, by row."""
     texts = {column.name: column.text for column in columns}
     remarks = []
+
+    def shown(name: str, *values: float) -> tuple[str, ...]:  # as they stand in the file
+        unit = next(c.unit for c in columns if c.name == name and c.unit)
+        zero = CELSIUS if unit.text == "degC" else 0.0
+        return (*(f"{(value - zero) / unit.factor:.4g}" for value in values), unit.text)
+
     for name, values in recording.channels.items():
+        gone = [(run.start + d.start, run.start + d.stop) for run in recording.runs for d in find_dropouts(values[run])]
+        if gone:
+            first, last = gone[0]
+            more = f", and at {len(gone) - 1} more places" if gone[1:] else ""
+            remarks.append(
+                f"{path}: column '{texts[name]}', {_place(path, first + 1, f'time {recording.time[first]:g} s')} to "
+                f"row {last}{more}: jumps to {' '.join(shown(name, values[first]))} and back, as where a value "
+                "is missing; leave such cells empty and read with allow_gaps=True (--allow-gaps)"
+            )
         spikes = [
             (float(ratio), run.start + int(i))
             for run in recording.runs
@@ -200,11 +223,11 @@ def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> l
             others = sorted(i + 1 for _, i in spikes if i != worst)
             more = f"; likewise row {', '.join(map(str, others[:5]))}" if others else ""
             more += f" and {len(others) - 5} more" if others[5:] else ""
+            there, before, after, unit = shown(name, *values[[worst, worst - 1, worst + 1]])
             remarks.append(
                 f"{path}: column '{texts[name]}', "
                 f"{_place(path, worst + 1, f'time {recording.time[worst]:g} s')}: "
-                f"{values[worst]:.4g} {recording.units[name]} stands out between "
-                f"{values[worst - 1]:.4g} and {values[worst + 1]:.4g}, {ratio:.0f} times more "
+                f"{there} {unit} stands out between {before} and {after}, {ratio:.0f} times more "
                 f"than is usual there{more}; keep it out of the window, or correct it"
             )
     return remarks

@@ -1,4 +1,4 @@
-"""Single samples that stand out from both of their neighbours."""
+"""Samples that stand out from both of their neighbours: single ones, and runs of one value that stands for none."""
 
 import numpy as np
 
@@ -10,6 +10,8 @@ SPIKE_RATIO = 5.0
 Over 40 channels of standing people and swinging pendulums, filtered and raw, the largest ratio
 of an honest sample was 2.2; the one odd sample known there had 45.
 """
+DROPOUT_RATIO = 10.0
+"""A run of one value is a dropout where it lies this many times farther away than nine of ten steps elsewhere go."""
 _REACH = 12  # samples to either side that count as around it
 
 
@@ -47,6 +49,35 @@ def find_spikes(values: FloatArray) -> tuple[IntArray, FloatArray]:
             index.append(i + 1)
             ratio.append(over)
     return np.array(index, dtype=np.int64), np.array(ratio)
+
+
+def find_dropouts(values: FloatArray) -> list[slice]:
+    """Runs of two samples or more of one value, such as 0 or -999, that a moving channel jumps to and back from.
+
+    A channel that is held as often as it moves (a valve, a command, the steps of an encoder) has none.
+
+    Parameters
+    ----------
+    values : shape(N,), any unit
+    """
+    steps = np.diff(values)
+    held = steps == 0
+    if held.mean() > 0.5 or not np.isfinite(steps).all():
+        return []
+    edges = np.flatnonzero(np.diff(np.r_[False, held, False]))
+    runs = [slice(int(a), int(b) + 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+    inner = [run for run in runs if run.start > 0 and run.stop < values.size]
+    jumps = np.array([i for run in inner for i in (run.start - 1, run.stop - 1)], dtype=int)
+
+    def away(run: slice) -> float:
+        return float(min(abs(steps[run.start - 1]), abs(steps[run.stop - 1])))
+
+    usual = float(np.quantile(np.abs(np.delete(steps, jumps)), 0.9)) if steps.size > jumps.size else np.inf
+    return [
+        run
+        for run in inner
+        if away(run) > DROPOUT_RATIO * usual and abs(values[run.stop] - values[run.start - 1]) < away(run) / 2
+    ]
 
 
 def _smallest_step(steps: FloatArray) -> float:

@@ -54,8 +54,8 @@ def split_column_name(column: str) -> tuple[str, str]:
         if built and name:
             return name, built
     raise RecordingError(
-        f"column '{column}' does not end in a known unit; {_nearest_suffixes(words)}. "
-        f"A column is named <name>_<unit>, for example ankle_angle_deg; unusual units as in loss_W_per_K"
+        f"column '{column}' does not end in a known unit{_nearest_suffixes(words)}; "
+        f"a column is named as ankle_angle_deg, loss_W_per_K or 'Time [h]'"
     )
 
 
@@ -124,6 +124,4 @@ def _meaning_of_g(column: str, name: str) -> str:
 def _nearest_suffixes(words: list[str]) -> str:
     endings = ["_".join(words[start:]) for start in range(1, len(words))] or words
     close = [match for ending in endings for match in nearest(ending, known_suffixes())]
-    if close:
-        return f"nearest known units: {', '.join(dict.fromkeys(close))}"
-    return f"known units: {', '.join(known_suffixes())}"
+    return f" (nearest known units: {', '.join(dict.fromkeys(close))})" if close else ""

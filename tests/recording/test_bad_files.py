@@ -41,8 +41,6 @@ BAD_FILES = {
         "'ankle_angle_m' is in m, but angle is measured in rad or a multiple",
     ),
     "ambiguous_g": (csv_text(GOOD, "time_s,weight_g"), "gram or standard gravity"),
-    "semicolons": ("time_s;a_deg\n0;1\n", "separated by semicolons; commas are expected"),
-    "tabs": ("time_s\ta_deg\n0\t1\n", "separated by tabs"),
     "text_cell": (spoilt(7, "0.06,oops"), "column 'ankle_angle_deg', row 7 \\(line 8\\): 'oops' is not a number"),
     "true_and_false": (
         csv_text(["0,True", "1,False"]),
@@ -101,7 +99,7 @@ def test_a_bad_file_ends_in_one_clear_sentence(tmp_path, kind):
 
 
 def test_all_faults_of_a_header_are_told_at_once(tmp_path):
-    path = written(tmp_path, csv_text(["0,1,2,3"], "t_s,a_rad,a_rad,b_foo"))
+    path = written(tmp_path, csv_text(["0,1,2,3"], "tt_s,a_rad,a_rad,b_foo"))
     with pytest.raises(RecordingError) as caught:
         read_recording(path)
     for part in ("'a_rad' occurs twice", "'b_foo' does not end", "no time column"):

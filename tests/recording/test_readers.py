@@ -188,7 +188,7 @@ def test_a_mapping_that_does_not_fit_is_refused(tmp_path, mapping, message):
         read_recording(tmp_path / "own.csv", columns=mapping)
 
 
-@pytest.mark.parametrize("ending", ["xlsx", "parquet", "c3d", "trc", "mot", "sto", "mat", "h5", "tsv"])
+@pytest.mark.parametrize("ending", ["xlsx", "parquet", "c3d", "trc", "mot", "sto", "mat", "h5"])
 @pytest.mark.parametrize("content", [b"", b"\xff\xfe\x00garbage" * 40, b"time_s,ankle_angle_deg\n0,1\n0.1,2\n"])
 def test_what_is_no_such_file_ends_in_one_sentence(tmp_path, ending, content):
     path = tmp_path / f"r.{ending}"

@@ -107,7 +107,7 @@ def test_a_column_name_is_found_for_a_unit_in_other_order():
     [
         ("ankle_angle_degrees", "'ankle_angle_degrees' does not end in a known unit.*deg"),
         ("ankle_angle_rads", "nearest known units: .*rad"),
-        ("ankle_angle", "known units: .*rad"),
+        ("ankle_angle", "'ankle_angle' does not end in a known unit; a column is named as ankle_angle_deg"),
         ("deg", "does not end in a known unit"),
         ("_deg", "does not end in a known unit"),
         ("weight_g", "gram or standard gravity"),

@@ -6,11 +6,11 @@ from pathlib import Path
 
 from symid.errors import RecordingError
 from symid.recording.readers.limits import refuse_elsewhere
-from symid.recording.readers.raw import RawColumn, cannot_be_read, columns_of, library, longest_of
+from symid.recording.readers.raw import RawColumn, cannot_be_read, columns_of, library
 
 
 def read_hdf5(path: Path) -> list[RawColumn]:
-    """Vectors, and columns of matrices, as long as the longest; ``group/name`` is called ``group_name``.
+    """Vectors, and columns of matrices; ``group/name`` is called ``group_name``.
 
     What is reached by links within the file is not followed, and links to other files are refused.
     """
@@ -30,7 +30,7 @@ def read_hdf5(path: Path) -> list[RawColumn]:
         raise
     except Exception as error:  # of a damaged file it raises whatever it stumbles over
         raise cannot_be_read(path, error) from error
-    return longest_of(found)
+    return found
 
 
 def _of_matlab(name: str, node) -> bool:

@@ -8,12 +8,12 @@ from pathlib import Path
 from symid.errors import RecordingError
 from symid.recording.readers.hdf5 import read_hdf5
 from symid.recording.readers.limits import refuse_huge_mat
-from symid.recording.readers.raw import RawColumn, cannot_be_read, columns_of, longest_of
+from symid.recording.readers.raw import RawColumn, cannot_be_read, columns_of
 
 
 def read_mat(path: Path) -> list[RawColumn]:
-    """Every vector, and every column of a matrix (``name_1``, ``name_2`` ...), as long as the longest; fields of
-    structures are called ``structure_field``."""
+    """Every vector, and every column of a matrix (``name_1``, ``name_2`` ...); fields of structures are called
+    ``structure_field``."""
     from scipy.io import loadmat
 
     try:
@@ -25,7 +25,7 @@ def read_mat(path: Path) -> list[RawColumn]:
         raise
     except Exception as error:  # of a damaged file it raises whatever it stumbles over
         raise cannot_be_read(path, error) from error
-    return longest_of(_vectors(content))
+    return list(_vectors(content))
 
 
 def _vectors(content: Mapping, prefix: str = "") -> Iterator[RawColumn]:

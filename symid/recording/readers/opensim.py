@@ -36,21 +36,30 @@ def read_storage(path: Path) -> list[RawColumn]:
     end = next((i for i, line in enumerate(lines) if line.strip().lower() == "endheader"), None)
     if end is None or end + 1 >= len(lines):
         raise RecordingError(f"{path}: is not a MOT or STO file: it has no line 'endheader'")
-    angle = "deg" if any(re.fullmatch(r"indegrees\s*=\s*yes", x.strip().lower()) for x in lines[:end]) else "rad"
+    angle = _angle_unit(lines[:end])
     names = lines[end + 1].split()
     table = _numbers(path, lines, end + 2, names, None)
     return [RawColumn(name, table[:, i], _unit(name, angle)) for i, name in enumerate(names)]
 
 
-def _unit(name: str, angle: str) -> str:
+def _angle_unit(head: list[str]) -> str | None:
+    """Unit of what is called by a coordinate's name alone: an angle in files of coordinates, else not told."""
+    told = [line.strip().lower() for line in head]
+    if any(re.fullmatch(r"indegrees\s*=\s*yes", line) for line in told):
+        return "deg"
+    return "rad" if any(line.startswith(("coordinates", "states")) for line in told) else None
+
+
+def _unit(name: str, angle: str | None) -> str | None:
     kinds = (
         (r"time", "s"),
         (r".*_[tp][xyz](/value)?", "m"),
         (r".*_[tp][xyz](/speed|_u)", "m/s"),
-        (r".*/speed|.*_u", f"{angle}/s"),
+        (r".*/value", angle or "rad"),
+        (r".*/speed|.*_u", f"{angle or 'rad'}/s"),
         (r".*(activation|excitation|normalized_\w+)", "1"),
         (r".*fiber_length", "m"),
-        (r".*force.*_v[xyz]", "N"),
+        (r".*force.*_v[xyz]|.*_force", "N"),
         (r".*(torque|moment).*", "N*m"),
     )
     return next((unit for pattern, unit in kinds if re.fullmatch(pattern, name.lower())), angle)
@@ -58,11 +67,15 @@ def _unit(name: str, angle: str) -> str:
 
 def _lines(path: Path) -> list[str]:
     try:
-        return path.read_text(encoding="utf-8-sig").splitlines()
+        raw = path.read_bytes()
     except OSError as error:
         raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
-    except UnicodeDecodeError:
-        raise RecordingError(f"{path}: is not a text file") from None
+    for encoding in ("utf-8-sig", "cp1252"):  # the second for names only, numbers are the same in both
+        try:
+            return raw.decode(encoding).splitlines()
+        except UnicodeDecodeError:
+            continue
+    raise RecordingError(f"{path}: is not a text file")
 
 
 def _numbers(path: Path, lines: list[str], start: int, names: list[str], mark: str | None) -> np.ndarray:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from symid.errors import RecordingError
+from symid.units import split_column_name
 
 
 class RawColumn(NamedTuple):
@@ -47,20 +48,17 @@ def number_of(cell: str) -> float:
         raise ValueError(f"{cell[:40]!r} is not a number") from None
 
 
-def longest_of(columns: Iterator[RawColumn] | list[RawColumn]) -> list[RawColumn]:
-    """The columns that have as many values as the one that has most: the samples, and no settings."""
-    columns = list(columns)
-    most = max((c.values.size for c in columns), default=0)
-    return [c for c in columns if c.values.size == most]
-
-
 def columns_of(name: str, values, unit: str | None = None) -> Iterator[RawColumn]:
-    """A vector, or the columns of a matrix with more rows than columns, or its rows."""
+    """A vector, or the columns of a matrix with more rows than columns, or its rows: of ``q_deg`` ``q_1_deg`` ..."""
     array = np.squeeze(np.asarray(values))
-    if array.dtype.kind not in "fiu" or array.ndim not in (1, 2):
+    if array.dtype.kind not in "fiu" or array.ndim not in (1, 2) or array.size < 2:
         return
     if array.ndim == 1:
         yield RawColumn(name, array.astype(float), unit)
         return
+    try:
+        stem = split_column_name(name)[0]
+    except RecordingError:
+        stem = name
     for i, row in enumerate(array if array.shape[0] < array.shape[1] else array.T, 1):
-        yield RawColumn(f"{name}_{i}", row.astype(float), unit)
+        yield RawColumn(f"{stem}_{i}{name.removeprefix(stem)}", row.astype(float), unit)

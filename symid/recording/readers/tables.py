@@ -2,109 +2,159 @@
 
 from __future__ import annotations
 
-import csv
+import re
+from datetime import date, datetime, time, timedelta
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from symid.errors import RecordingError
+from symid.recording.dialect import MISSING, Dialect, are_units, bare, best_header, dialect_of
+from symid.recording.header import DATED, faults_of_text
+from symid.recording.names import LABELS
 from symid.recording.readers.limits import refuse_huge, refuse_huge_zip
-from symid.recording.readers.raw import RawColumn, cannot_be_read, library, number_of
-
-LABELS = ("segment", "split")
-MISSING = {"", "nan", "na", "n/a", "null", "none"}
+from symid.recording.readers.raw import RawColumn, cannot_be_read, library
 
 
 def read_delimited(path: Path) -> list[RawColumn]:
-    """Text with commas, semicolons or tabs between the cells, whichever the first line has most of."""
-    try:
-        with open(path, newline="", encoding="utf-8-sig") as file:
-            first = file.readline()
-            mark = max(",;\t", key=first.count) if path.suffix != ".tsv" else "\t"
-            file.seek(0)
-            reader = csv.reader(file, delimiter=mark, skipinitialspace=mark != "\t")
-            rows = [(reader.line_num, cells) for cells in reader if any(cell.strip() for cell in cells)]
-    except OSError as error:
-        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise RecordingError(f"{path}: is not a text file of separated values") from error
-    if len(rows) < 2:
+    """Text, its cells parted by whatever makes them numbers: see `symid.recording.dialect`."""
+    with faults_of_text(path):
+        found = dialect_of(path)
+        rows = list(found.rows(path))
+    if not rows:
         raise RecordingError(f"{path}: a header and at least one row of samples are expected")
-    names, samples = [name.strip() for name in rows[0][1]], rows[1:]
-    for row, (line, cells) in enumerate(samples, 1):
-        if len(cells) != len(names):
-            raise RecordingError(f"{path}: row {row} (line {line}) has {len(cells)} cells, the header has {len(names)}")
-    columns = zip(*(cells for _, cells in samples), strict=True)
+    width = len(found.names)
+    for row, (line, cells) in enumerate(rows, 1):
+        if len(cells) == width + 1 and not cells[-1]:
+            cells.pop()
+        if len(cells) != width:
+            raise RecordingError(f"{path}: row {row} (line {line}) has {len(cells)} cells, the header has {width}")
+    lines = [line for line, _ in rows]
     return [
-        _text_column(name, cells, [line for line, _ in samples]) for name, cells in zip(names, columns, strict=True)
+        _text_column(found, name, bare(unit) or None, [cells[i] for _, cells in rows], lines)
+        for i, (name, unit) in enumerate(zip(found.names, found.unit_texts, strict=True))
     ]
 
 
-def _text_column(name: str, cells: tuple[str, ...], lines: list[int]) -> RawColumn:
+def _text_column(found: Dialect, name: str, unit: str | None, cells: list[str], lines: list[int]) -> RawColumn:
     if name in LABELS[1:]:
         return RawColumn(name, np.array(cells, dtype=str))
     values = np.empty(len(cells))
     for i, cell in enumerate(cells):
         try:
-            values[i] = np.nan if cell.strip().lower() in MISSING else number_of(cell)
-        except ValueError as error:
-            fault = f"column '{name}', row {i + 1} (line {lines[i]}): {error}"
-            return RawColumn(name, np.array(cells, dtype=str), fault=fault)
-    return RawColumn(name, values)
+            values[i] = np.nan if cell.lower() in MISSING else found.number(cell)
+        except ValueError:
+            dated = _from_dates(name, cells)
+            if dated is not None:
+                return dated
+            fault = f"column '{name}', row {i + 1} (line {lines[i]}): {cell[:40]!r} is not a number"
+            return RawColumn(name, np.array(cells, dtype=str), unit, fault)
+    return RawColumn(name, values, unit)
+
+
+def _from_dates(name: str, cells: Any) -> RawColumn | None:
+    """Seconds since the first of dates and times of day (in text: of ISO 8601, others could be read in two ways)."""
+    import pandas as pd
+
+    if name.lower() not in DATED:
+        return None
+    try:
+        times = pd.to_datetime(pd.Series(cells), format="ISO8601", utc=True)
+    except (ValueError, TypeError):
+        return None
+    return RawColumn("time", (times - times.iloc[0]).dt.total_seconds().to_numpy(dtype=float), "s")
 
 
 def read_excel(path: Path) -> list[RawColumn]:
-    """The first sheet of a workbook."""
+    """The first sheet of a workbook that holds a table of numbers; what stands above its names is left out."""
     library("openpyxl", path)
+    import pandas as pd
 
-    def read():
-        import pandas as pd
-
+    try:
         refuse_huge_zip(path)
-        return pd.read_excel(path, engine="openpyxl")
+        sheets = pd.read_excel(path, sheet_name=None, header=None, dtype=object, engine="openpyxl")
+    except RecordingError:
+        raise
+    except Exception as error:  # many libraries, many kinds of exception
+        raise cannot_be_read(path, error) from error
+    found: list[RawColumn] = []
+    for sheet in sheets.values():
+        rows = [list(row) for row in sheet.dropna(how="all").dropna(axis=1, how="all").itertuples(index=False)]
+        texts = [["" if cell is None or cell != cell else str(cell).strip() for cell in row] for row in rows]
+        place = best_header(texts) if len(rows) > 1 else None
+        if place is None:
+            continue
+        with_units = are_units(texts[place + 1]) if place + 1 < len(rows) else False
+        first = place + 1 + with_units
+        units = [bare(text) or None for text in texts[place + 1]] if with_units else [None] * len(rows[place])
+        columns = zip(texts[place], units, zip(*rows[first:], strict=True), strict=False)
+        found = [_typed_column(name, unit, cells) for name, unit, cells in columns]
+        if sum(not c.fault for c in found) > 1:
+            return found
+    if found:  # the last, whose faults are told
+        return found
+    raise RecordingError(f"{path}: no sheet holds a table: one row of names, and below it one row a sample")
 
-    return _of_frame(path, read)
+
+def _typed_column(name: str, unit: str | None, cells: tuple) -> RawColumn:
+    """Of cells as a workbook types them: numbers, dates, times of day, text."""
+    given = [c for c in cells if c is not None and c == c]
+    if name == "split":
+        return RawColumn(name, np.array(cells, dtype=str))
+    if given and all(isinstance(c, date | datetime) for c in given):
+        dated = _from_dates(name, cells)
+        return dated or RawColumn(name, np.array(cells, dtype=str), unit, f"column '{name}' holds dates")
+    if given and all(isinstance(c, time | timedelta) for c in given):
+        return RawColumn(re.sub(r"\s*[\[(].*", "", name), np.array([_seconds(c) for c in cells]), "s")
+    values = np.empty(len(cells))
+    for i, cell in enumerate(cells):
+        missing = cell is None or (isinstance(cell, str) and cell.strip().lower() in MISSING)
+        if not missing and (isinstance(cell, str | bool) or not isinstance(cell, int | float)):
+            fault = f"column '{name}', row {i + 1}: {str(cell)[:40]!r} is not a number"
+            return RawColumn(name, np.array(cells, dtype=str), unit, fault)
+        values[i] = np.nan if missing else float(cell)
+    return RawColumn(name, values, unit)
+
+
+def _seconds(cell: Any) -> float:
+    if isinstance(cell, time):
+        return 3600.0 * cell.hour + 60.0 * cell.minute + cell.second + 1e-6 * cell.microsecond
+    return float(cell.total_seconds())
 
 
 def read_parquet(path: Path) -> list[RawColumn]:
-    """A Parquet table."""
-
-    def read():
+    """A Parquet table; times and durations by their types."""
+    try:
         import pandas as pd
         from pyarrow.parquet import read_metadata
 
         facts = read_metadata(path)
         refuse_huge(path, 8 * facts.num_rows * facts.num_columns)
-        return pd.read_parquet(path).reset_index(allow_duplicates=True)
-
-    return _of_frame(path, read)
-
-
-def _of_frame(path: Path, read) -> list[RawColumn]:
-    try:
-        frame = read()
+        frame = pd.read_parquet(path).reset_index(allow_duplicates=True)
     except RecordingError:
         raise
     except Exception as error:  # many libraries, many kinds of exception
         raise cannot_be_read(path, error) from error
-    found = []
-    for place, name in enumerate(frame.columns):
-        if str(name) == "index":  # the row numbers that pandas adds
-            continue
-        found.append(_frame_column(str(name), frame.iloc[:, place]))
-    return found
+    names = [(place, str(name)) for place, name in enumerate(frame.columns)]
+    return [_stored_column(name, frame.iloc[:, place]) for place, name in names if name != "index"]  # row numbers
 
 
-def _frame_column(name: str, column) -> RawColumn:
-    """Numbers, or texts of a split; pandas would also make numbers of dates, durations and texts."""
+def _stored_column(name: str, column: Any) -> RawColumn:
+    kind = column.dtype.kind
     if name == "split":
         return RawColumn(name, column.to_numpy(dtype=str))
+    if kind == "m":
+        return RawColumn(name, column.dt.total_seconds().to_numpy(dtype=float), "s")
     try:
-        kind = column.dtype.kind
-        if kind in "mM" or (kind == "O" and any(isinstance(cell, (str, bytes)) for cell in column)):
-            raise ValueError
-        return RawColumn(name, column.to_numpy(dtype=float))
+        if kind == "M":
+            dated = _from_dates(name, column)
+            if dated is None:
+                raise ValueError("dates")
+            return dated
+        if kind == "O" and any(isinstance(cell, str | bytes) for cell in column):
+            raise ValueError("text, of which pandas would make numbers")
+        return RawColumn(name, column.to_numpy(dtype=float, na_value=np.nan))
     except (TypeError, ValueError):
-        return RawColumn(
-            name, column.to_numpy(dtype=str), fault=f"column '{name}' holds something that is not a number"
-        )
+        fault = f"column '{name}' holds something that is not a number"
+        return RawColumn(name, column.to_numpy(dtype=str), fault=fault)

@@ -1,0 +1,90 @@
+"""What the name of a column says: a channel, and its unit."""
+
+import re
+from typing import NamedTuple
+
+from symid.errors import RecordingError
+from symid.units import KnownUnit, known_unit, split_column_name
+from symid.units.si import reduced
+
+LABELS = ("segment", "split")
+"""Columns without a unit: they part the rows into separate runs."""
+ROW_NUMBERS = "row numbers"
+"""Name of a first column that has none and counts the rows: it is left out."""
+CELSIUS = 273.15
+"""[K], of 0 degC."""
+
+_BRACKETS = (r"(.*\S)\s*[\[(]([^\[\]()]+)[\])]", r"(.*\S)\s+/\s+(\S.*)", r"(.*\S),\s+(\S+)")
+"""``force [N]``, ``force (N)``; ``force / N``, as quantity over unit (ISO 80000-1); ``force, N``."""
+_IN_WORDS = re.compile(
+    r"(milli|micro|kilo)?(sec(ond)?|minute|hour|newton|met(er|re)|radian|degree|volt|watt|gram|kelvin)s?"
+)
+
+# A name's last word says what is measured, so an angle in metres is seen at the door.
+_UNITS_OF_QUANTITY = {
+    "time": {"s"},
+    "angle": {"rad"},
+    "position": {"m", "rad"},
+    "displacement": {"m"},
+    "velocity": {"rad/s", "m/s"},
+    "acceleration": {"rad/s^2", "m/s^2"},
+    "torque": {"N*m"},
+    "force": {"N"},
+    "mass": {"kg"},
+}
+
+
+class Column(NamedTuple):
+    """One column of a file: its text in the header, its name, and its unit (None for labels)."""
+
+    text: str
+    name: str
+    unit: KnownUnit | None
+
+
+def measured_column(text: str) -> Column:
+    """A column from its name, which ends in the unit: ``force_N``, ``force [N]``, ``force (N)``, ``force / N``.
+
+    Time is called `time` or `t`, in large or small letters.
+
+    Raises
+    ------
+    RecordingError, UnitError : the unit is missing, not known, or cannot be that of the quantity.
+    """
+    found = next(filter(None, (re.fullmatch(pattern, text) for pattern in _BRACKETS)), None)
+    name, unit_text = ("_".join(found[1].split()), found[2]) if found else split_column_name(text)
+    unit = unit_of(unit_text)
+    if name.lower() in ("time", "t") and unit.si == "s":
+        name = "time"
+    quantity = name.split("_")[-1]
+    right = _UNITS_OF_QUANTITY.get(quantity, {unit.si})
+    if unit.si not in right:
+        raise RecordingError(
+            f"column '{text}' is in {unit.text}, but {quantity} is measured in "
+            f"{' or '.join(sorted(right))} or a multiple of it"
+        )
+    return Column(text, name, unit)
+
+
+def unit_of(text: str) -> KnownUnit:
+    """A unit as a file states it: also in words, and degrees Celsius (of which `CELSIUS` is added when they are read).
+
+    Raises
+    ------
+    UnitError : it is not known.
+    """
+    text = text.strip()
+    if text in ("degC", "°C", "celsius", "Celsius"):
+        return KnownUnit("degC", "K", 1.0)
+    return known_unit(reduced(text) if _IN_WORDS.fullmatch(text) else text)
+
+
+def contradictions(columns: list[Column]) -> list[str]:
+    """A sentence for each two columns that give one channel."""
+    seen: dict[str, str] = {}
+    problems = []
+    for column in columns:
+        if column.name in seen:
+            problems.append(f"columns '{seen[column.name]}' and '{column.text}' both give {column.name}")
+        seen[column.name] = column.text
+    return problems
