@@ -35,9 +35,9 @@ def read_header(path: Path) -> list[Column]:
     header, first = next(lines)[1], next(lines, None)
     if first is None:
         raise RecordingError(f"{path}: there is a header but no row with samples")
-    columns, problems = _parse(header, first[1])
+    columns, problems, cure = _parse(header, first[1])
     if problems:
-        raise RecordingError(f"{path}: {checked.listed(problems)}")
+        raise RecordingError(f"{path}: {checked.listed(problems)}{cure}")
     return columns
 
 
@@ -86,8 +86,8 @@ def _neighbours(path: Path) -> str:
     return f"; in the same folder there is {', '.join(close)}" if close else ""
 
 
-def _parse(cells: list[str], first_row: list[str]) -> tuple[list[Column], list[str]]:
-    """Columns and everything that is wrong with them."""
+def _parse(cells: list[str], first_row: list[str]) -> tuple[list[Column], list[str], str]:
+    """Columns, everything that is wrong with them, and the way out."""
     columns, problems, without_unit = [], [], False
     for place, text in enumerate(cells, 1):
         if not text and place == 1 and first_row[0] in ("0", "1"):
@@ -109,7 +109,7 @@ def _parse(cells: list[str], first_row: list[str]) -> tuple[list[Column], list[s
         problems.append(no_time(cells))
     if not problems and not any(c.unit and c.name != "time" for c in columns):
         problems.append("there is no channel besides time")
-    return columns, [*problems, MAP_THEM] if without_unit else problems
+    return columns, problems, f"; {MAP_THEM}" if without_unit else ""
 
 
 def no_time(names: list[str]) -> str:
