@@ -6,7 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from symid.identification.elsewhere import excess_note
-from symid.identification.fit import fit_text
+from symid.identification.fit import fit_text, rms_text
 from symid.identification.weighting import by_noise
 
 if TYPE_CHECKING:
@@ -92,9 +92,9 @@ def error_notes(solution: Solution) -> list[str]:
     e = solution.errors
     if e is None:
         return []
-    outputs = solution.model.outputs
+    outputs = solution.model.outputs.values()
     noise = "; ".join(
-        ", ".join(f"{name} {x:.3g} {outputs[name].unit}" for name, x in zip(outputs, row, strict=True))
+        ", ".join(f"{y.channel.replace('_', ' ')} {rms_text(x, y.unit, 3)}" for y, x in zip(outputs, row, strict=True))
         for row in e.noise[:SHOWN]
     )
     more = f"; and {len(e.noise) - SHOWN} more recordings" if len(e.noise) > SHOWN else ""

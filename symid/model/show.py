@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from html import escape
 
 import sympy as sm
@@ -11,21 +12,26 @@ from symid.model.model import TIME, Model
 from symid.model.quantity import initial, symbol, terminal
 
 
-LINE = 150
-"""LaTeX characters of one line of an equation, about a notebook's width."""
+LINE = 90
+"""Characters of one line of an equation that are seen, about a notebook's width."""
 
 
 def letters(model: Model) -> dict[sm.Symbol, str]:
     """How LaTeX prints the symbol of each part, of its rate, of its ends, and of what is late."""
     names = {TIME: "t"}
     for part in model.components.values():
-        own = part.latex or sm.latex(part.symbol)
+        own = part.latex or _upright(sm.latex(part.symbol))
         names[part.symbol] = own
-        names[symbol(part.name + "'")] = rf"\dot{{{own}}}"
+        names[symbol(part.name + "'")] = rf"{own}'" if r"\mathrm" in own[:8] else rf"\dot{{{own}}}"
         names[initial(part.symbol)], names[terminal(part.symbol)] = rf"{own}(t_0)", rf"{own}(t_f)"
     for late, delay in model.delays.items():
         names[late] = rf"{names[delay.of]}(t-{sm.latex(delay.lag, symbol_names=names)})"
     return names
+
+
+def _upright(letters: str) -> str:
+    """Words upright, so that they are no product of their letters: ``damping`` as ``\\mathrm{damping}``."""
+    return re.sub(r"(?<![\\A-Za-z])[A-Za-z]{2,}", r"\\mathrm{\g<0>}", letters)
 
 
 def latex(model: Model) -> str:
@@ -38,7 +44,7 @@ def latex_lines(model: Model) -> list[str]:
     names = letters(model)
 
     def tex(e):
-        return sm.latex(e, symbol_names=names)
+        return sm.latex(e, symbol_names=names, mul_symbol=r" \, ")
 
     lines = [_broken("0", e.expr, tex) for e in model.equations.values()]
     lines += [_broken(names[e.symbol], e.expr, tex) for e in model.expressions.values()]
@@ -72,10 +78,15 @@ def _broken(left: str, expr: sm.Expr, tex) -> str:
     for i, term in enumerate(expr.as_ordered_terms()):
         text = tex(term)
         text = text if text.startswith("-") or i == 0 else f"+ {text}"
-        if lines[-1] and len(lines[-1]) + len(text) > LINE:
+        if lines[-1] and _seen(lines[-1]) + _seen(text) > LINE:
             lines.append("")
         lines[-1] += f" {text}"
     return rf"{left} &={lines[0]}" + "".join(rf" \\ &\qquad{line}" for line in lines[1:])
+
+
+def _seen(text: str) -> int:
+    """How many characters of LaTeX are seen; a command counts as one."""
+    return len(re.sub(r"\\(mathrm|left|right|,|dot|operatorname)|[{}_^ ]|(?<=\\)[A-Za-z]+", "", text))
 
 
 KINDS = ("state", "algebraic", "control", "input", "parameter", "constant", "noise", "output")

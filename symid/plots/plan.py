@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from symid.optimization import Plan
-from symid.plots.style import MODEL, QUIET, Picture, opened
-from symid.units import shown_unit
+from symid.plots.style import MODEL, QUIET, Picture, opened, over_time, size_of
+from symid.units import unit_for
 
 
 def plot_plan(plan: Plan) -> Picture:
@@ -14,10 +14,13 @@ def plot_plan(plan: Plan) -> Picture:
     figure = Picture(figsize=(9, 1.5 * rows + 0.6), layout="constrained")
     axes = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
     time = frame.index.to_numpy()
+    factor_t = over_time(axes[0], time)
+    axes[0].set_xlabel("")
     for name, ax in zip(frame.columns, axes, strict=False):
-        unit, factor = shown_unit(model[name].unit)
-        values, held = frame[name].to_numpy() * factor, getattr(model[name], "hold", "") == "zero"
-        ax.plot(time, values, color=MODEL, lw=1.2, drawstyle="steps-post" if held else "default")
+        values = frame[name].to_numpy()
+        unit, factor = unit_for(size_of(values), model[name].unit)
+        values, held = values * factor, getattr(model[name], "hold", "") == "zero"
+        ax.plot(time * factor_t, values, color=MODEL, lw=1.2, drawstyle="steps-post" if held else "default")
         for bound in model[name].bounds:
             if values.min() - 1e-6 <= bound * factor <= values.max() + 1e-6:
                 ax.axhline(bound * factor, color=QUIET, lw=1, zorder=0)
@@ -27,7 +30,6 @@ def plot_plan(plan: Plan) -> Picture:
     for ax in axes[len(frame.columns) :]:
         ax.set_visible(False)
     for ax in axes[max(0, len(frame.columns) - 2) : len(frame.columns)]:
-        ax.set_xlabel("time [s]")
+        over_time(ax, time)
         ax.tick_params(labelbottom=True)
-    axes[0].set_xlim(time[0], time[-1])
     return figure

@@ -6,12 +6,12 @@ import numpy as np
 
 from symid.identification import Solution
 from symid.identification.fit import common_unit, rms_text
-from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened
-from symid.units import shown_unit, unit_symbol, with_error
+from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened, over_time, size_of
+from symid.units import unit_for, unit_symbol, with_error
 
 
-TYPICAL = 10.0
-"""Seconds of a stretch in which the single swings of a motion can be told apart."""
+SWINGS = 8.0
+"""Of a stretch in which the single swings of a motion can be told apart."""
 SAME = 1.0
 """Percent: starts that end nearer to each other are drawn as ending at one place."""
 
@@ -29,31 +29,34 @@ def plot_fit(solution: Solution, episode: int = 0, window: tuple[float, float] |
     figure = Picture(figsize=(9, 2.6 * len(outputs) + 0.5), layout="constrained")
     axes = figure.subplots(2 * len(outputs), 1, sharex=True, squeeze=False, height_ratios=[2.6, 1] * len(outputs))[:, 0]
     time = frame.index.to_numpy()
-    wide = 3.0 if time[-1] - time[0] <= 3 * TYPICAL else 1.6  # below a model that fits, the recording and its gaps show
+    factor_t = over_time(axes[-1], time)
+    wide = (
+        3.0 if time[-1] - time[0] <= 3 * SWINGS * _period(solution, episode) else 1.6
+    )  # below a model that fits, the recording and its gaps show
     for (name, output), above, below in zip(outputs.items(), axes[::2], axes[1::2], strict=True):
-        unit, factor = shown_unit(output.unit)
-        recorded, model = frame[f"{name} recorded"].to_numpy() * factor, frame[name].to_numpy() * factor
-        above.plot(time, recorded, color=RECORDED, lw=wide, label="recorded")
-        above.plot(time, model, color=MODEL, lw=0.9, label="model")
+        recorded, model = frame[f"{name} recorded"].to_numpy(), frame[name].to_numpy()
+        error = recorded - model
+        unit, factor = unit_for(size_of(recorded, model), output.unit)
+        small, larger = unit_for(size_of(error), output.unit)
+        above.plot(time * factor_t, recorded * factor, color=RECORDED, lw=wide, label="recorded")
+        above.plot(time * factor_t, model * factor, color=MODEL, lw=0.9, label="model")
         below.axhline(0, color=INK, lw=0.5)
-        below.plot(time, recorded - model, color=WARN, lw=0.6)
-        rms = rms_text(float(np.sqrt(np.nanmean((recorded - model) ** 2))) / factor, output.unit or "1", digits=3)
+        below.plot(time * factor_t, error * larger, color=WARN, lw=0.6)
+        rms = rms_text(float(np.sqrt(np.nanmean(error**2))), output.unit or "1", digits=3)
         above.set_title(f"{output.channel.replace('_', ' ')}: RMS error {rms}", loc="left", fontsize=10)
         above.set_ylabel(unit)
-        below.set_ylabel(f"residual\n{unit}", fontsize=8)
+        below.set_ylabel(f"residual\n{small}", fontsize=8)
         opened(above, below)
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=9)
-    axes[-1].set_xlabel("time [s]")
-    axes[-1].set_xlim(time[0], time[-1])
     figure.align_ylabels(axes)
     return figure
 
 
 def typical_stretch(solution: Solution, episode: int = 0) -> tuple[float, float] | None:
-    """`TYPICAL` seconds [s] whose error is nearest to that of the whole; None where the whole is hardly longer."""
+    """`SWINGS` swings [s] whose error is nearest to that of the whole; None where the whole is hardly longer."""
     frame = solution.trajectories[episode]
     time = frame.index.to_numpy()
-    count = int(TYPICAL / max(time[-1] - time[0], 1e-300) * len(time))
+    count = max(2, int(SWINGS * _period(solution, episode) / (time[-1] - time[0]) * len(time)))
     if 2 * count >= len(time):
         return None
     error = np.stack([frame[name] - frame[f"{name} recorded"] for name in solution.model.outputs])
@@ -61,6 +64,15 @@ def typical_stretch(solution: Solution, episode: int = 0) -> tuple[float, float]
     share = np.convolve(np.nan_to_num(square, nan=1.0), np.full(count, 1 / count), "valid")
     first = int(np.argmin(np.abs(share - 1)))
     return float(time[first]), float(time[first + count - 1])
+
+
+def _period(solution: Solution, episode: int) -> float:
+    """Time [s] of a swing of the modelled outputs: between two that cross their mean upwards (Rice 1944)."""
+    frame = solution.trajectories[episode]
+    moved = np.stack([frame[name].to_numpy() for name in solution.model.outputs])
+    above = moved > np.nanmean(moved, axis=1, keepdims=True)
+    crossings = (above[:, 1:] & ~above[:, :-1]).sum(axis=1).max()
+    return float(frame.index[-1] - frame.index[0]) / max(int(crossings), 1)
 
 
 def plot_inputs(solution: Solution, episode: int = 0) -> Picture:
@@ -71,13 +83,14 @@ def plot_inputs(solution: Solution, episode: int = 0) -> Picture:
     figure = Picture(figsize=(9, 1.5 * len(inputs) + 0.5), layout="constrained")
     panels = figure.subplots(len(inputs), 1, sharex=True, squeeze=False)[:, 0]
     time = measured.time[measured.nodes]
+    factor_t = over_time(panels[-1], time)
     for (name, part), axes in zip(inputs.items(), panels, strict=True):
-        unit, factor = shown_unit(part.unit)
-        axes.plot(time, measured.inputs[name][measured.nodes] * factor, color=INK, lw=0.7)
+        values = measured.inputs[name][measured.nodes]
+        unit, factor = unit_for(size_of(values), part.unit)
+        axes.plot(time * factor_t, values * factor, color=INK, lw=0.7)
         axes.set_title(part.channel.replace("_", " "), loc="left", fontsize=10)
         axes.set_ylabel(unit)
         opened(axes)
-    panels[-1].set(xlabel="time [s]", xlim=(time[0], time[-1]))
     figure.align_ylabels(panels)
     return figure
 
@@ -89,12 +102,13 @@ def plot_residual_spectra(solution: Solution, episode: int = 0) -> Picture:
     frame = solution.trajectories[episode]
     outputs = solution.model.outputs
     rate = (len(frame) - 1) / (frame.index[-1] - frame.index[0])
-    length = min(len(frame), max(int(TYPICAL * rate), len(frame) // 8))
+    length = min(len(frame), max(int(SWINGS * _period(solution, episode) * rate), len(frame) // 8))
     figure = Picture(figsize=(9, 2.2 * len(outputs) + 0.5), layout="constrained")
     panels = figure.subplots(len(outputs), 1, sharex=True, squeeze=False)[:, 0]
     for (name, output), axes in zip(outputs.items(), panels, strict=True):
-        unit, factor = shown_unit(output.unit)
-        recorded = frame[f"{name} recorded"].to_numpy() * factor
+        recorded = frame[f"{name} recorded"].to_numpy()
+        unit, factor = unit_for(size_of(recorded), output.unit)
+        recorded = recorded * factor
         signals = {
             "recorded": (recorded, RECORDED, 2.0),
             "residual": (recorded - frame[name].to_numpy() * factor, WARN, 1.0),
@@ -159,6 +173,7 @@ def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
         )
     axes.set_yticks(places, table.index, fontsize=8.5)
     axes.set(xlim=(low, high), ylim=(-0.7, len(table) - 0.3))
+    axes.xaxis.get_major_formatter().set_useMathText(True)
     legend = "     × true value" if truth else ""
     axes.set_title(f"[{unit_symbol(unit) or '1'}]{legend}", loc="left", fontsize=9)
     opened(axes)
@@ -179,10 +194,11 @@ def plot_starts(solution: Solution) -> Picture:
     """How every start ended: its error by its number, and how far its parameters are from the best's."""
     rows, names = solution.starts, list(solution.values)
     together = common_unit(y.unit for y in solution.model.outputs.values())
-    unit, factor = shown_unit(together or "1")
+    error = np.array([r.rms for r in rows])
+    unit, factor = unit_for(size_of(error), together or "1")
     figure = Picture(figsize=(9, max(3.2, 0.24 * len(names) + 1.2)), layout="constrained")
     left, right = figure.subplots(1, 2, width_ratios=[1, 1.3])
-    number, error = np.array([r.number + 1 for r in rows]), np.array([r.rms for r in rows]) * factor
+    number, error = np.array([r.number + 1 for r in rows]), error * factor
     solved, best = np.array([r.solved for r in rows]), np.arange(len(rows)) == solution.best
     for chosen, look, label in (
         (solved & ~best, {"color": MODEL}, "solved"),

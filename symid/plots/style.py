@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import io
 
+import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
+
+from symid.units import time_unit
 
 INK, RECORDED, MODEL, WARN, QUIET = "#222222", "#9a9a9a", "#1f5fa8", "#c0392b", "#d9d9d9"
 WARN_PALE = "#e8aaa2"
@@ -38,6 +41,18 @@ def opened(*all_axes) -> None:
         axes.tick_params(labelsize=8.5)
         axes.grid(True, axis="x", color="#eeeeee", lw=0.8)
         axes.set_axisbelow(True)
+
+
+def size_of(*signals: np.ndarray) -> float:
+    """Largest magnitude of signals; what is missing has none."""
+    return max((float(np.nanmax(np.abs(s))) for s in signals if np.isfinite(s).any()), default=0.0)
+
+
+def over_time(axes, time: np.ndarray) -> float:
+    """Name the time axis by the unit in which the span of `time` [s] is read; the factor to that unit."""
+    unit, factor = time_unit(float(np.ptp(time)))
+    axes.set(xlabel=f"time [{unit}]", xlim=(time[0] * factor, time[-1] * factor))
+    return factor
 
 
 def plain_ticks(axis) -> None:

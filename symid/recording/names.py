@@ -4,8 +4,7 @@ import re
 from typing import NamedTuple
 
 from symid.errors import RecordingError
-from symid.units import KnownUnit, known_unit, split_column_name
-from symid.units.si import reduced
+from symid.units import KnownUnit, known_unit, reduced, split_column_name
 
 LABELS = ("segment", "split")
 """Columns without a unit: they part the rows into separate runs."""

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 from jinja2 import Environment, PackageLoader
 from markupsafe import Markup, escape
 
+from symid.units import typeset
+
 if TYPE_CHECKING:
     from symid.plots import Picture
 
@@ -69,8 +71,8 @@ def table(
 
 
 def facts(content: Mapping[str, object]) -> Markup:
-    """Two columns: what, and its value."""
-    return Markup(_PARTS.facts({k: _cell(v)["text"] for k, v in content.items()}))
+    """Two columns: what, and its value, if there is one."""
+    return Markup(_PARTS.facts({k: _cell(v)["text"] for k, v in content.items() if v != ""}))
 
 
 def equations(lines: Iterable[str]) -> Markup:
@@ -93,7 +95,7 @@ def number(x) -> str:
         return str(x)
     if x != x:
         return "none"
-    return f"{x:.5g}".replace("inf", "∞").replace("-", "−")
+    return typeset(f"{x:.5g}")
 
 
 def _numeric(rows: list[list], i: int) -> bool:

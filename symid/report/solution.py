@@ -25,7 +25,7 @@ from symid.plots import (
 )
 from symid.report.origin import CITATION, command, written
 from symid.report.page import equations, facts, figure, folded, heading, number, page, paragraph, table
-from symid.units import unit_symbol, with_error
+from symid.units import time_unit, unit_symbol, with_error
 
 
 SHOWN_EPISODES = 3
@@ -83,8 +83,11 @@ def _fit_figures(solution: Solution) -> list[str]:
     found = []
     for episode in range(min(len(solution.trajectories), SHOWN_EPISODES)):
         name = solution.trajectories[episode].attrs["recording"]
+        which = name if len(solution.trajectories) == 1 else f"{name}, episode {episode + 1}"
+        found.append(figure(plot_fit(solution, episode), f"{which}: recorded, model and residual."))
+    if len(solution.trajectories) > SHOWN_EPISODES:
         found.append(
-            figure(plot_fit(solution, episode), f"{name}, episode {episode + 1}: recorded, model and residual.")
+            paragraph(f"Of {len(solution.trajectories)} episodes the first {SHOWN_EPISODES} are shown.", "note")
         )
     stretch = typical_stretch(solution)
     if stretch is not None:
@@ -98,7 +101,11 @@ def _held_out_figures(held_out: Solution | None) -> list[str]:
     if held_out is None:
         return []
     t0, t1 = held_out.trajectories[0].index[[0, -1]]
-    caption = f"Held out, {t0:g} to {t1:g} s: the model runs freely from a fitted initial state, all parameters kept."
+    unit, factor = time_unit(t1 - t0)
+    caption = (
+        f"Held out, {t0 * factor:.4g} to {t1 * factor:.4g} {unit}: the model runs freely from a fitted initial state, "
+        "all parameters kept."
+    )
     return [figure(plot_fit(held_out), caption)]
 
 
@@ -177,7 +184,10 @@ def _errors_note(solution: Solution) -> str:
             "Not solved, so there are no standard errors, and the values are where the solver stopped.", "bad"
         )
     return paragraph(
-        " ".join(f"{note}." for note in (*error_notes(solution), "A parameter at a bound has no standard error")),
+        " ".join(
+            f"{note[0].upper()}{note[1:]}."
+            for note in (*error_notes(solution), "A parameter at a bound has no standard error")
+        ),
         "note",
     )
 
@@ -259,9 +269,8 @@ def _provenance(solution: Solution) -> str:
     )
     plain["terms"] = plain["terms"] or "none added"
     for r in recordings:
-        plain[f"recording '{r['name']}'"] = (
-            f"{r['window_s'][0]:g} to {r['window_s'][1]:g} s, {r['nodes']} nodes; " + "; ".join(r["history"])
-        )
+        window = f"{r['window_s'][0]:g} to {r['window_s'][1]:g} s, {r['nodes']} nodes"
+        plain[f"recording '{r['name']}'"] = "; ".join([window, *r["history"]])
     units = {k: unit_symbol(c.unit) for k, c in solution.model.constants.items()}
     plain["constants"] = ", ".join(f"{k} = {v:g} {units[k]}".strip() for k, v in constants.items())
     return facts(plain)

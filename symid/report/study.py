@@ -90,22 +90,16 @@ def _parameters(result: StudyResult, groups: dict[str, list[str]]) -> list[str]:
 
 
 def _solves(result: StudyResult) -> str:
+    marked = [not r.solved for r in result.rows.values()]
     rows = [
-        [
-            name,
-            r.kind,
-            in_words(r.status, r.solved),
-            r.iterations,
-            round(r.seconds, 2),
-            r.message if not r.solved else "",
-        ]
+        [name, r.kind, in_words(r.status, r.solved), r.iterations, round(r.seconds, 2)]
+        + ([r.message if not r.solved else ""] if any(marked) else [])
         for name, r in result.rows.items()
     ]
-    marked = [not r.solved for r in result.rows.values()]
     return folded(
         f"All {len(rows)}",
         table(
-            ["solve", "start", "status", "iterations", "seconds", "what happened"],
+            ["solve", "start", "status", "iterations", "seconds", *(["what happened"] if any(marked) else [])],
             rows,
             marked,
             wide=["start", "seconds", "what happened"],

@@ -18,7 +18,7 @@ u     known input                              p     parameter
 """
 
 from symid.units.columns import column_name, known_suffixes, split_column_name
-from symid.units.show import quantity, shown_unit, unit_symbol, with_error
+from symid.units.show import quantity, shown_unit, time_unit, typeset, unit_for, unit_symbol, with_error
 from symid.units.si import (
     STANDARD_GRAVITY,
     FloatArray,
@@ -50,6 +50,9 @@ __all__ = [
     "shown_unit",
     "si_factor",
     "split_column_name",
+    "time_unit",
+    "typeset",
+    "unit_for",
     "unit_symbol",
     "with_error",
 ]

@@ -1,5 +1,6 @@
 """Numbers with units as a person reads them: degrees, prefixes, and as many digits as the error allows."""
 
+import re
 from math import floor, isfinite, log10
 
 from symid.units.si import known_unit
@@ -13,6 +14,9 @@ UNSURE = 100.0
 """A value with an error this many times larger is not worth digits."""
 PLAIN = 1e-4, 1e7
 """Numbers between these are written without a power of ten."""
+
+TINY = 1e-300
+"""Numbers below this one, whose power of ten a double cannot hold, are written as 0."""
 
 
 def unit_symbol(unit: str) -> str:
@@ -41,7 +45,8 @@ def with_error(value: float, error: float, digits: int = 3) -> str:
     """
     if not isfinite(value):
         return "not known"
-    if not (isfinite(error) and error > 0):
+    value = value if abs(value) > TINY else 0.0
+    if not (isfinite(error) and error > TINY):
         return _plain(value, digits)
     if error > UNSURE * abs(value) > 0:
         return f"{_plain(value, 2)} (hardly determined)"
@@ -66,6 +71,29 @@ def quantity(value: float, error: float = float("nan"), unit: str = "1", digits:
     """
     factor, text = _suitable(max(abs(value), error if isfinite(error) else 0.0), unit)
     return f"{with_error(value * factor, error * factor, digits)} {text}".strip()
+
+
+def typeset(number: str) -> str:
+    """A number as Python writes it with its power raised and its minus long: ``-1e+05`` as ``−10⁵``."""
+
+    def power(found: re.Match) -> str:
+        digits, exponent = found[1], str(int(found[2])).translate(_RAISED)
+        return f"10{exponent}" if digits == "1" else f"{digits}·10{exponent}"
+
+    return re.sub(r"([\d.]+)e([+-]?\d+)", power, number).replace("-", "\N{MINUS SIGN}").replace("inf", "∞")
+
+
+def unit_for(size: float, unit: str) -> tuple[str, float]:
+    """The unit in which a person reads signals of up to this size in the SI unit `unit`, and the factor to it."""
+    factor, text = _suitable(size, unit or "1")
+    return text, factor
+
+
+def time_unit(span: float) -> tuple[str, float]:
+    """The unit in which a person reads a span of time [s], and the factor to it: from µs to days."""
+    units = (("µs", 1e-6, 5e-4), ("ms", 1e-3, 0.5), ("s", 1.0, 3 * 3600.0), ("h", 3600.0, 10 * 86400.0))
+    text, size = next(((text, size) for text, size, below in units if span < below), ("d", 86400.0))
+    return text, 1 / size
 
 
 def _suitable(size: float, unit: str) -> tuple[float, str]:
