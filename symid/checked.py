@@ -44,6 +44,24 @@ def whole(value: Any, what: str, error: type[SymidError], *, least: int = 0, mos
     return int(found)
 
 
+def window(value: Any, what: str, error: type[SymidError]) -> tuple[float, float]:
+    """`value` as start and end."""
+    try:
+        start, end = (number(t, what, error) for t in value)
+    except (TypeError, ValueError):
+        start = end = 0.0
+    if start < end:
+        return start, end
+    raise error(f"{what}={shown(value)}: give a start and a later end, as in (0, 10)")
+
+
+def choice(value: Any, known: Sequence[str], what: str, error: type[SymidError]) -> str:
+    """`value`, which must be one of the words `known`."""
+    if isinstance(value, str) and value in known:
+        return value
+    raise error(f"{what}={shown(value)}: known are {', '.join(known)}")
+
+
 def path(value: Any, what: str, error: type[SymidError]) -> Path:
     """`value` as a Path."""
     try:

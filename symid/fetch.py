@@ -193,7 +193,7 @@ def standing_raw(folder: str | Path | None = None) -> Path:
     """
     place = Path(folder or _cache() / "standing_raw")
     _writable(place)
-    locked = read_json(place / LOCK) if (place / LOCK).is_file() else {}
+    locked = _locked(place / LOCK) if (place / LOCK).is_file() else {}
     for name, url, checksum in _listed(place) if not locked else ((k, "", "") for k in locked):
         path = place / name
         if url:  # one that is there already is compared with what the record states
@@ -206,6 +206,14 @@ def standing_raw(folder: str | Path | None = None) -> Path:
             )
     write_json(place / LOCK, locked)
     return place
+
+
+def _locked(path: Path) -> dict[str, str]:
+    """Name -> SHA-256 of each file, all in the folder of `path`."""
+    locked = read_json(path)
+    if not isinstance(locked, dict) or not all(isinstance(v, str) and Path(k).name == k for k, v in locked.items()):
+        raise RecordingError(f"{path}: is no list of files and their checksums; remove it to fetch the record anew")
+    return locked
 
 
 def _listed(place: Path) -> Iterator[tuple[str, str, str]]:

@@ -19,6 +19,8 @@ from symid.identification.error_models import Errors, bandwidth
 from symid.identification.study import Finished, tell
 from symid.recording import Recording
 
+MOST_DRAWS = 100_000
+"""Each is an identification, and its recording is drawn before the first begins."""
 LEAST_DRAWS = 20
 """Solved draws below which a spread is not given: its own error would be a sixth."""
 
@@ -90,11 +92,14 @@ def bootstrap(
     ['damping']
     """
     checked.kind(solution, Solution, "bootstrap", ModelError)
-    count = checked.whole(count, "bootstrap: count", ModelError, least=1)
+    count = checked.whole(count, "bootstrap: count", ModelError, least=1, most=MOST_DRAWS)
+    seed = checked.whole(seed, "bootstrap: seed", ModelError)
+    if block is not None:
+        shortest = min(m.intervals + 1 for m in solution.transcription.measured)
+        block = checked.whole(block, "bootstrap: block", ModelError, least=1, most=shortest)
     if not solution.solved:
         raise ModelError(f"bootstrap: the problem was not solved: {solution.message}")
-    if over not in ("blocks", "recordings"):
-        raise ModelError(f"bootstrap: over={over!r}: known are 'blocks' and 'recordings'")
+    checked.choice(over, ("blocks", "recordings"), "bootstrap: over", ModelError)
     errors = cast("ParameterErrors", solution.errors)  # it was solved
     residuals = errors.residuals
     blocks = tuple(block or (1 if errors.model == "white" else max(1, bandwidth(r.error))) for r in residuals)

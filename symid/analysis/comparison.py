@@ -54,6 +54,7 @@ def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] 
         raise ModelError("compare: no solution was given; give a dictionary of name -> Solution")
     for s in solutions.values():
         checked.kind(s, Solution, "compare", ModelError)
+    held_out = held_out if held_out is None else checked.window(held_out, "compare: held_out", ModelError)
     errors = {name: _errors(name, s) for name, s in solutions.items()}
     _refuse_other_data(solutions)
     count = independent_samples(min(errors.values(), key=lambda e: float(np.mean(e**2))))

@@ -105,6 +105,9 @@ def design(
     1.00 0.0548
     """
     checked.kind(model, Model, "design", ModelError)
+    checked.choice(criterion, ("D", "A", "E"), "design: criterion", ModelError)
+    rate = checked.number(rate, "design: rate", ModelError)
+    samples = samples if samples is None else checked.number(samples, "design: samples", ModelError)
     for what, given, parts in (("values", values, model.parameters), ("noise", noise, model.outputs)):
         checked.kind(given, Mapping, f"design: {what}", ModelError)
         for name in given.keys() - parts.keys():

@@ -58,8 +58,9 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
     if not solution.solved:
         raise ModelError(f"profile: the problem was not solved: {solution.message}")
     names = list(solution.values)
-    if parameter not in names:
-        raise ModelError(f"profile: the solution has no parameter '{parameter}'; {nearest(parameter, names)}")
+    if not isinstance(parameter, str) or parameter not in names:
+        found = checked.shown(parameter)
+        raise ModelError(f"profile: the solution has no parameter {found}; {nearest(str(parameter)[:60], names)}")
     errors = cast("ParameterErrors", solution.errors)  # it was solved
     profiled = _Profile(solution, errors, names.index(parameter))
     if values is None:
@@ -80,7 +81,10 @@ def profile(solution: Solution, parameter: str, values: Sequence[float] | None =
 
 def _several(values: Any) -> list[float]:
     """What was given as values; one number stands for itself."""
-    return list(values) if np.ndim(values) else [values]
+    try:
+        return list(values)
+    except TypeError:
+        return [values]
 
 
 class _Profile:

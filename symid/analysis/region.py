@@ -15,6 +15,8 @@ from symid.identification.covariance import ParameterErrors
 
 LIMIT = 5.991464547107979
 """95 % point of chi-squared with two degrees of freedom (Wilks 1938)."""
+MOST_POINTS = 1000
+"""A million fits."""
 REACH = 3.0
 """Half width of the region that is looked at, in standard errors: the ellipse of 95 % ends at 2.45."""
 
@@ -46,13 +48,13 @@ def likelihood_region(solution: Solution, one: str, other: str, points: int = 9)
     (3, 3)
     """
     checked.kind(solution, Solution, "likelihood_region", ModelError)
-    points = checked.whole(points, "likelihood_region: points", ModelError, least=3)
+    points = checked.whole(points, "likelihood_region: points", ModelError, least=3, most=MOST_POINTS)
     if not solution.solved:
         raise ModelError(f"likelihood_region: the problem was not solved: {solution.message}")
     errors, table = cast("ParameterErrors", solution.errors), solution.parameters
     axes, worth = [], []
     for name in (one, other):
-        if name not in table.index:
+        if not isinstance(name, str) or name not in table.index:
             raise ModelError(f"likelihood_region: there is no parameter '{name}'; {nearest(str(name), table.index)}")
         row = table.loc[name]
         if not np.isfinite(row["std_error"]) or not row["std_error"] > 0:

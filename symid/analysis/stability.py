@@ -114,7 +114,10 @@ def stability(
     100.0
     """
     checked.kind(solution, Solution, "stability", ModelError)
-    recording = solution.problem.recordings[which]
+    recordings = solution.problem.recordings
+    which = checked.whole(which, "stability: which", ModelError, most=len(recordings) - 1)
+    held_out = held_out if held_out is None else checked.window(held_out, "stability: held_out", ModelError)
+    recording = recordings[which]
     options.setdefault("window", solution.problem.windows[which] or recording.interval)
     return stability_of(solution.model, solution.values, recording, held_out=held_out, **options)
 

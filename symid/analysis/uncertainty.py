@@ -9,9 +9,11 @@ from typing import cast
 import numpy as np
 import pandas as pd
 
+from symid import checked
 from symid.errors import ModelError
 from symid.identification import Solution
 from symid.identification.covariance import ParameterErrors
+from symid.identification.error_models import CHOICES
 
 ALIKE = 0.95
 """Share of a parameter's variance explained by others from which on the data hardly tell them apart."""
@@ -88,6 +90,8 @@ def uncertainty(solution: Solution, errors: str = "auto") -> Uncertainty:
     >>> si.uncertainty(problem.solve()).parameters[["explained", "at_bound"]].values.tolist()
     [[0.0, False]]
     """
+    checked.kind(solution, Solution, "uncertainty", ModelError)
+    checked.choice(errors, CHOICES, "uncertainty: errors", ModelError)
     if not solution.solved:
         raise ModelError(f"uncertainty: the problem was not solved: {solution.message}")
     solution = solution if errors == solution.error_model else solution.with_errors(errors)

@@ -14,6 +14,9 @@ from symid.errors import ModelError, SolveError
 from symid.identification import Identification, Solution
 from symid.recording import Recording
 
+MOST_FOLDS = 10_000
+"""Each is an identification."""
+
 
 def cross_validate(solution: Solution, folds: int = 5) -> pd.DataFrame:
     """Identify again without one block of the data after another, and run freely over each block that was left out.
@@ -39,7 +42,7 @@ def cross_validate(solution: Solution, folds: int = 5) -> pd.DataFrame:
     [0.01, 0.01, 0.01]
     """
     checked.kind(solution, Solution, "cross_validate", ModelError)
-    folds = checked.whole(folds, "cross_validate: folds", ModelError, least=2)
+    folds = checked.whole(folds, "cross_validate: folds", ModelError, least=2, most=MOST_FOLDS)
     problem = solution.problem
     if not solution.solved:
         raise ModelError(f"cross_validate: the problem was not solved: {solution.message}")

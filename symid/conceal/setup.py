@@ -7,11 +7,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from symid import checked
 from symid.errors import SymidError
 from symid.mechanics import model_of
 from symid.model import Model
 
 SYSTEMS = ("standing", "rig")
+MOST_SAMPLES = 1e7
+"""Of a case: a day at 100 Hz; each is simulated many times."""
 PERSON = {
     "l_L_m": 0.84,
     "d_L_m": 0.47,
@@ -193,7 +196,7 @@ def setup_from_facts(facts: Mapping, rng: np.random.Generator) -> Setup:
     SymidError : the facts are not those of a standing person or a rig.
     """
     makers = {"standing": _standing, "rig": _rig}
-    if facts.get("system") not in makers:
+    if not isinstance(facts.get("system"), str) or facts["system"] not in makers:
         raise SymidError(f"a case of the system '{facts.get('system')}' cannot be made; known: {', '.join(makers)}")
     needed = (
         "baseline",
@@ -206,19 +209,31 @@ def setup_from_facts(facts: Mapping, rng: np.random.Generator) -> Setup:
     missing = [k for k in needed if k not in facts]
     if missing:
         raise SymidError(f"the case to be imitated has no '{missing[0]}'")
+    numbers = {
+        key: checked.number(facts.get(key, 0.0), f"the case to be imitated: {key}", SymidError, least=0.0)
+        for key in ("sampling_rate_Hz", "angle_noise_rms_rad_approx", "encoder_step_rad")
+    }
+    (t0, t1), (t2, t3) = (
+        checked.window(facts[key], f"the case to be imitated: {key}", SymidError)
+        for key in ("fit_window_s", "heldout_window_s")
+    )
+    if not 0 < numbers["sampling_rate_Hz"] * t3 <= MOST_SAMPLES:
+        raise SymidError(
+            f"the case to be imitated has {numbers['sampling_rate_Hz'] * t3:.3g} samples; give at least one, "
+            f"{MOST_SAMPLES:g} at most"
+        )
     model = model_of(facts)
     own = makers[facts["system"]](facts, model, rng)
-    (t0, t1), (t2, t3) = facts["fit_window_s"], facts["heldout_window_s"]
     if t0 != 0 or t2 != t1 or not 0 < t1 < t3:
         raise SymidError(
             f"the windows {facts['fit_window_s']} and {facts['heldout_window_s']} must follow one another from 0 s"
         )
     # What a user is told of the sensor is only about right, and holds the rounding of the encoder.
-    noise = facts["angle_noise_rms_rad_approx"] * rng.uniform(0.9, 1.1)
-    noise = np.sqrt(max(noise**2 - _rounding(facts.get("encoder_step_rad", 0.0)) ** 2, JITTER[0] ** 2 / 4))
+    noise = numbers["angle_noise_rms_rad_approx"] * rng.uniform(0.9, 1.1)
+    noise = np.sqrt(max(noise**2 - _rounding(numbers["encoder_step_rad"]) ** 2, JITTER[0] ** 2 / 4))
     return Setup(
         model=model,
-        rate=float(facts["sampling_rate_Hz"]),
+        rate=numbers["sampling_rate_Hz"],
         fit=t1,
         held_out=t3 - t2,
         sensor_noise=float(noise),

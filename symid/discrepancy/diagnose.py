@@ -21,7 +21,7 @@ from symid.discrepancy.prove.evidence import tested
 from symid.discrepancy.say.diagnosis import Diagnosis, finding
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.say.words import Story, words
-from symid.discrepancy.task import Part, task_of
+from symid.discrepancy.task import Part, refuse_odd_options, task_of
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
 from symid.estimation.measurement import fits_of
@@ -80,6 +80,7 @@ def diagnose(
     >>> found                                                                                    # doctest: +SKIP
     <Diagnosis: missing_physics: coulomb_friction at joint2>
     """
+    refuse_odd_options(sensor_noise, filter, suspects, threads)
     hold_blas_memory(threads)
     task = task_of(
         subject, recording, fit_window, start, held_out=held_out, segment_length=segment_length, settling=settling

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
+from symid import checked
 from symid.errors import DiagnosisError
+from symid.discrepancy.model.suspects import Suspect
+from symid.estimation.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.model import Model
 from symid.recording import Recording
 
 Part = tuple[float, float] | str
+MOST_THREADS = 1024
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,6 +48,9 @@ def task_of(subject: Model | Solution, recording: Recording | None, fit_window: 
     ------
     DiagnosisError : a model without recording or window, or a solution of several recordings.
     """
+    checked.kind(subject, (Model, Solution), "diagnose", DiagnosisError)
+    checked.kind(recording, (Recording, type(None)), "diagnose: recording", DiagnosisError)
+    checked.kind(start, (Mapping, type(None)), "diagnose: start", DiagnosisError)
     values, model = {}, subject
     if isinstance(subject, Solution):
         problem, values, model = subject.problem, subject.values, subject.model
@@ -54,4 +63,36 @@ def task_of(subject: Model | Solution, recording: Recording | None, fit_window: 
         fit_window = fit_window or problem.windows[0] or recording.interval
     if recording is None or fit_window is None:
         raise DiagnosisError("diagnose: a model alone is not enough; give the recording and fit_window=(t0, t1)")
-    return Task(model, recording, fit_window, start={**values, **(start or {})}, values=values, **others)
+    start = {
+        name: checked.number(v, f"diagnose: start of '{name}'", DiagnosisError) for name, v in (start or {}).items()
+    }
+    task = Task(model, recording, fit_window, start={**values, **start}, values=values, **others)
+    _refuse_odd(task)
+    return task
+
+
+def _refuse_odd(task: Task) -> None:
+    """Windows are two times or a label, lengths are numbers, and a piece has some samples."""
+    for name in ("fit_window", "held_out"):
+        part = getattr(task, name)
+        if part is not None and not isinstance(part, str):
+            checked.window(part, f"diagnose: {name}", DiagnosisError)
+    checked.number(task.settling, "diagnose: settling", DiagnosisError, least=0.0)
+    if task.segment_length is not None:
+        length = checked.number(task.segment_length, "diagnose: segment_length", DiagnosisError)
+        step = float(np.median(np.diff(task.recording.time)))
+        if not length > step:
+            raise DiagnosisError(
+                f"diagnose: segment_length={length:g} s holds no two samples {step:g} s apart; give more"
+            )
+
+
+def refuse_odd_options(noise: object, filter: object, suspects: object, threads: object) -> None:
+    """DiagnosisError for options of another kind, and for a noise of the sensors that is no positive number."""
+    checked.whole(threads, "diagnose: threads", DiagnosisError, least=1, most=MOST_THREADS)
+    checked.kind(filter, (ZeroPhase, type(None)), "diagnose: filter", DiagnosisError)
+    for suspect in () if suspects is None else checked.kind(suspects, Sequence, "diagnose: suspects", DiagnosisError):
+        checked.kind(suspect, Suspect, "diagnose: one of the suspects", DiagnosisError)
+    for name, value in noise.items() if isinstance(noise, Mapping) else (("all", noise),):
+        if value is not None and not checked.number(value, f"diagnose: sensor_noise of {name}", DiagnosisError) > 0:
+            raise DiagnosisError(f"diagnose: sensor_noise of {name} must be positive, found {checked.shown(value)}")

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
+from symid.checked import shown
 from symid.errors import SolveError
 
 CHOICES = ("auto", "white", "coloured", "clustered")
@@ -72,9 +73,9 @@ class Errors:
 
 def choose(errors: list[Errors], choice: str, episodes: int) -> tuple[str, str]:
     """Name of the error model, and a sentence on why it is this one."""
-    if choice not in CHOICES:
+    if not isinstance(choice, str) or choice not in CHOICES:
         raise SolveError(
-            f"error model '{choice}': known are {', '.join(CHOICES)}; "
+            f"error model {shown(choice)}: known are {', '.join(CHOICES)}; "
             "blocks are drawn again by symid.bootstrap(solution)"
         )
     if choice == "clustered" and len(errors) < FEWEST_CLUSTERS:

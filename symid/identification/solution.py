@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symid import checked
 from symid.errors import SolveError
 from symid.identification.covariance import ParameterErrors, bound_active, parameter_errors
 from symid.identification.fit import fit_measures
@@ -241,12 +242,14 @@ class Solution:
         """
         from symid.identification.problem import Identification
 
+        window = checked.window(window, "fit_on: window", SolveError)
+        checked.kind(recording, (Recording, type(None)), "fit_on: recording", SolveError)
         known = {name: value for name, value in self.values.items() if "[" not in name}
         if len(known) < len(self.values):
             raise SolveError("fit_on: parameters differ between recordings; fix those you mean with model.fixed()")
-        p, run = self.problem, recording or self.problem.recordings[0]
+        p, run = self.problem, self.problem.recordings[0] if recording is None else recording
         fitted = self.transcription.measured[0].first == 0
-        bound = fitted and isinstance(run, Recording) and window[0] <= run.time[0]
+        bound = fitted and window[0] <= run.time[0]
         other = Identification(
             self.model.fixed(**known).undisturbed(bound),
             run,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
+from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.feedback import PD, FullStatePD
 from symid.mechanics.rig import rig_model
@@ -43,8 +44,7 @@ def model_of(facts: Mapping[str, Any], channels: Iterable[str] = ()) -> Model:
     'pendulum on a bench'
     """
     readers = {"standing": _standing, "rig": _rig}
-    if facts.get("system") not in readers:
-        raise ModelError(f"system is '{facts.get('system')}'; known: {', '.join(readers)}")
+    checked.choice(facts.get("system"), list(readers), "system", ModelError)
     return readers[facts["system"]](facts, channels)
 
 
@@ -62,15 +62,17 @@ def _standing(facts: Mapping[str, Any], channels: Iterable[str]) -> Model:
     missing = [k for k in _BODY.values() if k not in body]
     if missing:
         raise ModelError(f"body has no '{missing[0]}'")
-    if controller not in CONTROLLERS:
-        raise ModelError(f"baseline controller is '{controller}'; known: {', '.join(CONTROLLERS)}")
+    law = CONTROLLERS[checked.choice(controller, list(CONTROLLERS), "baseline controller", ModelError)]
     person = DoubleLinkPendulum(**{k: body[v] for k, v in _BODY.items()}, gravity=facts.get("gravity_m_s2", 9.81))
-    return person.with_feedback(CONTROLLERS[controller]())
+    return person.with_feedback(law())
 
 
 def _rig(facts: Mapping[str, Any], channels: Iterable[str]) -> Model:
     terms = _table(facts, "baseline").get("terms", ()) if "baseline" in facts else ()
-    odd = [t for t in terms if t != "conservative" and not t.startswith("viscous_friction:")]
+    checked.kind(terms, (list, tuple), "baseline terms", ModelError)
+    odd = [t for t in terms if t != "conservative" and not str(t).startswith("viscous_friction:")]
     if odd:
-        raise ModelError(f"baseline has the term '{odd[0]}'; known: conservative, viscous_friction:<joint>")
+        raise ModelError(
+            f"baseline has the term {checked.shown(odd[0])}; known: conservative, viscous_friction:<joint>"
+        )
     return rig_model(_table(facts, "parameters"), channels, [t.partition(":")[2] for t in terms if ":" in t])

@@ -35,7 +35,7 @@ def table(of: Any, places: Sequence[float], values: Sequence[float]) -> sm.Expr:
     """
     try:
         x, y = (np.array(row, dtype=float) for row in (places, values))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ModelError("table: give two rows of numbers, places and values") from None
     if x.ndim != 1 or x.shape != y.shape or len(x) < FEWEST or not np.isfinite([x, y]).all():
         raise ModelError(f"table: {x.shape} places and {y.shape} values: give two rows of as many finite numbers")

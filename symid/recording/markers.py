@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from symid import checked
 from symid.errors import RecordingError
 from symid.recording.recording import Recording
 from symid.units import FloatArray
@@ -39,6 +40,8 @@ def joint_angles(
     --------
     >>> joint_angles(walk, "RANK", ("LHIP", "RHIP"), "C7", forward="x", up="z")  # doctest: +SKIP
     """
+    for axis in (forward, up):
+        checked.kind(axis, str, "joint_angles: an axis", RecordingError)
     if {forward.lstrip("-"), up.lstrip("-")} - set("xyz") or forward[-1:] == up[-1:]:
         raise RecordingError(f"{recording.name}: forward={forward!r} and up={up!r} are no two axes; give 'x', '-y' ...")
     places = [[_along(recording, m, axis) for axis in (forward, up)] for m in (ankle, hip, shoulder)]
@@ -51,6 +54,8 @@ def joint_angles(
 
 
 def _along(recording: Recording, markers: Markers, axis: str) -> FloatArray:
-    names = (markers,) if isinstance(markers, str) else tuple(markers)
+    names = (markers,) if isinstance(markers, str) else markers
+    if not isinstance(names, (tuple, list)) or not names or not all(isinstance(name, str) for name in names):
+        raise RecordingError(f"joint_angles: {checked.shown(markers)}: give the name of a marker, or several names")
     sign = -1.0 if axis.startswith("-") else 1.0
     return sign * np.mean([recording[f"{name}_{axis[-1]}"] for name in names], axis=0)

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from symid import checked
 from symid.errors import RecordingError
 from symid.recording.recording import Recording
 from symid.units import FloatArray, known_unit
@@ -31,6 +32,7 @@ def fill_gaps(recording: Recording, max_gap_s: float) -> Recording:
     RecordingError
         If a gap is longer, or a channel begins or ends with a missing value.
     """
+    max_gap_s = checked.number(max_gap_s, "fill_gaps: max_gap_s", RecordingError)
     filled = 0
 
     def mend(part: Recording) -> Recording:
@@ -64,6 +66,7 @@ def resample(recording: Recording, rate_hz: float) -> Recording:
         If the rate is not positive, values are missing, or a gap in time is wider than one and a
         half steps (`fill_gaps` first).
     """
+    rate_hz = checked.number(rate_hz, "resample: rate_hz", RecordingError)
     if not rate_hz > 0 or not np.isfinite(rate_hz):
         raise RecordingError(f"{recording.name}: a rate of {rate_hz:g} Hz is not possible")
 

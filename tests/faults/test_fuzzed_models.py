@@ -1,7 +1,6 @@
-"""Declarations, expressions and arguments of any kind: a model or a result, or one sentence of symid's own."""
+"""Declarations and expressions of any kind: a model, or one sentence of symid's own."""
 
 import numpy as np
-import pytest
 import sympy as sm
 from conftest import pendulum, pendulum_recording
 from fuzz import few, odd, told
@@ -9,13 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import symid as si
-from symid.cli import main
 
 units = st.one_of(
     st.sampled_from(["m", "rad", "1", "N*m", "kg^2", "m//s", "deg", "m m", "^", "1e999*m", "m^9999"]), odd
 )
 bounds = st.one_of(st.tuples(st.floats(), st.floats()), odd)
-plain = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.just(10**400), st.just(-(10**400)))
 names = st.one_of(st.sampled_from(["x", "angle", "t", "__init__", "copy", "e", "I", "lambda"]), st.text(max_size=6))
 
 
@@ -124,98 +121,3 @@ def test_expressions(data):
             nlp.objective(nlp.start), nlp.constraints(nlp.start), nlp.jacobian(nlp.start)
 
     told(evaluate)
-
-
-RECORDING = pendulum_recording(duration=0.3)
-PROBLEM = si.Identification(pendulum(), RECORDING)
-OPTIONS = ("window", "scheme", "episodes", "weights", "noise", "loss", "per_recording", "backend", "refine", "ridge")
-
-
-@few
-@given(st.sampled_from(["model", "recordings", *OPTIONS, "ridge_about"]), odd)
-def test_arguments_of_an_identification(name, value):
-    given = {"model": pendulum(), "recordings": RECORDING, "backend": "numpy"} | {name: value}
-    told(lambda: si.Identification(**given).transcription)
-
-
-@few
-@given(st.sampled_from(["starts", "seed", "time_limit_s", "max_iterations", "options"]), odd)
-def test_arguments_of_a_solve(tmp_path, monkeypatch, name, value):
-    monkeypatch.chdir(tmp_path)
-    if not (name == "starts" and isinstance(value, (int, float)) and value > 3):  # that many are solved
-        told(lambda: PROBLEM.solve(**{"max_iterations": 1, "start": "random", "check": False} | {name: value}))
-
-
-@few
-@given(st.data())
-def test_arguments_of_other_calls(data):
-    value, more = data.draw(plain), data.draw(plain)
-    act = data.draw(
-        st.sampled_from(
-            [
-                lambda: si.Episodes(value, amplitude=more),
-                lambda: si.Episodes(2, torque=value, seed=more),
-                lambda: si.Free(value, more),
-                lambda: si.Normal(value, more),
-                lambda: si.LogNormal(value, more),
-                lambda: si.Optimization(pendulum(), duration=value, nodes=more),
-                lambda: si.Recording(value, RECORDING.time, {"a": more}, {"a": "m"}),
-                lambda: si.Recording("r", value, {"a": RECORDING["angle"]}, {"a": more}),
-                lambda: RECORDING.window(value, more),
-                lambda: pendulum().with_constants(stiffness=value),
-                lambda: pendulum().with_bounds(damping=value),
-                lambda: pendulum().fixed(damping=value),
-                lambda: pendulum().free(stiffness=value),
-                lambda: si.LocalPool(value),
-                lambda: si.mechanics.Chain.uniform(value, more),
-                lambda: si.mechanics.rig_model(value, more),
-            ]
-        )
-    )
-    told(act, also=(TypeError,))
-
-
-WORDS = st.one_of(
-    st.sampled_from(
-        [
-            "r.csv",
-            "--body",
-            "b.json",
-            "--controller",
-            "pd",
-            "fpd",
-            "--window",
-            "0",
-            "1",
-            "-1",
-            "nan",
-            "--starts",
-            "--jobs",
-        ]
-        + ["--json", "/nope/x", "--noise", "--episodes", "--scheme", "--rig", "--held-out", "--columns", "--", "-", ""]
-        + [
-            "identify",
-            "simulate",
-            "diagnose",
-            "regenerate",
-            "completion",
-            "--help",
-            "--allow-gaps",
-            "--parameters",
-            "1e99",
-        ]
-    ),
-    st.text(max_size=5),
-)
-
-
-@few
-@given(st.lists(WORDS, max_size=7))
-def test_words_on_the_command_line(tmp_path, monkeypatch, words):
-    monkeypatch.chdir(tmp_path)
-    try:
-        assert told(main, words) in (0, 1, 2)
-    except SystemExit as done:
-        assert done.code in (0, 2)
-    except KeyboardInterrupt:
-        pytest.fail("a command that was not interrupted says so")
