@@ -59,7 +59,7 @@ def choice(value: Any, known: Sequence[str], what: str, error: type[SymidError])
     """`value`, which must be one of the words `known`."""
     if isinstance(value, str) and value in known:
         return value
-    raise error(f"{what}={shown(value)}: known are {', '.join(known)}")
+    raise error(f"{what}={shown(value)}: known are {', '.join(map(repr, known))}")
 
 
 def path(value: Any, what: str, error: type[SymidError]) -> Path:

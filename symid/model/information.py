@@ -12,7 +12,6 @@ from math import inf
 
 import sympy as sm
 
-from symid.errors import ModelError
 from symid.model.conditions import Boundary, Objective
 from symid.model.declare import Constant, Control, Equation, Parameter, State
 from symid.model.model import Model
@@ -129,10 +128,8 @@ def _criterion(known: Model, names: list[str], information: sm.Matrix, criterion
         goal = -sm.log(known.least_eigenvalue.symbol + SMALLEST)
     elif criterion == "D":
         goal = -2 * sum(sm.log(factor[a, a]) for a in range(q))
-    elif criterion == "A":
+    else:
         inverse = factor.lower_triangular_solve(sm.eye(q))
         goal = sm.log(sum(e**2 for e in inverse))
-    else:
-        raise ModelError(f"criterion={criterion!r}: known are 'D', 'A' and 'E'")
     known.factorised = Boundary(*(rest[a, b] for a in range(q) for b in range(a + 1)))
     known.informative = Objective(terminal=goal)

@@ -81,7 +81,7 @@ def test_what_cannot_be_designed_is_refused():
         si.design(m, {"k1": 1.0}, duration=1, noise={"seen": 0.1}, rate=1)
     with pytest.raises(ModelError, match="of 'k1' is zero"):
         si.design(m, {"k1": 0.0, "k2": 1.0}, duration=1, noise={"seen": 0.1}, rate=1)
-    with pytest.raises(ModelError, match="known are 'D', 'A' and 'E'"):
+    with pytest.raises(ModelError, match="known are 'D', 'A', 'E'"):
         si.design(m, {"k1": 1.0, "k2": 1.0}, duration=1, noise={"seen": 0.1}, rate=1, criterion="G")
     with pytest.raises(ModelError, match="has no 'sen'; did you mean 'seen'"):
         si.design(m, {"k1": 1.0, "k2": 1.0}, duration=1, noise={"sen": 0.1}, rate=1)

@@ -43,7 +43,7 @@ def test_recordings_that_differ_are_counted_by_a_bootstrap_over_them():
     assert drawn.parameters["std_error"]["a"] > 2 * solution.with_errors("white").parameters["std_error"]["a"]
     with pytest.raises(ModelError, match="1 recordings cannot be drawn from; give at least 4"):
         si.bootstrap(si.Identification(m, recordings[0]).solve(check=False), 5, over="recordings")
-    with pytest.raises(ModelError, match="known are 'blocks' and 'recordings'"):
+    with pytest.raises(ModelError, match="known are 'blocks', 'recordings'"):
         si.bootstrap(solution, 5, over="people")
 
 

@@ -258,7 +258,7 @@ def test_bad_input_ends_in_one_sentence_and_writes_nothing(tmp_path, capsys, arg
         ({"system": "unicycle"}, "system 'unicycle' cannot be made"),
         ({"body": None}, "has no 'body'"),
         ({"heldout_window_s": [80, 90]}, "must follow one another"),
-        ({"baseline": {"controller": "LQR"}}, "controller is 'LQR'; known: PD, FPD"),
+        ({"baseline": {"controller": "LQR"}}, "controller='LQR': known are 'PD', 'FPD'"),
     ],
 )
 def test_a_case_that_cannot_be_imitated_is_refused(change, message):

@@ -243,7 +243,7 @@ def test_windows_and_channels_are_checked():
         (
             '{"system": "boat", "baseline": {}, "fit_window_s": [], "heldout_window_s": [], '
             '"angle_noise_rms_rad_approx": 1}',
-            "system is 'boat'; known: standing, rig",
+            "system='boat': known are 'standing', 'rig'",
         ),
         (
             '{"system": "standing", "baseline": {}, "body": {}, "fit_window_s": [], "heldout_window_s": [], '

@@ -131,7 +131,7 @@ def test_values_of_a_wrong_type_are_refused(part, words):
 @pytest.mark.parametrize(
     ("part", "words"),
     [
-        (lambda m: si.Process(unit="N", size="big"), "size=big; give a positive number"),
+        (lambda m: si.Process(unit="N", size="big"), "size='big'; give a positive number"),
         (lambda m: si.Parameter(unit="N", guess="a few"), "the guess 'a few' .* is outside its bounds .* or no number"),
         (lambda m: si.Control(unit="N", hold="smooth"), "known: 'linear', 'zero'$"),
     ],
