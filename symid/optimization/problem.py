@@ -23,6 +23,8 @@ from symid.transcription import Episodes, HermiteSimpson, Measured, Scheme, Tran
 
 MOST_NODES = 10_000_000
 """More do not fit into the memory of a large machine."""
+TOLERANCE = 1e-8
+"""Ipopt's own default: a motion that nothing but its equations determines is as exact as they are solved."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,6 +156,7 @@ class Optimization:
         """
         starts = checked.whole(starts, "starts", SolveError, least=1)
         seed = checked.whole(seed, "seed", SolveError)
+        solver["options"] = {"tol": TOLERANCE} | (solver.get("options") or {})
         first = self.start(start)
         plans = []
         for k in range(starts):

@@ -51,6 +51,8 @@ class LateSignal:
     row, late_column : (K,) constraint rows and the columns of the late unknown.
     node_columns : (K + 1,) columns of the signal at the nodes; None for an input, which is known.
     lag_column, lag_scale : column of the lag's parameter, and lag = scale * z.
+    jumps : whether the signal may jump at node 0, as a control does that is known before. Where the lag is known, each
+        interval then reads one side alone: the samples, or the nodes, which go on straight before node 0.
     """
 
     samples: np.ndarray
@@ -64,6 +66,7 @@ class LateSignal:
     node_columns: np.ndarray | None
     lag_column: int | None = None
     lag_scale: float = 1.0
+    jumps: bool = False
 
     def __post_init__(self):
         lo, hi = self.lag_bounds
@@ -72,15 +75,21 @@ class LateSignal:
         offsets = np.arange(first, last + 1)
         nodes = np.arange(len(self.row))[:, None] + offsets  # (K, window)
         free = (nodes >= 0) & (nodes <= len(self.row)) if self.node_columns is not None else np.zeros(nodes.shape, bool)
+        ghost = np.zeros(nodes.shape, bool)
+        if self.jumps and self.lag is not None:
+            past = np.arange(len(self.row)) + 0.5 < self.lag / self.step
+            free[past] = False
+            ghost = (nodes < 0) & ~past[:, None]
         for name, value in (
             ("offsets", offsets),
             ("nodes", nodes),
             ("free", free),
+            ("ghost", ghost),
             ("sample_index", np.clip(nodes + self.before, 0, len(self.samples) - 1)),
         ):
             object.__setattr__(self, name, value)
 
-    # offsets (window,), nodes (K, window), free (K, window) bool, sample_index (K, window)
+    # offsets (window,), nodes (K, window), free, ghost (K, window) bool, sample_index (K, window)
     def _lag(self, z: np.ndarray) -> float:
         return self.lag if self.lag_column is None else float(z[self.lag_column]) * self.lag_scale
 
@@ -95,6 +104,7 @@ class LateSignal:
             at_nodes = z[self.node_columns]
             values = np.where(self.free, at_nodes[np.clip(self.nodes, 0, len(self.row))], values)
             values = np.where(self.nodes > len(self.row), at_nodes[-1], values)
+            values = np.where(self.ghost, at_nodes[0] + self.nodes * (at_nodes[1] - at_nodes[0]), values)
         return values
 
     def residual(self, z: np.ndarray) -> np.ndarray:
@@ -102,10 +112,13 @@ class LateSignal:
         return z[self.late_column] - self._values(z) @ self._window_weights(z)
 
     def _tie(self, coefficients: np.ndarray) -> np.ndarray:
-        """(free entries,) the coefficients of the free nodes, those behind the end given to the last."""
+        """(free entries,) the coefficients of the free nodes, with those of the nodes that stand for what lies beyond."""
         table = np.broadcast_to(coefficients, self.free.shape).copy()
         spill = np.where(self.nodes > len(self.row), table, 0.0).sum(axis=1)
         table[self.nodes == len(self.row)] += spill[(self.nodes == len(self.row)).any(axis=1)]
+        ghosts, before = np.where(self.ghost, table, 0.0), self.ghost.any(axis=1)
+        for node, share in ((0, 1 - self.nodes), (1, self.nodes)):  # v[-j] = (1 + j) v[0] - j v[1]
+            table[(self.nodes == node) & before[:, None]] += (ghosts * share).sum(axis=1)[before]
         return table[self.free]
 
     def _free_entries(self) -> tuple[np.ndarray, np.ndarray]:

@@ -66,6 +66,7 @@ def gather_late(
                     node_columns=None if at_nodes is None else layout.node_view(numbers, e)[:, at_nodes],
                     lag_column=column,
                     lag_scale=1.0 if column is None else layout.parameter_scale[column - layout.offsets[-1]],
+                    jumps=of in model.controls,
                 )
                 row += layout.intervals[e]
 
