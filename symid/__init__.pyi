@@ -57,6 +57,7 @@ from .model import (
     Process as Process,
     State as State,
     Term as Term,
+    c_function as c_function,
     table as table,
 )
 from .optimization import Free as Free, Optimization as Optimization, Plan as Plan

@@ -8,7 +8,7 @@ from math import isinf, isnan
 
 import sympy as sm
 
-from symid.codegen.graph import UNIFORM, Graph
+from symid.codegen.graph import FOREIGN, UNIFORM, Graph, foreign_name
 from symid.codegen.lower import lower
 
 # glibc has vector versions of these for x86-64 (libmvec); the compiler uses them once told so.
@@ -76,6 +76,12 @@ def number(value: float) -> str:
     return f"(-{text})" if value < 0 else text
 
 
+def foreign_text(texts: Iterable[str]) -> str:
+    """The user's own C, hidden from other libraries, whose names it may share."""
+    own = "\n".join(dict.fromkeys(texts))
+    return f"#pragma GCC visibility push(hidden)\n{own}\n#pragma GCC visibility pop\n" if own else ""
+
+
 class Statements:
     """Assignments that compute operations of a graph, each operation once.
 
@@ -105,7 +111,10 @@ class Statements:
             return self.number(args[0])
         if op == "symbol":
             return self.names.get(args[0], args[0])
-        return self.patterns[op].format(*(self.expression(a) for a in args))
+        operands = [self.expression(a) for a in args]
+        if op.startswith(FOREIGN):
+            return f"{foreign_name(op)}({', '.join(operands)})"
+        return self.patterns[op].format(*operands)
 
     def assigned(self, level: int) -> list[tuple[str, str, str]]:
         """(C type, variable, expression) of each named operation of this level, in order."""

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from symid.codegen.graph import POINT, UNIFORM, Graph
+from symid.codegen.graph import FOREIGN, POINT, UNIFORM, Graph
 from symid.codegen.lower import lower
 from symid.codegen.program import Program
 
@@ -93,6 +93,10 @@ def partials(g: Graph, k: int) -> list[tuple[int, int]]:
     op, args = g.ops[k], g.operands(k)
     if op in RULES:
         return list(zip(args, RULES[op](g, k, *args), strict=True))
+    if op.startswith(FOREIGN):
+        base, places = op.removeprefix(FOREIGN).split(" ")
+        text = g.foreign_texts[base]
+        return [(a, g.foreign(base, "".join(sorted(f"{places}{i}")), text, *args)) for i, a in enumerate(args)]
     if op == "select":
         c, a, b = args
         return [(a, g.select(c, g.one, g.zero)), (b, g.select(c, g.zero, g.one))]

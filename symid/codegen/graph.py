@@ -10,7 +10,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from math import inf
 
+FOREIGN = "C "  # before the name of a function that the user gives, as an operation
 NUMBER, UNIFORM, POINT = range(3)  # how often a value changes: never, once per call, at each point
+
+
+def foreign_name(op: str) -> str:
+    """How C names a foreign operation: ``drag``, ``drag_01``."""
+    base, places = op.removeprefix(FOREIGN).split(" ")
+    return f"{base}_{places}" if places else base
 
 
 class Graph:
@@ -20,6 +27,7 @@ class Graph:
         self.ops: list[str] = []
         self.args: list[tuple] = []
         self.level: list[int] = []
+        self.foreign_texts: dict[str, str] = {}  # C function -> its source
         self._known: dict[tuple, int] = {}
         self.zero, self.one = self.number(0.0), self.number(1.0)
 
@@ -48,6 +56,11 @@ class Graph:
             self.args.append(args)
             self.level.append(max(UNIFORM, *(self.level[a] for a in args)))
         return k
+
+    def foreign(self, base: str, places: str, text: str, *args: int) -> int:
+        """A derivative of the user's C function `base` by the arguments at `places`."""
+        self.foreign_texts[base] = text
+        return self.call(f"{FOREIGN}{base} {places}", *args)
 
     def value(self, a: int) -> float | None:
         """The number that `a` is, or None."""

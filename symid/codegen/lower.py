@@ -14,6 +14,7 @@ import sympy as sm
 
 from symid.codegen.graph import Graph
 from symid.errors import CodegenError
+from symid.model import CFunction
 
 FUNCTIONS = {
     "sin": "sin",
@@ -119,9 +120,11 @@ def _operation(g: Graph, e: sm.Basic, args: list[int]) -> int:
         return g.one if e else g.zero
     if kind in FUNCTIONS:
         return g.call(FUNCTIONS[kind], *args)
+    if isinstance(e, CFunction):
+        return g.foreign(e.base, e.places, e.text, *args)
     raise CodegenError(
         f"cannot compute {kind}: '{str(e)[:80]}' has no generated code; write it with + - * / **, "
-        f"{', '.join(sorted(FUNCTIONS))}, sqrt, Max, Min, Heaviside or Piecewise"
+        f"{', '.join(sorted(FUNCTIONS))}, sqrt, Max, Min, Heaviside, Piecewise, symid.table or symid.c_function"
     )
 
 

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Callable, Sequence
 
 import numpy as np
 import sympy as sm
 
+from symid.codegen.build import load_library
 from symid.codegen.cprint import PATTERNS, Statements
 from symid.codegen.derive import Derived
-from symid.codegen.graph import POINT, UNIFORM, Graph
+from symid.codegen.graph import FOREIGN, POINT, UNIFORM, Graph, foreign_name
 from symid.codegen.lower import lower
 
 NUMPY_PATTERNS = PATTERNS | {
@@ -42,7 +44,8 @@ def numpy_functions(derived: Derived) -> dict[str, Callable]:
     }
     functions = {}
     for name, operations in outputs.items():
-        exec(compile(_text(name, derived, operations), f"<symid {name}>", "exec"), {"np": np}, functions)
+        known = {"np": np} | _foreign(derived.graph)
+        exec(compile(_text(name, derived, operations), f"<symid {name}>", "exec"), known, functions)
     return functions
 
 
@@ -80,5 +83,19 @@ def python_function(
         f"    return [{', '.join(f'np.array([{values}], dtype=float)' for values in lists)}]",
     ]
     functions: dict[str, Callable] = {}
-    exec(compile("\n".join(lines), f"<symid {name}>", "exec"), {"np": np}, functions)
+    exec(compile("\n".join(lines), f"<symid {name}>", "exec"), {"np": np} | _foreign(graph), functions)
     return functions[name]
+
+
+def _foreign(graph: Graph) -> dict[str, Callable]:
+    """The user's C functions in `graph`, element by element; CodegenError where they cannot be compiled."""
+    if not graph.foreign_texts:
+        return {}
+    library = load_library("\n".join(["#include <math.h>", *dict.fromkeys(graph.foreign_texts.values())]))
+    found = {}
+    for op, args in zip(graph.ops, graph.args, strict=True):
+        if op.startswith(FOREIGN) and foreign_name(op) not in found:
+            function = getattr(library, foreign_name(op))
+            function.restype, function.argtypes = ctypes.c_double, [ctypes.c_double] * len(args)
+            found[foreign_name(op)] = np.vectorize(function, otypes=[float])
+    return found

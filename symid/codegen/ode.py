@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 import sympy as sm
 
-from symid.codegen.cprint import PREAMBLE, c_statements
+from symid.codegen.cprint import PREAMBLE, c_statements, foreign_text
 from symid.codegen.numpyprint import python_function
 from symid.errors import CodegenError
-from symid.model import TIME, Model, symbol
+from symid.model import TIME, Model, c_texts, symbol
 
 TABLE = Path(__file__).with_name("ode.h").read_text()
 """The C declaration of what a model exports and the integrating loop reads."""
@@ -83,6 +83,7 @@ class OdeSource:
         return "\n".join(
             [
                 PREAMBLE,
+                foreign_text(c_texts(e for f in self.functions.values() for array in f.values() for e in array)),
                 TABLE,
                 *lists,
                 *(self._c_function(name) for name in self.functions),

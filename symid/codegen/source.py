@@ -6,7 +6,7 @@ import hashlib
 import json
 from dataclasses import dataclass
 
-from symid.codegen.cprint import PREAMBLE, Statements
+from symid.codegen.cprint import PREAMBLE, Statements, foreign_text
 from symid.codegen.derive import Derived, derive, lowered
 from symid.codegen.graph import POINT, UNIFORM, Graph
 from symid.codegen.program import Program
@@ -64,7 +64,7 @@ class Source:
 def fingerprint(program: Program, graph: Graph, rows: list[int]) -> str:
     """Changes with the equations and the order of their symbols; not with any value."""
     symbols = [[str(s) for s in getattr(program, k)] for k in ("local", "shared", "data", "constants")]
-    text = repr((FORMAT, symbols, graph.ops, graph.args, rows))
+    text = repr((FORMAT, symbols, graph.ops, graph.args, rows)) + foreign_text(graph.foreign_texts.values())
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
 
@@ -97,7 +97,8 @@ def print_source(program: Program, key: str, derived: Derived) -> Source:
         _function("jacobian", shape, derived.graph, list(derived.jacobian.values()), STORE),
         _function("hessian_into", shape, derived.graph, list(derived.hessian.values()), ACCUMULATE),
     ]
-    text = "\n".join([f"// {key}", f"// {json.dumps(shape)}", *legend, PREAMBLE + "#define BLOCK 8", *functions])
+    own = PREAMBLE + foreign_text(derived.graph.foreign_texts.values()) + "#define BLOCK 8"
+    text = "\n".join([f"// {key}", f"// {json.dumps(shape)}", *legend, own, *functions])
     return Source(key, shape, text)
 
 

@@ -12,12 +12,12 @@ from dataclasses import dataclass
 
 import sympy as sm
 
-from symid.codegen.cprint import Statements, c_statements, number
+from symid.codegen.cprint import Statements, c_statements, foreign_text, number
 from symid.codegen.graph import UNIFORM, Graph
 from symid.codegen.lower import lower
 from symid.codegen.numpyprint import NUMPY_PATTERNS
 from symid.errors import CodegenError
-from symid.model import TIME, Model
+from symid.model import TIME, Model, c_texts
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +91,7 @@ def _loop(model: Model) -> _Loop:
 C_TEXT = """\
 /* {legend} */
 #include <math.h>
-
+{own}
 enum {{ {id}_states = {n}, {id}_inputs = {k}, {id}_outputs_count = {m} }};
 {constants}
 
@@ -156,6 +156,7 @@ def c_text(model: Model) -> str:
     rates = f"double dx[{n}];\nif ({loop.identifier}_rates(t, x, u, dx)) return 1;\n" if loop.need_rates else ""
     return C_TEXT.format(
         legend="\n   ".join(loop.legend),
+        own=foreign_text(c_texts([*loop.mass, *loop.force, *loop.observed])),
         id=loop.identifier,
         n=n,
         k=len(_inputs(model)),
@@ -203,6 +204,10 @@ def step(t, h, x, u=()):
 def python_text(model: Model) -> str:
     """A Python module, which needs NumPy alone, of a model without free parameters."""
     loop = _loop(model)
+    if c_texts([*loop.mass, *loop.force, *loop.observed]):
+        raise CodegenError(
+            f"export: model '{model.name}' has a function in C, which Python cannot hold: export it as C"
+        )
     rates = ["dx = rates(t, x, u)"] if loop.need_rates else []
     return PYTHON_TEXT.format(
         legend="\n".join(loop.legend),

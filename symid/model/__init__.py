@@ -1,5 +1,6 @@
 """What we believe about a system: named parts, implicit residuals, conditions, and terms to add to them."""
 
+from symid.model.c_function import CFunction, c_function, c_texts
 from symid.model.conditions import Boundary, Constraint, Objective, Row
 from symid.model.declare import (
     Algebraic,
@@ -27,6 +28,7 @@ __all__ = [
     "TIME",
     "Algebraic",
     "Boundary",
+    "CFunction",
     "Component",
     "Constant",
     "Constraint",
@@ -50,6 +52,8 @@ __all__ = [
     "Row",
     "State",
     "Term",
+    "c_function",
+    "c_texts",
     "free_symbols",
     "initial",
     "symbol",

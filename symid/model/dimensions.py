@@ -10,6 +10,7 @@ import sympy as sm
 from sympy.functions.elementary.piecewise import ExprCondPair
 
 from symid.errors import SymidError
+from symid.model.c_function import CFunction
 from symid.model.declare import Port
 from symid.model.quantity import symbol
 from symid.units import base_unit, dimension
@@ -42,7 +43,7 @@ def dimension_of(expr: sm.Expr, table: Mapping[sm.Symbol, object]):
         return product
     if expr.is_Pow and expr.exp.is_number:
         return dimension_of(expr.base, table) ** float(expr.exp)
-    if isinstance(expr, (sm.sign, ExprCondPair)):
+    if isinstance(expr, (sm.sign, ExprCondPair, CFunction)):
         return none
     for argument in expr.args:  # every other function, and powers with a variable exponent
         found = dimension_of(argument, table)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import sympy as sm
 
+from symid.model.c_function import c_texts
 from symid.model.conditions import Boundary, Constraint, Objective
 
 if TYPE_CHECKING:
@@ -26,4 +27,8 @@ def fingerprint_of(model: Model) -> str:
     )
     conditions = [c for c in model.components.values() if isinstance(c, (Constraint, Boundary, Objective))]
     text += "".join(map(repr, conditions))
+    said = [
+        getattr(c, k, None) for c in model.components.values() for k in ("expr", "condition", "running", "terminal")
+    ]
+    text += "".join(c_texts(e for e in said if isinstance(e, sm.Basic)))
     return hashlib.sha256(text.encode()).hexdigest()[:16]

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sm
 
+from sympy.core.function import AppliedUndef
+
 from symid.errors import ModelError
 
 Operand = Any
@@ -115,6 +117,12 @@ def refuse_calculus(expr: sm.Basic) -> None:
     """ModelError for what SymPy has not worked out: no number comes from it at a point."""
     if expr.atoms(sm.AccumBounds):
         raise ModelError(f"{str(expr)[:80]} is a range (AccumBounds), of which no number comes; write it otherwise")
+    unknown = expr.atoms(AppliedUndef)
+    if unknown:
+        raise ModelError(
+            f"{next(iter(unknown))} is a function of which no number comes: use the model's parts "
+            "(si.mechanics.from_kane makes a model of dynamicsymbols), si.table for a measured curve, or si.c_function"
+        )
     left = expr.atoms(sm.Derivative, sm.Integral, sm.Sum, sm.Product, sm.Limit, sm.Subs)
     if left:
         raise ModelError(

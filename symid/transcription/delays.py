@@ -112,7 +112,7 @@ class LateSignal:
         return z[self.late_column] - self._values(z) @ self._window_weights(z)
 
     def _tie(self, coefficients: np.ndarray) -> np.ndarray:
-        """(free entries,) the coefficients of the free nodes, with those of the nodes that stand for what lies beyond."""
+        """(free entries,) the coefficients of the free nodes, those of what lies beyond given to them."""
         table = np.broadcast_to(coefficients, self.free.shape).copy()
         spill = np.where(self.nodes > len(self.row), table, 0.0).sum(axis=1)
         table[self.nodes == len(self.row)] += spill[(self.nodes == len(self.row)).any(axis=1)]
