@@ -13,6 +13,7 @@ from symid.errors import SymidError
 from symid.model.c_function import CFunction
 from symid.model.declare import Port
 from symid.model.quantity import symbol
+from symid.model.table import Table
 from symid.units import base_unit, dimension
 
 if TYPE_CHECKING:
@@ -32,6 +33,8 @@ def dimension_of(expr: sm.Expr, table: Mapping[sm.Symbol, object]):
         return table[expr]
     if expr.is_number:
         return none
+    if isinstance(expr, (sm.sign, ExprCondPair, CFunction, Table)):
+        return none
     if isinstance(expr, sm.Piecewise):
         return _common([pair.expr for pair in expr.args], table, expr)
     if expr.is_Add or isinstance(expr, _SAME_AS_ARGUMENT):
@@ -43,8 +46,6 @@ def dimension_of(expr: sm.Expr, table: Mapping[sm.Symbol, object]):
         return product
     if expr.is_Pow and expr.exp.is_number:
         return dimension_of(expr.base, table) ** float(expr.exp)
-    if isinstance(expr, (sm.sign, ExprCondPair, CFunction)):
-        return none
     for argument in expr.args:  # every other function, and powers with a variable exponent
         found = dimension_of(argument, table)
         if found != none:

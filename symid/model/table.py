@@ -14,8 +14,14 @@ from symid.model.quantity import sympified
 FEWEST = 2
 
 
+class Table(sm.Piecewise):
+    """The pieces of a curve; a number without unit, whatever the unit of its places."""
+
+
 def table(of: Any, places: Sequence[float], values: Sequence[float]) -> sm.Expr:
     """The curve through (places, values) at the quantity `of`: a natural cubic spline, straight beyond both ends.
+
+    It is a number: multiply it by a Constant of one unit.
 
     Value, slope and curvature are continuous (de Boor 2001, ch. IV), so that a solver has exact first and second
     derivatives everywhere.
@@ -51,7 +57,7 @@ def table(of: Any, places: Sequence[float], values: Sequence[float]) -> sm.Expr:
         cubic = [y[k], slope[k], bend[k] / 2, (bend[k + 1] - bend[k]) / (6 * h[k])]
         value = sum(sm.Float(c) * d**i for i, c in enumerate(cubic))
         pieces.append((value, s < sm.Float(x[k + 1])))
-    return sm.Piecewise(*pieces, (sm.Float(y[-1]) + sm.Float(last) * (s - sm.Float(x[-1])), True))
+    return Table(*pieces, (sm.Float(y[-1]) + sm.Float(last) * (s - sm.Float(x[-1])), True))
 
 
 def _second_derivatives(h: np.ndarray, y: np.ndarray) -> np.ndarray:
