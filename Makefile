@@ -59,6 +59,7 @@ $(READY): pyproject.toml symid/setup_ipopt.py
 	  then $(PYTHON) -m venv --system-site-packages .venv; else $(PYTHON) -m venv .venv; fi
 	$(PY) -m pip install --quiet --editable '.[test]'
 	$(PY) -P symid/setup_ipopt.py
+	$(PY) -m compileall -q symid
 	touch $@
 
 clean:
