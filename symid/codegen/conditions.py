@@ -26,9 +26,10 @@ from symid.codegen.symbols import (
     scale_symbol,
     scaled_parameters,
     scales,
+    size_symbol,
     used_data,
 )
-from symid.model import TIME, Constraint, Model, Process, Row, initial, terminal
+from symid.model import TIME, Constraint, Model, Row, initial, terminal
 
 
 def of_parameters_alone(model: Model, constraint: Constraint) -> bool:
@@ -191,7 +192,7 @@ def parameter_penalties(model: Model) -> dict[str, sm.Expr]:
 
 def process_rows(model: Model) -> list[sm.Expr]:
     """What the likelihood of estimated process noise integrates: (noise / size)^2."""
-    return [(c.symbol / sm.Float(c.size)) ** 2 for c in model.controls.values() if isinstance(c, Process)]
+    return [(c.symbol / size_symbol(name)) ** 2 for name, c in model.processes.items()]
 
 
 def terminal_objective(model: Model) -> sm.Expr:

@@ -51,7 +51,12 @@ def parameter_symbols(model: Model) -> list[sm.Symbol]:
 
 
 def constant_symbols(model: Model) -> list[sm.Symbol]:
-    return [c.symbol for c in model.constants.values()]
+    """The constants, then the sizes of process noise."""
+    return [*(c.symbol for c in model.constants.values()), *map(size_symbol, model.processes)]
+
+
+def size_symbol(process: str) -> sm.Symbol:
+    return symbol(f"size {process}")
 
 
 def scales(model: Model) -> list[sm.Symbol]:

@@ -73,7 +73,7 @@ def problem_identity(problem: Identification) -> dict[str, str]:
 
 def _declared(model: Model) -> list[tuple]:
     """Numbers, units and channels of all parts; the expressions are in the model's own fingerprint."""
-    said = ("value", "bounds", "guess", "unit", "channel", "hold")
+    said = ("value", "bounds", "guess", "unit", "channel", "hold", "size", "smooth", "prior")
     return [(name, {k: getattr(part, k) for k in said if hasattr(part, k)}) for name, part in model.components.items()]
 
 

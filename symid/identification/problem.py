@@ -17,6 +17,7 @@ from symid import checked
 from symid.errors import RecordingWarning, SolveError, TranscriptionError
 from symid.identification.arguments import Recordings, refuse_wrong_options, refuse_wrong_types
 from symid.identification.identity import problem_identity
+from symid.identification.process_size import to_sized, unsized
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution
 from symid.identification.start_row import StartRow
@@ -299,7 +300,9 @@ class Identification:
             if executor is None
             else study.run(executor, on_finished=on_finished)
         )
-        return to_likelihood(ended.best(), on_iteration=on_iteration, **solver)
+        best = ended.best()
+        settle = to_sized if unsized(self.model) else to_likelihood
+        return settle(best, on_iteration=on_iteration, **solver)
 
 
 def _off_its_bounds(nlp: NonlinearProgram) -> NonlinearProgram:

@@ -15,6 +15,7 @@ from symid import checked
 from symid.errors import SolveError
 from symid.files import write_json
 from symid.identification.identity import digest, problem_identity
+from symid.identification.process_size import unsized, with_sizes
 from symid.identification.solution import Solution, build_solution
 from symid.identification.store import StudyDirectory
 from symid.identification.worker import Outcome
@@ -33,7 +34,8 @@ def _directory(path: str | Path, problem: Identification) -> StudyDirectory:
 def save(solution: Solution, path: str | Path) -> None:
     """Write the best start's result to the directory `path`, and ``summary.json`` for people."""
     _directory(path, solution.problem)[KEY] = Outcome(solution.starts[solution.best], solution.result)
-    write_json(Path(path) / SUMMARY, solution.to_dict() | {"noise": solution.problem.noise})
+    sizes = {name: p.size for name, p in solution.model.processes.items()}
+    write_json(Path(path) / SUMMARY, solution.to_dict() | {"noise": solution.problem.noise, "process_sizes": sizes})
 
 
 def load(path: str | Path, problem: Identification) -> Solution:
@@ -46,11 +48,14 @@ def load(path: str | Path, problem: Identification) -> Solution:
     """
     path = checked.path(path, "load", SolveError)
     try:
-        noise = json.loads((Path(path) / SUMMARY).read_text(encoding="utf-8"))["noise"]
+        summary = json.loads((Path(path) / SUMMARY).read_text(encoding="utf-8"))
+        noise, sizes = summary["noise"], {n: summary["process_sizes"][n] for n in unsized(problem.model)}
     except (OSError, ValueError, KeyError, TypeError) as absent:
         raise SolveError(
             f"{path} holds no saved solution ({absent}): give the directory that Solution.save wrote"
         ) from None
-    problem = replace(problem, noise=problem.noise or noise)  # what the solve estimated belongs to its problem
+    # What the solve estimated belongs to its problem.
+    model = with_sizes(problem.model, sizes) if sizes else problem.model
+    problem = replace(problem, model=model, noise=noise if sizes else problem.noise or noise)
     outcome = _directory(path, problem)[KEY]
     return build_solution(problem, outcome.result, (outcome.row,), 0)

@@ -99,6 +99,9 @@ def error_notes(solution: Solution) -> list[str]:
     )
     more = f"; and {len(e.noise) - SHOWN} more recordings" if len(e.noise) > SHOWN else ""
     notes = [f"Standard errors: {e.model} noise, {e.why}. Noise (standard deviation): {noise}{more}"]
+    sizes = [f"{name} {p.size:.3g} {p.unit}*sqrt(s)" for name, p in solution.model.processes.items()]
+    if sizes:
+        notes.append(f"Process noise (size): {', '.join(sizes)}")
     lost = [name for name, u in zip(solution.values, e.undetermined, strict=True) if u]
     if lost:
         found = ", ".join(f"{text}: {value:.5g} +- {error:.2g}" for text, (value, error) in solution.determined.items())
@@ -123,7 +126,7 @@ def text(solution: Solution) -> str:
     table = solution.parameters[["value", "std_error", "unit", "at_bound"]]
     starts = f"\nBest of {len(solution.starts)} starts." if len(solution.starts) > 1 else ""
     cut = "".join(f"\n{warning}." for warning in (*solution.warnings, *error_notes(solution)))
-    numbers = table.to_string(float_format="%.5g")
+    numbers = table.to_string(float_format="%.5g") if len(table) else "There is no free parameter."
     return f"{solution.model.name}\n{headline(solution)}\n{solution.message}{starts}{cut}\n{numbers}"
 
 

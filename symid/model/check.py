@@ -53,7 +53,7 @@ def _values(model: Model) -> Iterator[str]:
         if isinstance(c, (Input, Control)) and c.hold not in _holds(c):
             known = ", ".join(map(repr, _holds(c)))
             yield f"the {type(c).__name__.lower()} '{c.name}' has hold={c.hold!r}; known: {known}"
-        if isinstance(c, Process) and not (isfinite(_number(c.size)) and c.size > 0):
+        if isinstance(c, Process) and c.size is not None and not (isfinite(_number(c.size)) and c.size > 0):
             yield f"the process noise '{c.name}' has size={shown(c.size)}; give a positive number [{c.unit}*sqrt(s)]"
         if isinstance(c, Parameter) and c.prior is not None and not isinstance(c.prior, Prior):
             yield f"the prior {c.prior!r} of '{c.name}' is none: give Normal(mean, std) or LogNormal(median, factor)"

@@ -127,19 +127,23 @@ class Control(AlongTime, Component):
 
 @dataclass(frozen=True, kw_only=True)
 class Process(Control):
-    """Process noise that is estimated along with the motion: white, of a known size, constant from node to node.
+    """Process noise that is estimated along with the motion: white, constant from node to node.
 
-    >>> m.gust = Process(unit="N", size=0.3)
+    >>> m.gust = Process(unit="N", size=0.3)            # or Process(unit="N"), whose size is estimated, too
+
+    Motion and parameters are those of the largest joint density. Where the noise moves a system as much as its other
+    forces do, that makes the noise too small and damping with it; what is damped little is measured better without.
 
     Parameters
     ----------
     size : square root of the noise's spectral density [unit * sqrt(s)]: its mean over a time T has the
         standard deviation size / sqrt(T). The objective gets the integral of (noise / size)^2, that is -2 log of
-        its likelihood (Jazwinski 1970, section 5.3).
+        its likelihood (Jazwinski 1970, section 5.3). `Identification.solve` estimates it where it is left out; a
+        Study and an Optimization need it.
     """
 
     hold: str = "zero"
-    size: float = 1.0
+    size: float | None = None
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,7 +13,7 @@ from symid.errors import SymidError
 from symid.model.c_function import CFunction
 from symid.model.declare import Port
 from symid.model.quantity import symbol
-from symid.model.table import Table
+from symid.model.table import Piecewise as Curve
 from symid.units import base_unit, dimension
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ def dimension_of(expr: sm.Expr, table: Mapping[sm.Symbol, object]):
         return table[expr]
     if expr.is_number:
         return none
-    if isinstance(expr, (sm.sign, ExprCondPair, CFunction, Table)):
+    if isinstance(expr, (sm.sign, ExprCondPair, CFunction, Curve)):
         return none
     if isinstance(expr, sm.Piecewise):
         return _common([pair.expr for pair in expr.args], table, expr)

@@ -126,6 +126,7 @@ class Model:
     states = _kind(State)
     algebraics = _kind(Algebraic)
     controls = _kind(Control)
+    processes = _kind(Process)
     inputs = _kind(Input)
     parameters = _kind(Parameter)
     constants = _kind(Constant)
@@ -143,7 +144,7 @@ class Model:
         """Whether something is known beside the data: a prior, or the size of process noise."""
         return (
             any(p.prior is not None for p in self.parameters.values())
-            or bool(self._of(Process))
+            or bool(self.processes)
             or any(b.penalties(set()) for b in self.boundaries.values())
         )
 

@@ -14,8 +14,8 @@ from symid.model.quantity import sympified
 FEWEST = 2
 
 
-class Table(sm.Piecewise):
-    """The pieces of a curve; a number without unit, whatever the unit of its places."""
+class Piecewise(sm.Piecewise):
+    """The pieces of a curve: a number without unit, whatever the unit of its places. SymPy prints it by its name."""
 
 
 def table(of: Any, places: Sequence[float], values: Sequence[float]) -> sm.Expr:
@@ -57,7 +57,7 @@ def table(of: Any, places: Sequence[float], values: Sequence[float]) -> sm.Expr:
         cubic = [y[k], slope[k], bend[k] / 2, (bend[k + 1] - bend[k]) / (6 * h[k])]
         value = sum(sm.Float(c) * d**i for i, c in enumerate(cubic))
         pieces.append((value, s < sm.Float(x[k + 1])))
-    return Table(*pieces, (sm.Float(y[-1]) + sm.Float(last) * (s - sm.Float(x[-1])), True))
+    return Piecewise(*pieces, (sm.Float(y[-1]) + sm.Float(last) * (s - sm.Float(x[-1])), True))
 
 
 def _second_derivatives(h: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -78,8 +78,9 @@ def input_at(model: Model, scheme: Scheme, m: Measured, name: str, abscissa: flo
 
 
 def values_of(model: Model) -> np.ndarray:
-    """(constants,) in the order of declaration."""
-    return np.array([c.value for c in model.constants.values()], dtype=float)
+    """(constants,) in the order of `codegen.symbols.constant_symbols`."""
+    sizes = [1.0 if p.size is None else p.size for p in model.processes.values()]  # 1 until it is estimated
+    return np.array([*(c.value for c in model.constants.values()), *sizes], dtype=float)
 
 
 def scales(layout: Layout) -> np.ndarray:

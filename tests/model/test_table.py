@@ -32,6 +32,7 @@ def test_a_model_with_a_table_is_identified():
     m.kinematics = si.Equation(m.x.dot - m.v)
     m.balance = si.Equation(m.v.dot + m.c * m.v + m.force * si.table(m.x, [-2, -1, 0, 1, 2], [-9, -3, 0, 3, 9]))
     m.seen = si.Output(m.x)
+    m.check()  # with its units: places in metres, the curve a number
     time = np.arange(0, 5, 0.02)
     motion = Simulator(m).simulate({"c": 0.3}, {"x": 1.5, "v": 0}, time, substeps=4)
     data = si.Recording("swing", time, {"x": motion.outputs["seen"]}, {"x": "m"})
