@@ -16,7 +16,7 @@ MOST = 9
 """Arguments, which one digit of a derivative's name tells apart."""
 
 
-class CFunction(sm.Function):
+class CFunction(sm.Function):  # type: ignore[misc]
     """Base of the functions that `c_function` makes; a derivative is one of them, too.
 
     Attributes
@@ -59,7 +59,7 @@ def c_function(name: str, source: str, arguments: int = 1) -> type[CFunction]:
     ... double drag_0(double v)  { return 2 * fabs(v); }
     ... double drag_00(double v) { return v < 0 ? -2 : 2; }
     ... ''')
-    >>> m.motion = si.Equation(m.mass * m.v.dot + m.force * drag(m.v))
+    >>> m.motion = si.Equation(m.speed.dot + m.c * drag(m.speed))
 
     Raises
     ------

@@ -14,7 +14,7 @@ from symid.model.quantity import sympified
 FEWEST = 2
 
 
-class Piecewise(sm.Piecewise):
+class Piecewise(sm.Piecewise):  # type: ignore[misc]
     """The pieces of a curve: a number without unit, whatever the unit of its places. SymPy prints it by its name."""
 
 

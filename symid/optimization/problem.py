@@ -72,10 +72,10 @@ class Optimization:
                 f"model '{self.model.name}' has the inputs {', '.join(self.model.inputs)}, which only a "
                 "recording gives; write them as expressions of model.time, or declare a Control"
             )
-        for name, p in self.model.processes.items():
+        for process, p in self.model.processes.items():
             if p.size is None:
                 raise TranscriptionError(
-                    f"the process noise '{name}' of model '{self.model.name}' has no size, which an Optimization "
+                    f"the process noise '{process}' of model '{self.model.name}' has no size, which an Optimization "
                     f"cannot estimate: give size=... [{p.unit}*sqrt(s)]"
                 )
         timed, length, name = with_duration(self.model, self.duration)
