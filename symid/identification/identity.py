@@ -73,8 +73,16 @@ def problem_identity(problem: Identification) -> dict[str, str]:
 
 def _declared(model: Model) -> list[tuple]:
     """Numbers, units and channels of all parts; the expressions are in the model's own fingerprint."""
-    said = ("value", "bounds", "guess", "unit", "channel", "hold", "size", "smooth", "prior")
-    return [(name, {k: getattr(part, k) for k in said if hasattr(part, k)}) for name, part in model.components.items()]
+    said, seldom = ("value", "bounds", "guess", "unit", "channel", "hold"), ("size", "smooth", "prior")
+    return [
+        (name, {k: getattr(part, k) for k in said if hasattr(part, k)} | _given(part, seldom))
+        for name, part in model.components.items()
+    ]
+
+
+def _given(part: object, names: tuple[str, ...]) -> dict[str, object]:
+    """What few parts have; nothing of the others, so that results of earlier versions stay theirs."""
+    return {k: v for k in names if (v := getattr(part, k, None))}
 
 
 def _samples(recording: Recording) -> tuple:

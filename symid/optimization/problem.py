@@ -162,7 +162,8 @@ class Optimization:
         """
         starts = checked.whole(starts, "starts", SolveError, least=1)
         seed = checked.whole(seed, "seed", SolveError)
-        solver["options"] = {"tol": TOLERANCE} | (solver.get("options") or {})
+        given = checked.kind(solver.get("options") or {}, Mapping, "options of Ipopt", SolveError)
+        solver["options"] = {"tol": TOLERANCE} | dict(given)
         first = self.start(start)
         plans = []
         for k in range(starts):
