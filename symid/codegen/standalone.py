@@ -20,6 +20,13 @@ from symid.errors import CodegenError
 from symid.model import TIME, Model, c_texts
 
 
+C_WORDS = frozenset(
+    "auto break case char const continue default do double else enum extern float for goto if inline int long register "
+    "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while".split()
+)
+"""Of C99 (ISO/IEC 9899:1999, section 6.4.1), in which models may be named, too."""
+
+
 @dataclass(frozen=True, eq=False)
 class _Loop:
     """What both texts are made of: mass matrix row by row, forces, outputs, and how symbols are written."""
@@ -39,7 +46,8 @@ class _Loop:
 
     @property
     def identifier(self) -> str:
-        return re.sub(r"\W+", "_", self.model.name).strip("_").lower() or "model"
+        name = re.sub(r"[^0-9A-Za-z]+", "_", self.model.name).strip("_").lower() or "model"
+        return f"model_{name}" if name[0].isdigit() or name in C_WORDS else name
 
     @property
     def legend(self) -> list[str]:
@@ -49,7 +57,7 @@ class _Loop:
         for letter, parts in groups.items():
             for i, (name, part) in enumerate(parts.items()):
                 lines.append(f"  {letter}[{i}]  {name} [{part.unit}] {part.meaning}".rstrip())
-        return [line.replace("*/", "* /").replace('"""', "'''") for line in lines]
+        return [_in_comment(line) for line in lines]
 
 
 def _inputs(model: Model) -> dict:
@@ -162,7 +170,8 @@ def c_text(model: Model) -> str:
         k=len(_inputs(model)),
         m=len(model.outputs),
         constants="\n".join(
-            f"static const double {k} = {number(float(c.value))}; /* {c.unit} */" for k, c in loop.constants.items()
+            f"static const double {k} = {number(float(c.value))}; /* {_in_comment(c.unit)} */"
+            for k, c in loop.constants.items()
         ),
         fill=_indented(c_statements(fill, loop.names), 8),
         observe=_indented(f"(void)t; (void)x; (void)u;\n{rates}{observe}", 4),
@@ -215,7 +224,7 @@ def python_text(model: Model) -> str:
         states=tuple(model.states),
         inputs=tuple(_inputs(model)),
         outputs=tuple(model.outputs),
-        constants="\n".join(f"{k} = {float(c.value)!r}  # {c.unit}" for k, c in loop.constants.items()),
+        constants="\n".join(f"{k} = {float(c.value)!r}  # {_in_comment(c.unit)}" for k, c in loop.constants.items()),
         fill=_indented("\n".join(_python(loop, {"M": loop.mass, "b": [-e for e in loop.force]})), 4),
         observe=_indented("\n".join([*rates, *_python(loop, {"y": loop.observed})]), 4),
     )
@@ -234,6 +243,12 @@ def _python(loop: _Loop, arrays: dict[str, list[sm.Expr]]) -> list[str]:
 def _constant(name: str) -> str:
     """A name that C allows, too."""
     return "c_" + re.sub(r"[^0-9A-Za-z_]", lambda m: f"_{ord(m[0]):x}_", name)
+
+
+def _in_comment(text: str) -> str:
+    """On one line, and without what ends a comment of C, joins its lines, or is special in a text of Python."""
+    plain = "".join(c if c.isprintable() else " " for c in text).replace("\\", "/")
+    return plain.replace("*/", "* /").replace("/*", "/ *").replace('"""', "'''").replace("??", "? ?")
 
 
 def _indented(text: str, by: int) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import unicodedata
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -57,8 +58,8 @@ def completed(model: Model, part: Component, name: str) -> Component:
 
 
 def refuse_odd_name(model: Model, name: str) -> None:
-    """Names stand in generated code and in files: they are identifiers, or indices behind one."""
-    if not (name.isidentifier() and name.isprintable()):
+    """Names stand in generated code and in files: they are identifiers as Python reads them, or indices behind one."""
+    if not (name.isidentifier() and name.isprintable() and unicodedata.normalize("NFKC", name) == name):
         raise ModelError(
             f"model '{_short(model.name)}': {_short(name)!r} cannot name a part; take letters, digits and _, with a "
             "letter first"

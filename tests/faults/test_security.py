@@ -1,13 +1,16 @@
 """What SECURITY.md says: nothing that somebody else wrote becomes code, a hang or a foreign error."""
 
+import ctypes
 import json
 import pickle
+import runpy
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import sympy as sm
-from conftest import pendulum
+from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.cli import main
@@ -17,6 +20,7 @@ from symid.codegen.source import generate
 from symid.errors import ModelError, RecordingError, SolveError
 from symid.files import read_json
 from symid.identification.store import StudyDirectory
+from symid.report import write_report
 
 BREAKS_OUT = (
     "a\nint planted = 1; //",
@@ -183,3 +187,40 @@ def test_many_violations_and_many_channels_are_told_briefly():
     recording = si.Recording("r", time, {f"c{i}": time for i in range(500)}, {f"c{i}": "m" for i in range(500)})
     with pytest.raises(RecordingError, match="and 488 more"):
         recording["zzz"]
+
+
+EVIL = 'a*\\\n/ int planted = 1; //\u2028 \\users \\N{x} ??/ """ \nimport planted\n"""'
+
+
+@pytest.mark.parametrize("name", ["2 links", "double", "é", "*/ int planted; /*", "a\nint planted;", EVIL])
+def test_texts_of_an_exported_model_stay_in_their_comments(tmp_path, name):
+    """What compiles and runs is the same, whatever the model and its parts mean."""
+    model = si.Model(name)
+    model.x = si.State(unit="m", meaning=EVIL)
+    model.decay = si.Constant(0.5, unit="1/s", meaning=EVIL)
+    model.law = si.Equation(model.x.dot + model.decay * model.x)
+    model.y = si.Output(model.x, meaning=EVIL)
+    si.export(model, tmp_path / "m.c")
+    si.export(model, tmp_path / "m.py")
+    flags = ["-std=c99", "-trigraphs", "-Wall", "-Wno-trigraphs", "-Werror", "-shared", "-fPIC"]
+    subprocess.run(["cc", *flags, "m.c", "-o", "m.so", "-lm"], cwd=tmp_path, check=True)
+    assert not hasattr(ctypes.CDLL(str(tmp_path / "m.so")), "planted")
+    assert runpy.run_path(str(tmp_path / "m.py"))["rates"](0.0, [2.0]) == -1.0
+
+
+def test_texts_of_a_recording_are_escaped_in_a_report(tmp_path):
+    """A recording is named after its file, and files may have any name."""
+    evil = "<img src=x onerror=alert(1)>{{7*7}}</title><script>alert(1)</script>"
+    recording = replace(pendulum_recording(duration=1.0, noise=0.01), name=evil, source=evil, history=(evil,))
+    solution = si.Identification(pendulum(), recording).solve()
+    write_report(solution, tmp_path / "r.html")
+    for text in ((tmp_path / "r.html").read_text(), recording._repr_html_(), solution.problem._repr_html_()):
+        assert "<img src=x" not in text and "<script>alert" not in text and "{{7*7}}" in text
+
+
+@pytest.mark.parametrize("name", ["ｘ", "ſ", "µ", "ﬁ"])
+def test_a_name_is_the_one_that_python_reads(name):
+    """Python reads these letters as others (NFKC): m.ｘ and setattr(m, 'ｘ') would be two parts that look alike."""
+    model = si.Model("m")
+    with pytest.raises(ModelError, match="cannot name a part"):
+        setattr(model, name, si.Parameter(unit="m"))
