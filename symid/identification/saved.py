@@ -58,4 +58,8 @@ def load(path: str | Path, problem: Identification) -> Solution:
     model = with_sizes(problem.model, sizes) if sizes else problem.model
     problem = replace(problem, model=model, noise=noise if sizes else problem.noise or noise)
     outcome = _directory(path, problem)[KEY]
+    if outcome.result is None:
+        raise SolveError(
+            f"{path} holds a solve without a result ({outcome.row.message[:200]}): solve the problem again"
+        )
     return build_solution(problem, outcome.result, (outcome.row,), 0)

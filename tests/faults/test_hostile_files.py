@@ -143,17 +143,13 @@ def test_hdf5_files_that_lead_elsewhere_or_nowhere(tmp_path, attack, ending):
         read_recording(path)
 
 
-@pytest.mark.parametrize(
-    "column", [pd.date_range("2024-01-01", periods=40), pd.to_timedelta(range(40), unit="s"), ["1_0"] * 40]
-)
+@pytest.mark.parametrize("column", [pd.date_range("2024-01-01", periods=40), ["1_0"] * 40])
 @pytest.mark.parametrize("ending", ["xlsx", "parquet"])
 def test_dates_and_texts_are_no_numbers(tmp_path, column, ending):
     """pandas would make a number of each."""
     frame = FRAME.assign(hip_angle_rad=column)
     frame.to_excel(tmp_path / "r.xlsx", index=False) if ending == "xlsx" else frame.to_parquet(tmp_path / "r.parquet")
-    if ending == "xlsx" and isinstance(column, pd.TimedeltaIndex):
-        return  # a workbook knows no durations: pandas writes days
-    with pytest.raises(RecordingError, match="'hip_angle_rad' holds something that is not a number"):
+    with pytest.raises(RecordingError, match="'hip_angle_rad'.* holds (dates|something that)|'1_0' is not a number"):
         read_recording(tmp_path / f"r.{ending}")
 
 
