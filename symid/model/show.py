@@ -44,7 +44,7 @@ def latex_lines(model: Model) -> list[str]:
     names = letters(model)
 
     def tex(e):
-        return sm.latex(e, symbol_names=names, mul_symbol=r" \, ")
+        return sm.latex(e, symbol_names=names, mul_symbol=r" \: ")
 
     lines = [_broken("0", e.expr, tex) for e in model.equations.values()]
     lines += [_broken(names[e.symbol], e.expr, tex) for e in model.expressions.values()]
@@ -86,7 +86,7 @@ def _broken(left: str, expr: sm.Expr, tex) -> str:
 
 def _seen(text: str) -> int:
     """How many characters of LaTeX are seen; a command counts as one."""
-    return len(re.sub(r"\\(mathrm|left|right|,|dot|operatorname)|[{}_^ ]|(?<=\\)[A-Za-z]+", "", text))
+    return len(re.sub(r"\\(mathrm|left|right|:|dot|operatorname)|[{}_^ ]|(?<=\\)[A-Za-z]+", "", text))
 
 
 KINDS = ("state", "algebraic", "control", "input", "parameter", "constant", "noise", "output")

@@ -80,21 +80,38 @@ def report_html(solution: Solution, held_out: Solution | None = None, truth: dic
 
 def _fit_figures(solution: Solution) -> list[str]:
     """The whole window of the first episodes, and a stretch in which single swings can be seen."""
-    found = []
-    for episode in range(min(len(solution.trajectories), SHOWN_EPISODES)):
-        name = solution.trajectories[episode].attrs["recording"]
-        which = name if len(solution.trajectories) == 1 else f"{name}, episode {episode + 1}"
+    names = [frame.attrs["recording"] for frame in solution.trajectories]
+    single = len(set(names)) == len(names)
+    found = [_by_recording(solution)] if single and len(names) > 1 else []
+    for episode, name in enumerate(names[:SHOWN_EPISODES]):
+        which = name if single else f"{name}, episode {episode + 1}"
         found.append(figure(plot_fit(solution, episode), f"{which}: recorded, model and residual."))
-    if len(solution.trajectories) > SHOWN_EPISODES:
-        found.append(
-            paragraph(f"Of {len(solution.trajectories)} episodes the first {SHOWN_EPISODES} are shown.", "note")
-        )
+    if len(names) > SHOWN_EPISODES:
+        kind = "recordings" if single else "episodes"
+        found.append(paragraph(f"Of {len(names)} {kind} the first {SHOWN_EPISODES} are shown.", "note"))
     stretch = typical_stretch(solution)
     if stretch is not None:
         found.append(
             figure(plot_fit(solution, 0, stretch), "A stretch of it whose error is as large as that of the whole.")
         )
     return found
+
+
+def _by_recording(solution: Solution) -> str:
+    """How well each of several recordings is fitted."""
+    outputs = solution.model.outputs
+    rows = [
+        [
+            frame.attrs["recording"],
+            *(
+                rms_text(float(np.sqrt(np.nanmean((frame[k] - frame[f"{k} recorded"]) ** 2))), y.unit or "1")
+                for k, y in outputs.items()
+            ),
+        ]
+        for frame in solution.trajectories
+    ]
+    heads = [f"RMS error of {y.channel.replace('_', ' ')}" for y in outputs.values()]
+    return folded("Each recording", table(["recording", *heads], rows))
 
 
 def _held_out_figures(held_out: Solution | None) -> list[str]:
@@ -257,15 +274,16 @@ def _solver(solution: Solution) -> str:
 def _provenance(solution: Solution) -> str:
     p = dict(solution.provenance)
     recordings = p.pop("recordings")
-    constants = p.pop("constants")
+    constants, noise = p.pop("constants"), p.pop("noise") or []
     p["command"] = command(p["command"])
     plain = {k.replace("_", " "): ", ".join(map(str, v)) if isinstance(v, list) else v for k, v in p.items()}
     plain["episodes"] = problem_facts(solution.problem)["episodes"]
     plain["weights"] = (
         ", ".join(f"{k} {v:g}" for k, v in (p["weights"] or {}).items()) or "by the noise, or 1 for every output"
     )
-    plain["noise"] = (
-        "; ".join(", ".join(f"{k} {v:.3g}" for k, v in table.items()) for table in p["noise"] or []) or "not estimated"
+    outputs = solution.model.outputs
+    plain["noise that sets the weights"] = "; ".join(
+        ", ".join(f"{k} {rms_text(v, outputs[k].unit or '1', 3)}" for k, v in table.items()) for table in noise
     )
     plain["terms"] = plain["terms"] or "none added"
     for r in recordings:

@@ -196,7 +196,7 @@ def test_figures_suit_the_pace_and_the_size_of_any_system(pace, tmp_path):
 def test_words_in_equations_are_no_products_of_letters():
     text = report_html(si.Identification(pendulum(), pendulum_recording()).solve(max_iterations=1))
     latex = "".join(show.latex_lines(pendulum()))
-    assert r"\mathrm{damping}" in latex and r"\, " in latex and 'mathvariant="normal">d' in text
+    assert r"\mathrm{damping}" in latex and r"\: " in latex and 'mathvariant="normal">d' in text
 
 
 def test_estimates_that_move_together_are_named(solution):
