@@ -75,6 +75,7 @@ def bootstrap(
 
     Parameters
     ----------
+    solution : of a problem that was solved. count : draws. seed : of the draws.
     over : "blocks" or "recordings".
     block : samples of a block; by default 1 where the solution's error model is white, else as many
         as the noise's memory asks for (`error_models.bandwidth`).

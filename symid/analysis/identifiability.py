@@ -70,6 +70,10 @@ def identifiability(model: Model, seed: int = 0) -> Identifiability:
     combination that is the same at all points is proved by SymPy where the equations themselves do not
     change along it, which needs no motion.
 
+    Parameters
+    ----------
+    model : with outputs. seed : of the random points.
+
     Raises
     ------
     ModelError

@@ -26,6 +26,7 @@ def likelihood_region(solution: Solution, one: str, other: str, points: int = 9)
 
     Parameters
     ----------
+    solution : of a problem that was solved.
     one, other : free parameters that the data determine.
     points : of the grid along each of them, an odd number at best, so that the optimum is one.
 

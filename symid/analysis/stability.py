@@ -65,7 +65,12 @@ class Stability:
 
         Parameters
         ----------
+        first, second : names of two states of the grid.
         test : ``"eigenvalue"`` or ``"forward"``.
+
+        Raises
+        ------
+        ModelError : there is no such state, or no forward simulations were made.
         """
         for name in (first, second):
             if name not in self.states:
@@ -137,6 +142,7 @@ def stability_of(
 
     Parameters
     ----------
+    threads : of the compiled simulations.
     model, values : the closed loop and its parameters by name, in SI.
     recording : with a channel for every gridded state, input and output.
     window : (start, end) [s]; the end itself is not part of it.

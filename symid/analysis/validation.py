@@ -24,6 +24,10 @@ def cross_validate(solution: Solution, folds: int = 5) -> pd.DataFrame:
     With one recording its window is cut into `folds` blocks of equal length; the outputs inside a block get no
     weight, as missing samples do. With several recordings each is left out as a whole.
 
+    Parameters
+    ----------
+    solution : of a problem that was solved. folds : blocks of a single recording.
+
     Returns
     -------
     DataFrame

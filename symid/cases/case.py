@@ -145,6 +145,14 @@ def rig_case(
 def diagnose_case(case: Case, **options: Any) -> Diagnosis:
     """`diagnose` with everything that the case says, and what the motion determines of bodies that are not known.
 
+    Parameters
+    ----------
+    case : what `read_case` gave. options : of `diagnose`, such as `threads`.
+
+    Raises
+    ------
+    DiagnosisError : as `diagnose` raises it.
+
     Examples
     --------
     >>> print(si.diagnose_case(si.read_case("data/concealed/cases/r01")))       # doctest: +SKIP

@@ -54,6 +54,7 @@ def diagnose(
 
     Parameters
     ----------
+    threads : of the compiled simulations. progress : called with a line of text now and then.
     subject, recording : a model and what it is compared with; or a Solution of one recording, which
         brings its model, recording, window and values.
     fit_window, held_out : start and end [s], or the label of a split of the recording, whose

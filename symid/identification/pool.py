@@ -81,7 +81,12 @@ class LocalPool(Executor):
                 self._own.worker = None
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """As for every executor; `cancel_futures` also ends the calls that are running."""
+        """As for every executor; `cancel_futures` also ends the calls that are running.
+
+        Parameters
+        ----------
+        wait : until the calls have ended.
+        """
         self._keepers.shutdown(wait=wait and not cancel_futures, cancel_futures=cancel_futures)
         if cancel_futures:
             self._closed = True
@@ -213,7 +218,12 @@ class Cluster(Executor):
         return self._client.submit(_same, value)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
-        """End the calls (waiting for them, or cancelling), and the connection if this object made it."""
+        """End the calls (waiting for them, or cancelling), and the connection if this object made it.
+
+        Parameters
+        ----------
+        wait : until the calls have ended. cancel_futures : those that have not begun are dropped.
+        """
         self._executor.shutdown(wait=wait and not cancel_futures)
         if self._own_client is not None:
             self._own_client.close()

@@ -175,6 +175,7 @@ class Identification:
             is estimated, too), "stable" (searched for among loops that do not fall from states around
             the recorded ones), parameter values by name, a Solution of a similar problem, or a free
             vector as it is.
+        seed, number : of a random start, which are the same again for the same two.
         """
         if isinstance(kind, np.ndarray):
             return kind
@@ -189,7 +190,12 @@ class Identification:
         return given_start(self.transcription, cast("dict[str, float] | Solution", kind))
 
     def load(self, path: str | Path) -> Solution:
-        """The solution of this problem that `Solution.save` wrote; SolveError where it is that of another."""
+        """The solution of this problem that `Solution.save` wrote; SolveError where it is that of another.
+
+        Parameters
+        ----------
+        path : of the file that was written.
+        """
         from symid.identification.saved import load
 
         return load(path, self)
@@ -230,6 +236,9 @@ class Identification:
             longer than all before it.
         kept : free parameters that stay at a value [SI], by name.
         near : whether an optimum is close to the start, and meant: the solver goes there by small steps.
+        start : shape(n,), as `start` makes it.
+        on_iteration : called after each iteration; where it returns False the solve ends.
+        warm_start : result whose multipliers are gone on from.
         """
         usual = (DELAY_OPTIONS if self.model.delays else {}) | (NEAR if near else {})
         solver["options"] = usual | (solver.get("options") or {})

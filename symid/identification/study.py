@@ -149,10 +149,16 @@ class Study:
 
         Parameters
         ----------
+        seed : of the random starts.
+        store : folder that keeps each solve as it finishes; none if left out.
         problems : label -> problem; a label of several words is a tuple, ``("PD", 3)``.
         starts : 1 for the start made from the recording, more for that many random starts.
         labels : what the words of the labels are called: ``("controller", "episodes")``.
         options : for `symid.ipopt_solver.solve_nlp`.
+
+        Raises
+        ------
+        SolveError : a label has not as many words as `labels`.
         """
         solves: dict[str, Solve] = {}
         for label, problem in problems.items():
@@ -211,7 +217,13 @@ class Study:
     def outcomes(
         self, executor: Executor | None, on_iteration: Callable[[Iteration], bool | None] | None = None
     ) -> Iterator[tuple[str, StartRow]]:
-        """Names and rows of all solves as they finish, those of earlier runs first."""
+        """Names and rows of all solves as they finish, those of earlier runs first.
+
+        Parameters
+        ----------
+        executor : where the solves run, None for this process.
+        on_iteration : called after each iteration of a solve that runs in this process.
+        """
         names: dict[str, list[str]] = {}
         for name, solve in self.solves.items():
             names.setdefault(solve.key, []).append(name)

@@ -51,7 +51,12 @@ class ChainLink:
     constants: tuple[tuple[str, str], ...] = ()
 
     def declare(self, model: Model, letter: str) -> Link:
-        """Declare this link's constants in `model`; their symbols."""
+        """Declare this link's constants in `model`; their symbols.
+
+        Parameters
+        ----------
+        letter : of the link in the equations, such as ``1``.
+        """
         symbols = {}
         for quantity, (role, unit, sign, meaning) in _QUANTITIES.items():
             value = getattr(self, quantity)
@@ -120,7 +125,12 @@ class Chain:
 
     @classmethod
     def uniform(cls, n: int, length: float = 1.0, mass: float = 1.0, **options: Any) -> Chain:
-        """`n` equal slender rods of `length` [m] and `mass` [kg]; options as for `Chain`."""
+        """`n` equal slender rods of `length` [m] and `mass` [kg]; options as for `Chain`.
+
+        Raises
+        ------
+        ModelError : there are no or too many links, or a length or mass is not positive.
+        """
         if not isinstance(n, int) or not 1 <= n <= MOST_LINKS:
             raise ModelError(f"a chain has 1 to {MOST_LINKS} links, not {str(n)[:20]}")
         if not (0 < length < 1e300 and 0 < mass < 1e300):

@@ -54,10 +54,24 @@ class Feedback(ABC):
 
     @abstractmethod
     def torques(self, model: Model, joints: tuple[str, ...]) -> list[sm.Expr]:
-        """Declare parameters and signals in `model`; the torque of each joint [N m]."""
+        """Declare parameters and signals in `model`; the torque of each joint [N m].
+
+        Parameters
+        ----------
+        joints : names of the joints, as the model knows them.
+        """
 
     def close(self, model: Model) -> Model:
-        """A new model: `model` with this law at all of its joints."""
+        """A new model: `model` with this law at all of its joints.
+
+        Parameters
+        ----------
+        model : a plant with joints that take torques.
+
+        Raises
+        ------
+        ModelError : it has no joints.
+        """
         joints = tuple(p.name for p in model.ports.values() if p.role == "joint")
         if not joints:
             raise ModelError(
@@ -94,7 +108,14 @@ class Feedback(ABC):
     def signals(
         self, model: Model, joints: tuple[str, ...], references: bool, lag: float = 0.0, suffix: str = ""
     ) -> Signals:
-        """Declare the error and rate of each joint, late by `lag` [s] and by the unknown delay."""
+        """Declare the error and rate of each joint, late by `lag` [s] and by the unknown delay.
+
+        Parameters
+        ----------
+        joints : names of the joints.
+        references : whether the error is that to the declared reference ``ref_<joint>`` instead of to zero.
+        suffix : of the names of what is declared.
+        """
         errors: list[sm.Expr] = []
         rates: list[sm.Expr] = []
         late = lag + (model.feedback_delay.symbol if self.delay is not None else 0)

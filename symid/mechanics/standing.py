@@ -49,11 +49,29 @@ class DoubleLinkPendulum:
 
     @classmethod
     def from_json(cls, path: str | Path) -> DoubleLinkPendulum:
-        """Read a body file with ``name_unit`` keys (``leg_length_m`` ... ``gravity_m_s2``)."""
+        """Read a body file with ``name_unit`` keys (``leg_length_m`` ... ``gravity_m_s2``).
+
+        Parameters
+        ----------
+        path : of the file.
+
+        Raises
+        ------
+        RecordingError : the file is missing, or a key or its unit is not as expected.
+        """
         return cls(**read_body(path, {n: _UNITS[n.split("_")[-1]] for n in cls.__dataclass_fields__}))
 
     def with_feedback(self, law: Feedback) -> Model:
-        """The closed loop: this body under a feedback law such as `PD()`."""
+        """The closed loop: this body under a feedback law such as `PD()`.
+
+        Parameters
+        ----------
+        law : the controller.
+
+        Raises
+        ------
+        ModelError : it is no Feedback.
+        """
         if not hasattr(law, "close"):
             raise ModelError(f"with_feedback: give a feedback law such as PD(), not {checked.shown(law)}")
         return law.close(self.plant())

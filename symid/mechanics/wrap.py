@@ -99,6 +99,14 @@ def from_lagrange(
 
     The rate of a coordinate ``q`` becomes the state ``q_rate``; all else as in `from_kane`.
 
+    Parameters
+    ----------
+    lagrange : the method, its equations formed. name : of the model.
+
+    Raises
+    ------
+    ModelError : its equations were not formed, it has constraints, or a symbol has no unit.
+
     Examples
     --------
     >>> from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
@@ -138,6 +146,14 @@ def from_lagrange(
 
 def from_system(system: System, units: Mapping[str, str], **options: Any) -> Model:
     """A Model from a System whose equations were formed (``form_eoms``); as `from_kane`.
+
+    Parameters
+    ----------
+    system : its equations formed. units, options : as of `from_kane`.
+
+    Raises
+    ------
+    ModelError : its equations were not formed, or as of `from_kane`.
 
     Examples
     --------

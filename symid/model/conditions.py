@@ -149,7 +149,12 @@ class Boundary(Component):
         ]
 
     def penalties(self, along: set[sm.Symbol]) -> list[sm.Expr]:
-        """-2 log of the density of each value that has a prior."""
+        """-2 log of the density of each value that has a prior.
+
+        Parameters
+        ----------
+        along : symbols that differ from node to node, whose value at an end is meant.
+        """
         return [
             value.penalty(sympified(quantity).xreplace({s: f(s) for s in along}))
             for ends, f in ((self.initial, initial), (self.terminal, terminal))

@@ -159,7 +159,12 @@ class Model:
 
     # ---- equations as SymPy ----------------------------------------------------------
     def inline(self, expr: sm.Expr) -> sm.Expr:
-        """`expr` with every named Expression replaced by what it stands for."""
+        """`expr` with every named Expression replaced by what it stands for.
+
+        Raises
+        ------
+        ModelError : expressions stand for each other in a circle.
+        """
         table = {e.symbol: e.expr for e in self.expressions.values()}
         for _ in range(len(table) + 1):
             used = free_symbols(expr) & table.keys()
@@ -220,7 +225,16 @@ class Model:
         return new
 
     def with_term(self, term: Term) -> Model:
-        """A new model that contains `term`; this one stays as it is."""
+        """A new model that contains `term`; this one stays as it is.
+
+        Parameters
+        ----------
+        term : a law at a place, with its values.
+
+        Raises
+        ------
+        ModelError : it is no Term, or the model has no such place.
+        """
         if not hasattr(term, "build"):
             raise ModelError(f"with_term: give a Term, for instance law.at(place), not {checked.shown(term)}")
         new = self.copy()
@@ -237,13 +251,26 @@ class Model:
         return variants.with_bounds(self, bounds)
 
     def fixed(self, **values: float) -> Model:
-        """A new model in which these parameters are known constants."""
+        """A new model in which these parameters are known constants.
+
+        Parameters
+        ----------
+        values : by name, each in the parameter's unit.
+
+        Raises
+        ------
+        ModelError : one is no Parameter.
+        """
         return variants.fixed(self, values)
 
     def free(self, *names: str, **bounds: Bounds) -> Model:
         """A new model in which these constants are parameters to be identified, their values as guesses.
 
         ``model.free("m1", I1=(0.01, 0.2))``; without bounds a constant stays within a factor of ten.
+
+        Parameters
+        ----------
+        names : of constants. bounds : by name, lower and upper.
 
         Raises
         ------
@@ -256,6 +283,14 @@ class Model:
         """A new model in which these inputs are controls, to be chosen by an Optimization.
 
         ``model.controlled(force=(-20, 20))`` [in its unit]; by name alone without bounds.
+
+        Parameters
+        ----------
+        names : of inputs without bounds. bounds : by name, lower and upper.
+
+        Raises
+        ------
+        ModelError : one is no Input.
         """
         return variants.controlled(self, names, bounds)
 
@@ -268,7 +303,16 @@ class Model:
 
     # ---- for the build function of a Law, which works on a fresh copy -----------------
     def redefine(self, name: str, expr: Operand) -> None:
-        """Give the Expression or Output `name` another meaning, everywhere it is used."""
+        """Give the Expression or Output `name` another meaning, everywhere it is used.
+
+        Parameters
+        ----------
+        name : of the part. expr : what it is from now on, of symbols of this model.
+
+        Raises
+        ------
+        ModelError : there is no such Expression or Output.
+        """
         expr = sympified(expr)
         refuse_calculus(expr)
         self.components[name] = replace(variants.part_of(self, name, (Expression, Output)), expr=expr)
@@ -280,7 +324,12 @@ class Model:
             self.components[equation] = replace(part, expr=part.expr + coefficient * sympified(force))
 
     def substitute(self, table: Mapping[sm.Symbol, sm.Expr]) -> None:
-        """Put expressions in the place of symbols in every equation, expression and output."""
+        """Put expressions in the place of symbols in every equation, expression and output.
+
+        Parameters
+        ----------
+        table : symbol -> expression of the same unit.
+        """
         table = {sympified(k): sympified(v) for k, v in table.items()}
         for name, part in self.components.items():
             if isinstance(part, (Expression, Equation, Output)):
@@ -301,6 +350,10 @@ class Model:
         """This model, if it can be used; ModelError with every violation at once if not.
 
         `units=False` leaves out the check of physical dimensions, which takes most of the time.
+
+        Raises
+        ------
+        ModelError : with every violation at once.
         """
         from symid.model.check import violations
 

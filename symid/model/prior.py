@@ -32,7 +32,12 @@ class Normal:
             raise ModelError(f"{self}: a prior needs a finite mean and a positive standard deviation")
 
     def penalty(self, expr: sm.Expr) -> sm.Expr:
-        """What it adds to minus twice the log-likelihood for an expression of the quantity."""
+        """What it adds to minus twice the log-likelihood for an expression of the quantity.
+
+        Parameters
+        ----------
+        expr : the quantity, as declared, in the prior's unit.
+        """
         return ((expr - sm.Float(self.mean)) / sm.Float(self.deviation)) ** 2
 
 
@@ -55,7 +60,12 @@ class LogNormal:
             raise ModelError(f"{self}: a log-normal prior needs a positive median and a factor above 1")
 
     def penalty(self, expr: sm.Expr) -> sm.Expr:
-        """The density is that of the logarithm, so that the median is also where it is largest."""
+        """The density is that of the logarithm, so that the median is also where it is largest.
+
+        Parameters
+        ----------
+        expr : the quantity, as declared, in the prior's unit.
+        """
         return (sm.log(expr / sm.Float(self.median)) / sm.Float(log(self.factor))) ** 2
 
 

@@ -115,7 +115,16 @@ class Term:
         return f"{self.law.name}_{place}_{key}"
 
     def build(self, model: Model) -> None:
-        """Declare the parameters and let the law change `model` in place (a fresh copy)."""
+        """Declare the parameters and let the law change `model` in place (a fresh copy).
+
+        Parameters
+        ----------
+        model : a copy that the law may change.
+
+        Raises
+        ------
+        ModelError : the law cannot act at its place.
+        """
         if self.location not in self.law.places(model):
             raise ModelError(
                 f"{self.law.name} cannot act at '{self.location}' of model '{model.name}': it acts on "

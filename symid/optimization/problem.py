@@ -120,11 +120,25 @@ class Optimization:
         return {k: checked.number(v, f"history of {k}", TranscriptionError) for k, v in before.items()}
 
     def start(self, values: Mapping[str, Any] | Plan | None = None) -> np.ndarray:
-        """A free vector to start from, see `solve`."""
+        """A free vector to start from, see `solve`.
+
+        Parameters
+        ----------
+        values : trajectories and parameters by name, or a Plan; what is not named is made.
+
+        Raises
+        ------
+        SolveError : a name is none of the model's, or what is given is no number and no row of them along the motion.
+        """
         return start_vector(self, values)
 
     def load(self, path: str | Path) -> Plan:
-        """The plan of this problem that `Plan.save` wrote; SolveError where it is that of another."""
+        """The plan of this problem that `Plan.save` wrote; SolveError where it is that of another.
+
+        Parameters
+        ----------
+        path : of the file that was written.
+        """
         from symid.optimization.saved import load
 
         return load(path, self)

@@ -187,7 +187,16 @@ class Recording:
         return self.rows(slice(int(rows[0]), int(rows[-1]) + 1), f"window {start:g} s to {end:g} s")
 
     def segments(self, split: str | None = None) -> list["Recording"]:
-        """One recording for each segment, in order; only those with this split label, if given."""
+        """One recording for each segment, in order; only those with this split label, if given.
+
+        Parameters
+        ----------
+        split : label of a part, such as ``fit``.
+
+        Raises
+        ------
+        RecordingError : there is no such label.
+        """
         if split is not None and (self.split is None or split not in self.split):
             known = [] if self.split is None else sorted(set(self.split.tolist()))
             raise RecordingError(f"{self.name}: no segment is labelled '{split}'; labels: {known or 'none'}")
@@ -199,7 +208,12 @@ class Recording:
         return self._with_channels({name: self[name] for name in names}, self.units, None)
 
     def rename(self, names: Mapping[str, str]) -> "Recording":
-        """Channels under other names, old -> new; the order stays."""
+        """Channels under other names, old -> new; the order stays.
+
+        Raises
+        ------
+        RecordingError : there is no such channel, or two would have one name.
+        """
         for old in names:
             self[old]
         new = [names.get(name, name) for name in self.channels]
@@ -251,6 +265,14 @@ class Recording:
         """Write the samples with units in the column names; read_recording gives them back.
 
         Numbers keep all their digits. The file appears under its name only when it is whole.
+
+        Parameters
+        ----------
+        path : of the file.
+
+        Raises
+        ------
+        RecordingError : a unit has no ending of a column's name, or the file cannot be written.
         """
         path = Path(path)
         table = self.frame.reset_index()
@@ -284,7 +306,16 @@ class Recording:
     # -- helpers ------------------------------------------------------------------------------
 
     def even_step(self, verb: str) -> float:
-        """Sampling interval [s], or a RecordingError that says which verb needs an even one."""
+        """Sampling interval [s], or a RecordingError that says which verb needs an even one.
+
+        Parameters
+        ----------
+        verb : what asks for it, such as ``lowpass``.
+
+        Raises
+        ------
+        RecordingError : the samples are not even.
+        """
         if self.sampling_interval is None:
             raise RecordingError(f"{self.name}: {verb} needs evenly spaced samples; use fill_gaps() or resample()")
         return self.sampling_interval
@@ -295,7 +326,12 @@ class Recording:
         return f"has no channel '{name}'; it has {', '.join(close[:12])}{more}"
 
     def rows(self, rows: slice, note: str | None = None) -> "Recording":
-        """Some of the rows, without looking at their times."""
+        """Some of the rows, without looking at their times.
+
+        Parameters
+        ----------
+        rows : places of the samples. note : a line for the history.
+        """
         return replace(
             self,
             time=self.time[rows],

@@ -83,7 +83,16 @@ class Episodes:
             object.__setattr__(self, name, given)
 
     def amplitudes(self, model: Model) -> np.ndarray:
-        """(noises,) amplitude of each Noise of `model`; TranscriptionError where a word fits none."""
+        """(noises,) amplitude of each Noise of `model`; TranscriptionError where a word fits none.
+
+        Parameters
+        ----------
+        model : whose noises are meant.
+
+        Raises
+        ------
+        TranscriptionError : a word fits no Noise, or several episodes would have no noise.
+        """
         values = np.full(len(model.noises), self.amplitude)
         for word, value in self.by_word.items():
             hits = [i for i, name in enumerate(model.noises) if word in name]

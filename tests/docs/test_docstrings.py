@@ -2,6 +2,8 @@
 
 import doctest
 import inspect
+import re
+import types
 
 import numpy as np
 import pytest
@@ -35,6 +37,29 @@ def test_a_public_name_has_a_docstring_with_an_example(name):
     if inspect.isclass(thing):
         silent = [n for n, text in methods(thing).items() if not text]
         assert not silent, f"{name} has methods that say nothing: {silent}"
+
+
+def called(name: str) -> list[tuple[str, types.FunctionType, str]]:
+    """Name, function and words of what can be called by a public name: itself, or its public methods."""
+    thing = PUBLIC[name]
+    if inspect.isfunction(thing):
+        return [(name, thing, "")]
+    found = [(k, getattr(v, "__func__", v)) for k, v in vars(thing).items()] if inspect.isclass(thing) else []
+    own = [(k, v) for k, v in found if inspect.isfunction(v) and not k.startswith("_")]
+    return [(k, v, f"{thing.__doc__}\n{inspect.getdoc(getattr(thing, k)) or ''}") for k, v in own]
+
+
+@pytest.mark.parametrize("name", [n for n in PUBLIC if n not in DATA])
+def test_whatever_is_given_and_raised_is_typed_and_told(name):
+    for method, function, words in called(name):
+        words += inspect.getdoc(function) or ""
+        given = {k: p for k, p in inspect.signature(function).parameters.items() if k not in ("self", "cls")}
+        assert not [k for k, p in given.items() if p.annotation is p.empty], method
+        assert inspect.signature(function).return_annotation is not inspect.Signature.empty, method
+        untold = [k for k, p in given.items() if p.kind is not p.POSITIONAL_ONLY and not re.search(rf"\b{k}\b", words)]
+        if (function.__module__ or "").startswith("symid"):
+            assert not untold, f"{name}.{method}"
+            assert "Raises" in words or not re.search(r"\braise \w+\(", inspect.getsource(function)), f"{name}.{method}"
 
 
 @pytest.fixture(scope="module")

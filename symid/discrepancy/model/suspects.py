@@ -121,7 +121,12 @@ class Suspect:
         return [dict(zip([p.key for p in others], c, strict=True)) for c in product(*choices)]
 
     def grid(self, data: Data) -> Iterator[dict[str, float]]:
-        """Values by key, strength off, over the grid of the scanned parameter."""
+        """Values by key, strength off, over the grid of the scanned parameter.
+
+        Parameters
+        ----------
+        data : the recording as the fit sees it, whose pace and size bound the grid.
+        """
         q, (t0, t1) = cast("LawParameter", self.scanned), data.span
         span = t1 - t0
         for values in self.shapes():
@@ -145,6 +150,7 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
 
     Parameters
     ----------
+    model : the mechanism; where its joints, bodies and controllers are is where laws can act.
     sizes : of the recorded motion, at which laws with bounds are looked for; as of people and machines if left out.
 
     Examples

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from symid.analysis.bodies import Determined
+from symid.errors import DiagnosisError
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
 from symid.discrepancy.locate.remainder import Test
@@ -133,6 +134,10 @@ class Diagnosis:
 
         ``e.design.words`` says what to do, ``e.log_ratio`` what is to be expected of it, ``e.splits`` whether that is
         enough, and ``e.recording(e.finding, seed=0)`` what would be recorded if the finding is true.
+
+        Parameters
+        ----------
+        progress : called with a line of text now and then.
         """
         if self.data is None:
             return []
@@ -265,18 +270,48 @@ class Diagnosis:
         ]
 
     def report(self, path: str | Path) -> Path:
-        """Write a self-contained HTML report with figures."""
+        """Write a self-contained HTML report with figures.
+
+        Parameters
+        ----------
+        path : of the file.
+
+        Raises
+        ------
+        OSError : the file cannot be written.
+        """
         # Reports stand on the roof, and a diagnosis must not need them: fetched by name when asked for.
         write = import_module("symid.report").write_diagnosis_report
         return Path(write(self, path, f"Diagnosis of {self.baseline.model.name}"))
 
     def to_json(self, path: str | Path) -> Path:
-        """Write the answer; the file appears when it is whole."""
+        """Write the answer; the file appears when it is whole.
+
+        Parameters
+        ----------
+        path : of the file.
+
+        Raises
+        ------
+        OSError : the file cannot be written.
+        """
         return write_atomically(path, json.dumps(self.answer(), indent=1))
 
     def held_out_csv(self, path: str | Path) -> Path:
-        """Write the improved model's prediction of the held-out window, columns as in the recording."""
-        run = self.runs["augmented_heldout"]
+        """Write the improved model's prediction of the held-out window, columns as in the recording.
+
+        Parameters
+        ----------
+        path : of the file.
+
+        Raises
+        ------
+        OSError : the file cannot be written.
+        DiagnosisError : there was no held-out window.
+        """
+        run = self.runs.get("augmented_heldout")
+        if run is None:
+            raise DiagnosisError("held_out_csv: there was no held-out window; diagnose(..., held_out=(start, end))")
         names = [column_name(y.channel, y.unit) for y in self.improved.outputs.values()]
         rows = [
             ["time_s", *names],
@@ -318,7 +353,12 @@ class Diagnosis:
         )
 
     def unit_of(self, effect: Effect, key: str) -> str:
-        """Unit of one parameter of an effect, as the improved model declares it; "1" for what is no parameter of it."""
+        """Unit of one parameter of an effect, as the improved model declares it; "1" for what is no parameter of it.
+
+        Parameters
+        ----------
+        effect : one of `effects`. key : name of its parameter.
+        """
         part = self.improved.parameters.get(parameter_name(effect.name, effect.location, key))
         return "1" if part is None else part.unit
 
