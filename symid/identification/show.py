@@ -6,7 +6,7 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from symid.identification.elsewhere import excess_note
-from symid.identification.fit import fit_text, rms_text
+from symid.identification.fit import common_unit, fit_text, rms_text
 from symid.identification.weighting import by_noise
 
 if TYPE_CHECKING:
@@ -50,6 +50,10 @@ def problem_html(problem: Identification) -> str:
     return f"<b>Identification</b><table>{''.join(rows)}</table>"
 
 
+MOST_TOLD = 4
+"""Outputs whose errors are told one by one in a line."""
+
+
 def headline(solution: Solution) -> str:
     """One line: solved or not, how well, in how many iterations."""
     word = "Solved" if solution.solved else "NOT SOLVED"
@@ -58,9 +62,13 @@ def headline(solution: Solution) -> str:
     outputs, rms = solution.model.outputs, solution.fit["rms"]
     said = {y.channel.replace("_", " "): rms[name] for name, y in outputs.items()} | {"all": rms["all"]}
     units = {y.channel.replace("_", " "): y.unit for y in outputs.values()}
+    error, together = fit_text(said, units), common_unit(units.values())
+    if len(outputs) > MOST_TOLD and together is not None:
+        each = sorted(rms[name] for name in outputs)
+        ends = " to ".join(rms_text(x, together) for x in (each[0], each[-1]))
+        error = f"{rms_text(rms['all'], together)} over {len(outputs)} outputs ({ends})"
     return (
-        f"{word} in {solution.result.iterations} iterations and {solution.seconds['total']:.2f} s. "
-        f"RMS error: {fit_text(said, units)}"
+        f"{word} in {solution.result.iterations} iterations and {solution.seconds['total']:.2f} s. RMS error: {error}"
     )
 
 

@@ -168,9 +168,10 @@ def _said_of_mesh(solution: Solution, mesh: pd.DataFrame | None) -> list[str]:
     if not len(worst) or not worst.max() > COARSE:
         return []
     name, p = worst.idxmax(), solution.problem
+    unit = unit_symbol(solution.model.parameters[name.split("[")[0]].unit)
     factor = int(np.ceil((worst.max() / FINE) ** (1 / p.scheme.order)))
     return [
         f"The mesh is too coarse: it shifts {name} by {mesh.loc[name, 'std_errors']:.2g} standard errors "
-        f"({mesh.loc[name, 'error']:+.3g} {solution.model.parameters[name.split('[')[0]].unit}); solution.refined() "
-        f"solves again with {p.refine * factor} intervals in a sample interval"
+        f"({mesh.loc[name, 'error']:+.3g} {unit}); "
+        f"solution.refined() solves again with {p.refine * factor} intervals in a sample interval"
     ]

@@ -10,8 +10,21 @@ from scipy.signal import welch
 
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.say.names import law_name, place_name
-from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, WARN_PALE, Picture, opened
-from symid.units import shown_unit, unit_symbol
+from symid.plots.style import (
+    INK,
+    MODEL,
+    QUIET,
+    RECORDED,
+    SWINGS,
+    WARN,
+    WARN_PALE,
+    Picture,
+    opened,
+    over_time,
+    size_of,
+    swing,
+)
+from symid.units import time_unit, unit_for, unit_symbol
 
 if TYPE_CHECKING:
     from symid.discrepancy import Diagnosis
@@ -19,8 +32,8 @@ if TYPE_CHECKING:
     from symid.discrepancy.model.hypothesis import Hypothesis
     from symid.estimation.free_run import FreeRun
 
-ZOOM = 8.0
-"""Seconds shown of each window: more and the curves cannot be told apart."""
+IN_DETAIL = 1 / 5, 1 / 2
+"""Shares of a window, the least and the most that is shown of forces in detail."""
 WINDOWS = (("train", "fit window"), ("heldout", "held-out window"))
 MOST_SUSPECTS = 12
 PIECES = 40
@@ -42,23 +55,15 @@ def plot_before_after(diagnosis: Diagnosis) -> Picture:
     for first, column, (key, title) in zip((True, False), grid.T, windows, strict=False):
         before, after = diagnosis.runs[f"baseline_{key}"], diagnosis.runs[f"augmented_{key}"]
         rows = _where_most_changes(before, after)
+        scale = over_time(column[-1], before.time[rows])
         for i, output in enumerate(outputs):
-            _panel(
-                column[2 * i],
-                column[2 * i + 1],
-                before,
-                after,
-                rows,
-                i,
-                shown_unit(output.unit),
-                bool(diagnosis.effects),
-            )
+            unit, factor = unit_for(size_of(before.recorded[:, i]), output.unit)
+            panels = (column[2 * i], column[2 * i + 1])
+            _panel(*panels, before, after, rows, i, scale, factor, bool(diagnosis.named))
             if first:
-                unit = shown_unit(output.unit)[0]
                 column[2 * i].set_ylabel(f"{output.channel.replace('_', ' ')}\n[{unit}]", fontsize=9)
                 column[2 * i + 1].set_ylabel(f"error\n[{unit}]", fontsize=8)
         column[0].set_title(title, loc="left", fontsize=10)
-        column[-1].set_xlabel("time [s]")
     figure.legend(
         *grid[0, 0].get_legend_handles_labels(), loc="outside upper right", ncols=3, frameon=False, fontsize=8.5
     )
@@ -70,13 +75,18 @@ def _where_most_changes(before: FreeRun, after: FreeRun) -> np.ndarray:
     """Rows of the stretch in which the squared error falls most."""
     fall = ((before.recorded - before.simulated) ** 2 - (after.recorded - after.simulated) ** 2).sum(axis=1)
     total = np.concatenate([[0.0], np.cumsum(np.nan_to_num(fall))])
-    n = min(len(fall), int(ZOOM / np.median(np.diff(before.time))))
+    n = min(len(fall), _samples(before))
     start = int(np.argmax(total[n:] - total[:-n])) if n < len(fall) else 0
     return np.arange(start, start + n)
 
 
-def _panel(above, below, before: FreeRun, after: FreeRun, rows, i, unit, improved: bool) -> None:
-    t, factor = before.time[rows], unit[1]
+def _samples(run: FreeRun) -> int:
+    """Samples of a stretch in which the single swings can be told apart."""
+    return max(2, int(SWINGS * swing(run.time, run.recorded.T) / np.median(np.diff(run.time))))
+
+
+def _panel(above, below, before: FreeRun, after: FreeRun, rows, i, scale, factor, improved: bool) -> None:
+    t = before.time[rows] * scale
     # A new piece begins where time stands still; lines are not drawn across.
     above.plot(t, before.recorded[rows, i] * factor, color=RECORDED, lw=2.6, label="recorded")
     above.plot(t, before.simulated[rows, i] * factor, color=WARN, lw=1.0, label="model as given")
@@ -85,7 +95,6 @@ def _panel(above, below, before: FreeRun, after: FreeRun, rows, i, unit, improve
     if improved:
         above.plot(t, after.simulated[rows, i] * factor, color=MODEL, lw=1.0, label="improved")
         below.plot(t, (after.recorded - after.simulated)[rows, i] * factor, color=MODEL, lw=0.8)
-    above.set_xlim(t[0], t[-1])
     opened(above, below)
 
 
@@ -97,11 +106,11 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
     comparable = len({output.unit for output in outputs}) == 1
     panels = figure.subplots(1, len(outputs), squeeze=False, sharey=comparable)[0]
     rate = 1 / np.median(np.diff(before.time))
-    length = min(len(before.time), int(10 * rate))
+    length = min(len(before.time), _samples(before))
     for axes, output, i in zip(panels, outputs, range(len(outputs)), strict=True):
-        unit, factor = shown_unit(output.unit)
+        unit, factor = unit_for(size_of(before.recorded[:, i]), output.unit)
         shown = [(before, WARN, 1.0, "model as given")]
-        if diagnosis.effects:
+        if diagnosis.named:
             shown = [(before, WARN_PALE, 3.0, "model as given"), (after, MODEL, 1.0, "improved")]
         for run, color, width, label in shown:  # where both agree the one shows below the other
             f, power = welch((run.recorded - run.simulated)[:, i] * factor, rate, nperseg=length, detrend=False)
@@ -178,24 +187,25 @@ def plot_latent(before: Sequence[Latent], after: Sequence[Latent] = ()) -> Pictu
     """
     time = before[0].time
     stretch = _loudest(before)
-    parted = time[-1] - time[0] > 2 * ZOOM
+    parted = 2 * (stretch.stop - stretch.start) < len(time)
     figure = Picture(figsize=(9.5, 1.9 * len(before) + 0.6), layout="constrained")
     panels = figure.subplots(len(before), 1 + parted, squeeze=False, sharex="col", width_ratios=[1, 1.3][1 - parted :])
     tops = [1.25 * np.abs(b.torque[stretch]).max() or 1.0 for b in before]
+    scale, near = time_unit(float(np.ptp(time)))[1], time_unit(float(np.ptp(time[stretch])))[1]
     for i, (row, latent) in enumerate(zip(panels, before, strict=True)):
         top = max(t for t, b in zip(tops, before, strict=True) if b.unit == latent.unit)
         prefix, factor = next((p, f) for p, f in (("", 1.0), ("m", 1e3), ("µ", 1e6)) if top * f > 0.5 or p == "µ")
         if parted:
-            centres, sizes = _sizes(latent.time, latent.error)
+            centres, sizes = _sizes(latent.time * scale, latent.error)
             row[0].fill_between(centres, 0, 2 * sizes * factor, color=QUIET, alpha=0.6, lw=0, step="mid", label=UNTOLD)
         shown = [(latent, WARN, "model as given"), *((a, MODEL, "improved") for a in after[i : i + 1])]
         for one, color, label in shown:
-            _force(row[-1], one, stretch, factor, color, label)
+            _force(row[-1], one, stretch, near, factor, color, label)
             if parted:
-                centres, sizes = _sizes(one.time, one.torque)
+                centres, sizes = _sizes(one.time * scale, one.torque)
                 row[0].plot(centres, sizes * factor, color=color, lw=1.2, drawstyle="steps-mid")
         row[-1].axhline(0, color=INK, lw=0.5)
-        row[-1].set(xlim=tuple(time[stretch][[0, -1]]), ylim=(-top * factor, top * factor))
+        row[-1].set_ylim(-top * factor, top * factor)
         row[0].set_ylabel(f"{place_name(latent.place)}\n[{prefix}{unit_symbol(latent.unit)}]", fontsize=9)
         opened(*row)
     if parted:
@@ -205,24 +215,27 @@ def plot_latent(before: Sequence[Latent], after: Sequence[Latent] = ()) -> Pictu
     drawn = dict(zip(*reversed(panels[0, -1].get_legend_handles_labels()), strict=True))
     drawn |= dict(zip(*reversed(panels[0, 0].get_legend_handles_labels()), strict=True))
     figure.legend(drawn.values(), drawn, loc="outside upper right", ncols=3, frameon=False, fontsize=8.5)
-    for axes in panels[-1]:
-        axes.set_xlabel("time [s]")
+    over_time(panels[-1, 0], time)
+    over_time(panels[-1, -1], time[stretch])
     figure.align_ylabels(panels[:, 0])
     return figure
 
 
-def _force(axes, latent: Latent, rows: slice, factor: float, color: str, label: str) -> None:
+def _force(axes, latent: Latent, rows: slice, scale: float, factor: float, color: str, label: str) -> None:
+    time = latent.time[rows] * scale
     torque, error = latent.torque[rows] * factor, latent.error[rows] * factor
-    axes.fill_between(latent.time[rows], torque - 2 * error, torque + 2 * error, color=color, alpha=0.18, lw=0)
-    axes.plot(latent.time[rows], torque, color=color, lw=0.9, label=label)
+    axes.fill_between(time, torque - 2 * error, torque + 2 * error, color=color, alpha=0.18, lw=0)
+    axes.plot(time, torque, color=color, lw=0.9, label=label)
 
 
 def _loudest(latents: Sequence[Latent]) -> slice:
-    """Samples of the stretch of `ZOOM` seconds with the largest forces; where a run begins and ends the estimate
-    is free.
+    """Samples of the stretch of some swings with the largest forces; where a run begins and ends the estimate is
+    free.
     """
     time = latents[0].time
-    margin, count = len(time) // 50 + 1, int(ZOOM / np.median(np.diff(time)))
+    span, wanted = time[-1] - time[0], SWINGS * swing(time, np.stack([b.torque for b in latents]))
+    share = float(np.clip(wanted / span, *IN_DETAIL))
+    margin, count = len(time) // 50 + 1, max(2, int(share * len(time)))
     if count + 2 * margin >= len(time):
         return slice(margin, len(time) - margin)
     power = sum((b.torque / (np.std(b.torque[margin:-margin]) or 1.0)) ** 2 for b in latents)

@@ -9,7 +9,7 @@ import numpy as np
 from symid.discrepancy.say.rest import noun, power_unit, signal_name
 from symid.mechanics.places import signal_unit
 from symid.plots.style import INK, MODEL, QUIET, WARN, Picture, opened
-from symid.units import shown_unit, unit_symbol
+from symid.units import shown_unit, time_unit, unit_symbol
 
 if TYPE_CHECKING:
     from symid.discrepancy.locate.rest import Rest, Stretch
@@ -23,16 +23,17 @@ def plot_rest(rest: Rest) -> Picture:
     panels = figure.subplots(1, len(rest.signals) + 1)
     factor, prefix = _prefixed(float(np.abs(rest.force).max()))
     every = max(1, len(rest.force) // MOST_POINTS)
+    clock, per = time_unit(float(np.ptp(rest.time)))
     for axes, (signal, values) in zip(panels, rest.signals.items(), strict=False):
         unit, scale = shown_unit(signal_unit(rest.model, signal))
         dots = axes.scatter(
-            values[::every] * scale, rest.force[::every] * factor, c=rest.time[::every], s=4, lw=0, cmap="viridis"
+            values[::every] * scale, rest.force[::every] * factor, c=rest.time[::every] * per, s=4, lw=0, cmap="viridis"
         )
         axes.axhline(0, color=INK, lw=0.5)
         axes.set_xlabel(f"{signal_name(rest.model, rest.port, signal)} [{unit}]", fontsize=9)
         opened(axes)
     panels[0].set_ylabel(f"remaining {noun(rest.port.unit)} [{prefix}{unit_symbol(rest.port.unit)}]", fontsize=9)
-    figure.colorbar(dots, ax=panels[len(rest.signals) - 1], label="time [s]", pad=0.02)
+    figure.colorbar(dots, ax=panels[len(rest.signals) - 1], label=f"time [{clock}]", pad=0.02)
     _bars(panels[-1], rest)
     return figure
 
@@ -40,7 +41,8 @@ def plot_rest(rest: Rest) -> Picture:
 def _bars(axes, rest: Rest) -> None:
     """Mean power, or mean flow, with two standard errors: all, parts of the window, small and large motion."""
     parts: list[tuple[str, Stretch]] = [("all", rest.whole)]
-    parts += [(f"{s.span[0]:.3g} to {s.span[1]:.3g} s", s) for s in rest.stretches]
+    clock, per = time_unit(float(np.ptp(rest.time)))
+    parts += [(f"{s.span[0] * per:.3g} to {s.span[1] * per:.3g} {clock}", s) for s in rest.stretches]
     parts += [("small motion", rest.small), ("large motion", rest.large)]
     factor, prefix = _prefixed(max(abs(s.power) for _, s in parts))
     values = np.array([[s.power, s.error] for _, s in parts]) * factor

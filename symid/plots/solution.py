@@ -6,12 +6,10 @@ import numpy as np
 
 from symid.identification import Solution
 from symid.identification.fit import common_unit, rms_text
-from symid.plots.style import INK, MODEL, QUIET, RECORDED, WARN, Picture, opened, over_time, size_of
+from symid.plots.style import INK, MODEL, QUIET, RECORDED, SWINGS, WARN, Picture, opened, over_time, size_of, swing
 from symid.units import unit_for, unit_symbol, with_error
 
 
-SWINGS = 8.0
-"""Of a stretch in which the single swings of a motion can be told apart."""
 SAME = 1.0
 """Percent: starts that end nearer to each other are drawn as ending at one place."""
 
@@ -67,12 +65,9 @@ def typical_stretch(solution: Solution, episode: int = 0) -> tuple[float, float]
 
 
 def _period(solution: Solution, episode: int) -> float:
-    """Time [s] of a swing of the modelled outputs: between two that cross their mean upwards (Rice 1944)."""
+    """Time [s] of a swing of the modelled outputs."""
     frame = solution.trajectories[episode]
-    moved = np.stack([frame[name].to_numpy() for name in solution.model.outputs])
-    above = moved > np.nanmean(moved, axis=1, keepdims=True)
-    crossings = (above[:, 1:] & ~above[:, :-1]).sum(axis=1).max()
-    return float(frame.index[-1] - frame.index[0]) / max(int(crossings), 1)
+    return swing(frame.index.to_numpy(), np.stack([frame[name].to_numpy() for name in solution.model.outputs]))
 
 
 def plot_inputs(solution: Solution, episode: int = 0) -> Picture:

@@ -12,6 +12,8 @@ from symid.units import time_unit
 
 INK, RECORDED, MODEL, WARN, QUIET = "#222222", "#9a9a9a", "#1f5fa8", "#c0392b", "#d9d9d9"
 WARN_PALE = "#e8aaa2"
+SWINGS = 8.0
+"""Of a stretch in which the single swings of a motion can be told apart."""
 
 
 class Picture(Figure):
@@ -46,6 +48,13 @@ def opened(*all_axes) -> None:
 def size_of(*signals: np.ndarray) -> float:
     """Largest magnitude of signals; what is missing has none."""
     return max((float(np.nanmax(np.abs(s))) for s in signals if np.isfinite(s).any()), default=0.0)
+
+
+def swing(time: np.ndarray, signals: np.ndarray) -> float:
+    """Time [s] of one swing of the signals (rows): between two that cross their mean upwards (Rice 1944)."""
+    above = signals > np.nanmean(signals, axis=1, keepdims=True)
+    crossings = (above[:, 1:] & ~above[:, :-1]).sum(axis=1).max(initial=0)
+    return float(time[-1] - time[0]) / max(int(crossings), 1)
 
 
 def over_time(axes, time: np.ndarray) -> float:

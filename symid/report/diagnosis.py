@@ -16,7 +16,7 @@ from symid.model.show import latex_lines
 from symid.plots import plot_before_after, plot_latent, plot_rest, plot_scores, plot_spectra
 from symid.report.origin import CITATION, origin, written
 from symid.report.page import equations, facts, figure, folded, heading, page, paragraph, table
-from symid.units import quantity, split_column_name
+from symid.units import quantity, split_column_name, typeset
 
 VERDICTS = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}
 MEANING = {
@@ -54,13 +54,13 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
         paragraph(first, "lead"),
         *map(paragraph, more),
     ]
-    if d.effects:
+    if d.named:
         parts += [heading("What is missing"), effects_table(d)]
     if d.equivalent:
         parts += [heading("What this recording cannot tell from it"), _equivalents(d)]
-    where = "where the improvement is largest" if d.effects else "at the beginning of each window"
+    where = "where the improvement is largest" if d.named else "at the beginning of each window"
     parts += [
-        heading("Before and after" if d.effects else "The fit"),
+        heading("Before and after" if d.named else "The fit"),
         _fits(d),
         figure(plot_before_after(d), f"Free simulations, {where}; errors below each."),
         heading("Where and when"),
@@ -73,7 +73,7 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
         *_remainder(d),
         heading("Parameters of the model"),
         _parameters(d),
-        folded("Equations of the improved model" if d.effects else "Equations", equations(latex_lines(d.improved))),
+        folded("Equations of the improved model" if d.named else "Equations", equations(latex_lines(d.improved))),
         heading("Provenance"),
         facts((provenance or {}) | origin()),
         heading("Please cite"),
@@ -89,15 +89,15 @@ def _rest(d: Diagnosis) -> list[str]:
 
 def effects_table(d: Diagnosis) -> str:
     """What was found: law, place, when, whether both halves of the window ask for it, parameters and their errors."""
+    timed = any(e.window is not None for e in d.named)
     kept = {(s.name, s.location): "no" if s.reason else "yes" for s in d.halves}
     rows = []
-    for e in d.effects:
+    for e in d.named:
         values = "; ".join(f"{_said(k)} {quantity(v, s, d.unit_of(e, k))}" for k, (v, s) in e.parameters.items())
-        when = "always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s"
-        rows.append(
-            [_plain(e.name), place_name(e.location), when, kept.get((e.name, e.location), ""), values or e.sentence]
-        )
-    return table(["effect", "place", "when", "on both halves", "parameters"], rows)
+        rows.append([_plain(e.name), place_name(e.location), kept.get((e.name, e.location), ""), values or e.sentence])
+        if timed:
+            rows[-1].append("always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s")
+    return table(["effect", "place", "on both halves", "parameters", *["when"] * timed], rows)
 
 
 def _said(key: str) -> str:
@@ -162,16 +162,23 @@ def _fits(d: Diagnosis) -> str:
     for key, title in (("train", "fit window"), ("heldout", "held-out window, not used before")):
         if f"baseline_{key}" in d.runs:
             before, after = (d.runs[f"{k}_{key}"].rms for k in ("baseline", "augmented"))
-            rows.append([title, rms_text(before, unit), rms_text(after, unit), round(100 * (1 - after / before), 1)])
+            rows.append(
+                [title, rms_text(before, unit), rms_text(after, unit), typeset(f"{100 * (1 - after / before):.1f}")]
+            )
     later = d.runs.get("augmented_heldout")
     if later is not None and len(later.lengths) > 1:
         before = d.runs["baseline_heldout"].of_segments()
         rows += [
-            [f"  held out, segment from {t:.1f} s", rms_text(b, unit), rms_text(a, unit), round(100 * (1 - a / b), 1)]
+            [
+                f"  held out, segment from {t:.1f} s",
+                rms_text(b, unit),
+                rms_text(a, unit),
+                typeset(f"{100 * (1 - a / b):.1f}"),
+            ]
             for (t, b), (_, a) in zip(before, later.of_segments(), strict=True)
         ][:MOST]
     head = ["free simulation", "RMS error of the model as given", "of the improved model", "error removed [%]"]
-    return table(head, rows) if d.effects else table(head[:2], [row[:2] for row in rows])
+    return table(head, rows) if d.named else table(head[:2], [row[:2] for row in rows])
 
 
 def _where(d: Diagnosis) -> list[str]:
@@ -183,7 +190,7 @@ def _where(d: Diagnosis) -> list[str]:
                 "note",
             )
         ]
-    after = latent_torques(d.final, d.runs["augmented_train"]) if d.effects else ()
+    after = latent_torques(d.final, d.runs["augmented_train"]) if d.named else ()
     caption = (
         "The force that would have to be added at each place to make the free run follow the recording; forces of one "
         "unit have one scale. The band is two standard errors wide to each side, and the grey floor as "
@@ -207,7 +214,13 @@ def _suspects(d: Diagnosis) -> list[str]:
         )
     ]
     if not d.ranking:
-        return [*parts, paragraph("None was worth a complete fit.")]
+        told = "None was worth a complete fit."
+        if not d.improved.ports:
+            told = (
+                "The model declares no joint, body or sensor (si.Port), so there was no place at which a law could be "
+                "tried."
+            )
+        return [*parts, paragraph(told)]
     if max(c.score for c in d.ranking) > 0:
         caption = (
             f"The number is the score. In the grey band, up to {POLICY.equivalent:g} behind the best, a "
@@ -220,13 +233,14 @@ def _suspects(d: Diagnosis) -> list[str]:
         [
             _plain(c.suspect.term.name),
             place_name(c.suspect.term.location),
-            f"{c.score:,.1f}",
-            f"{c.log_ratio:,.1f}",
+            typeset(f"{c.score:,.1f}"),
+            typeset(f"{c.log_ratio:,.1f}"),
             "a law" if c.suspect.established else "a description",
         ]
         for c in sorted(d.ranking, key=lambda c: -c.score)[:MOST]
     ]
-    numbers = table(["suspect", "place", "score", "log-likelihood ratio", "what it names"], rows)
+    heads = ["suspect", "place", "score", "log-likelihood ratio", "what it names"]
+    numbers = table(heads, rows, wide=heads[3:])
     note = paragraph(
         "A law is an answer when it is found. A description only says what the rest looks like: several mechanisms "
         "look like that.",
@@ -240,15 +254,16 @@ def _remainder(d: Diagnosis) -> list[str]:
         return [paragraph("Not tested.")]
     rows = [[place_name(t.place), t.what, float(t.log_ratio), t.size, _odds(t.minus_log10_p)] for t in d.remainder[:5]]
     systematic = max(t.minus_log10_p for t in d.remainder) > POLICY.remainder
+    heads = ["place", "test for", "statistic", "degrees of freedom", "by chance 1 in"]
     return [
         paragraph(
-            "After the finding something systematic is left: a test below reaches what chance would make once in more "
-            f"than {10**POLICY.remainder:,.0f} recordings."
+            f"{'After the finding something' if d.named else 'Something'} systematic is left: a test below reaches "
+            f"what chance would make once in more than {10**POLICY.remainder:,.0f} recordings."
             if systematic
             else "Nothing beyond what chance makes is left; these tests came nearest to it.",
             "note",
         ),
-        table(["place", "test for", "statistic", "degrees of freedom", "by chance 1 in"], rows),
+        table(heads, rows, wide=heads[2:4]),
     ]
 
 
@@ -265,6 +280,6 @@ def _parameters(d: Diagnosis) -> str:
         error = float(d.final.errors.get(name, float("nan")))
         given = "" if before is None else quantity(float(before), unit=part.unit, digits=4)
         rows.append([(name, part.meaning), given, quantity(float(value), error, part.unit, digits=4)])
-    if not d.effects:
+    if not d.named:
         return table(["parameter", "value ± standard error"], [[name, value] for name, _, value in rows])
     return table(["parameter", "model as given", "improved ± standard error"], rows)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from base64 import b64encode
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
@@ -18,6 +19,7 @@ _TEMPLATES = Environment(
     loader=PackageLoader("symid.report"), autoescape=True, trim_blocks=True, keep_trailing_newline=True
 )
 _PARTS = _TEMPLATES.get_template("parts.html").module
+_NUMBER = re.compile(r"[−-]?[\d,]*\.?\d+")
 NARROW = 4.3
 """Width [inch] at which figures are drawn for a screen of a hand's width: their letters keep their size."""
 
@@ -99,7 +101,14 @@ def number(x) -> str:
 
 
 def _numeric(rows: list[list], i: int) -> bool:
-    return bool(rows) and all(isinstance(row[i], (int, float)) for row in rows)
+    """Whether a column holds numbers, or numbers as text, whose digits stand below each other."""
+    written = [isinstance(row[i], str) and bool(_NUMBER.fullmatch(row[i])) for row in rows]
+    return bool(rows) and all(isinstance(row[i], (int, float)) or text for row, text in zip(rows, written, strict=True))
+
+
+def _breakable(text: str) -> Markup:
+    """Text that may go on in the next line behind an underscore, as long names must on a phone."""
+    return Markup(escape(text).replace("_", Markup("_<wbr>")))
 
 
 def _cell(x) -> dict[str, object]:
@@ -109,6 +118,6 @@ def _cell(x) -> dict[str, object]:
         if isinstance(text, (bool, int, float))
         else text
         if isinstance(text, Markup)
-        else escape(str(text)),
-        "below": below,
+        else _breakable(str(text)),
+        "below": _breakable(str(below)) if below else "",
     }

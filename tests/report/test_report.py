@@ -45,7 +45,7 @@ class Tags(HTMLParser):
         self.open, self.sources = [], []
 
     def handle_starttag(self, tag, attributes):
-        if tag not in ("meta", "img", "br", "source"):
+        if tag not in ("meta", "img", "br", "source", "wbr"):
             self.open.append(tag)
         self.sources += [v for k, v in attributes if k in ("src", "srcset", "href")]
 
@@ -254,6 +254,12 @@ def test_starts_that_agree_are_drawn_at_one_place_with_the_numbers_of_the_table(
     drawn = {x: y for line in left.lines for x, y in zip(line.get_xdata(), line.get_ydata(), strict=True)}
     assert drawn == {r.number + 1: pytest.approx(np.rad2deg(r.rms)) for r in solution.starts}
     assert np.ptp(left.get_ylim()) > 0.01 * solution.fit["rms_deg"]["all"] and right.get_xlim()[1] >= 1
+
+
+def test_numbers_stand_below_each_other_and_long_names_may_go_on_in_the_next_line():
+    text = page.table(["name", "score"], [["a_long_name", "4,575.5"], ["b", "−5.3"]])
+    assert '<th class="n">score' in text and "a_<wbr>long_<wbr>name" in text
+    assert '<th class="">when' in page.table(["when"], [["always"], ["1"]])
 
 
 def test_text_is_escaped():

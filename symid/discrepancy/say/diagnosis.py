@@ -202,6 +202,11 @@ class Diagnosis:
         }
 
     @property
+    def named(self) -> tuple[Effect, ...]:
+        """Those of `effects` that a law names: not the unknown that is left."""
+        return tuple(e for e in self.effects if e.name != "unknown")
+
+    @property
     def confirmed(self) -> bool | None:
         """Whether held-out data prove what was found; None where there is neither."""
         return None if self.proof is None or not self.effects else self.proof.confirmed

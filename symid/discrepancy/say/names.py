@@ -20,7 +20,7 @@ def place_name(location: str) -> str:
     return (
         f"the {kind} of {noun}"
         if kind
-        else {"the global": "the whole system", "the input": "the input"}.get(noun, noun)
+        else {"the global": "the whole system", "the ": "the whole system"}.get(noun, noun)
     )
 
 

@@ -146,16 +146,20 @@ def _finding(s: Story) -> list[str]:
     if said and first.name == "unknown":
         return [
             *said,
-            f"That is not all: something systematic is left at {place_name(first.location)}, {first.sentence}, "
+            f"That is not all: something systematic is left{_at(first.location)}, {first.sentence}, "
             "which no established effect explains.",
             *part,
         ]
     out = [
-        f"Something systematic acts at {place_name(first.location)} that no established effect explains. It looks like "
-        f"this: {_lowered(first.sentence)}.",
+        f"Something systematic acts{_at(first.location)} that no established effect explains. It looks like this: "
+        f"{_lowered(first.sentence)}.",
         *part,
     ]
     return out + (["Besides:", *said] if said else [])
+
+
+def _at(location: str) -> str:
+    return f" at {place_name(location)}" if location not in ("", "global") else ""
 
 
 def _unproved(s: Story) -> list[str]:
