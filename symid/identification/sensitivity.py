@@ -10,6 +10,7 @@ import scipy
 
 from symid.codegen import compile_program
 from symid.codegen.interval import output_program
+from symid.errors import SolveError
 from symid.transcription import Transcription
 
 DAMPING = 1e-11
@@ -169,6 +170,16 @@ class Sensitivity:
         ]
 
 
+def _factor(matrix: scipy.sparse.csc_matrix) -> scipy.sparse.linalg.SuperLU:
+    try:
+        return scipy.sparse.linalg.splu(matrix, permc_spec="COLAMD")
+    except RuntimeError:  # SuperLU: "Factor is exactly singular"
+        raise SolveError(
+            "standard errors cannot be computed here: the optimality system is singular, as at a point with infinite "
+            "or huge values or multipliers; solve the problem again, from another start"
+        ) from None
+
+
 class Reduced:
     """The quadratic model of the objective, reduced to the parameters: all else follows them.
 
@@ -189,9 +200,7 @@ class Reduced:
         nothing = -1e-14 * scipy.sparse.identity(
             a.shape[0]
         )  # where a bound cuts the motion off there are more rows than states
-        self.factor = scipy.sparse.linalg.splu(
-            scipy.sparse.block_array([[inner, a.T], [a, nothing]], format="csc"), permc_spec="COLAMD"
-        )
+        self.factor = _factor(scipy.sparse.block_array([[inner, a.T], [a, nothing]], format="csc"))
         border = scipy.sparse.vstack(
             [hessian[self.states][:, self.parameters], s.constraints[:, self.parameters]]
         ).toarray()

@@ -47,7 +47,7 @@ def put_together(values: dict | None, arrays: bytes) -> SolverResult | None:
     found = read_arrays(arrays)
     sizes = {name: found[name].size for name in ARRAYS if found[name].dtype == float and found[name].ndim == 1}
     unknowns = sizes["z"], sizes["bound_multipliers_lower"], sizes["bound_multipliers_upper"]
-    if len(set(unknowns)) > 1 or sizes["constraints"] != sizes["multipliers"]:
+    if len(set(unknowns)) > 1 or sizes["constraints"] != sizes["multipliers"] or not np.isfinite(found["z"]).all():
         raise ValueError("the arrays of a result do not belong together")
     return SolverResult(**as_declared(values | parts, SolverResult), **{name: found[name] for name in ARRAYS})
 

@@ -74,16 +74,19 @@ def simulate_stiff(
     states, steady = [np.asarray(initial_state, dtype=float)[None]], np.column_stack([u[:, held], w])
     edges = [0, *(np.flatnonzero(np.any(np.diff(steady[:-1], axis=0) != 0, axis=1)) + 1), len(time) - 1]
     for k, end in zip(edges, edges[1:], strict=False):
-        run = solve_ivp(
-            rates,
-            (time[k], time[end]),
-            states[-1][-1],
-            "Radau",
-            time[k + 1 : end + 1],
-            args=(k,),
-            rtol=tolerance,
-            atol=tolerance * size,
-        )
+        try:
+            run = solve_ivp(
+                rates,
+                (time[k], time[end]),
+                states[-1][-1],
+                "Radau",
+                time[k + 1 : end + 1],
+                args=(k,),
+                rtol=tolerance,
+                atol=tolerance * size,
+            )
+        except ValueError as infinite:  # SciPy's linear algebra refuses what is not finite
+            raise SymidError(f"simulation of '{model.name}': no finite rates after {time[k]:g} s") from infinite
         if not run.success:
             raise SymidError(f"simulation of '{model.name}': {run.message}")
         states.append(run.y.T)
