@@ -121,7 +121,7 @@ def test_friction_at_a_joint_that_is_not_there():
         ({"system": "rig"}, "the key 'parameters' is missing"),
         ({"system": "rig", "parameters": 1}, "no table"),
         ({"system": "rig", "parameters": DOUBLE, "baseline": {"terms": ["magic"]}}, "the term 'magic'"),
-        ({"system": None}, "known: standing, rig"),
+        ({"system": None}, "known are 'standing', 'rig'"),
     ],
 )
 def test_facts_are_checked(facts, message):
