@@ -131,7 +131,7 @@ def test_cut_offs_that_are_refused(cutoff):
 
 @pytest.mark.parametrize("rate", [0, -1, float("nan"), float("inf")])
 def test_rates_that_are_refused(rate):
-    with pytest.raises(RecordingError, match="is not possible"):
+    with pytest.raises(RecordingError, match="is not possible|give a number"):
         resample(wave(), rate)
 
 
