@@ -111,11 +111,11 @@ def bootstrap(
             solves[f"draw {k + 1}"] = Solve(_chosen(solution, rng), solution.values, k)
             continue
         drawn = [_drawn(solution, r, residuals[r], blocks[r], rng) for r in range(len(residuals))]
-        solves[f"draw {k + 1}"] = Solve(replace(solution.problem, recordings=drawn), solution.result.z, k)
+        solves[f"draw {k + 1}"] = Solve(replace(solution.problem, recordings=drawn), solution, k)
     study = Study(solves, store)
     ended = study.run_here(on_finished) if executor is None else study.run(executor, on_finished=on_finished)
     table = ended.table
-    draws = table.loc[table["solved"], list(solution.values)]
+    draws = table.loc[table["solved"]].reindex(columns=list(solution.values))
     if len(draws) < min(LEAST_DRAWS, count):
         raise ModelError(
             f"bootstrap: only {len(draws)} of {count} draws were solved; the first that was not says: "

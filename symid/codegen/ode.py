@@ -19,7 +19,7 @@ import sympy as sm
 from symid.codegen.cprint import PREAMBLE, c_statements, foreign_text
 from symid.codegen.numpyprint import python_function
 from symid.errors import CodegenError
-from symid.model import TIME, Model, c_texts, symbol
+from symid.model import TIME, Model, c_texts, explicit, symbol
 
 TABLE = Path(__file__).with_name("ode.h").read_text()
 """The C declaration of what a model exports and the integrating loop reads."""
@@ -108,6 +108,7 @@ class OdeSource:
 
 def ode_source(model: Model) -> OdeSource:
     """The functions of `model`; CodegenError if its residuals are not linear in the rates."""
+    model = explicit(model)
     residual, observed = sm.Matrix(model.residual()), sm.Matrix(model.observed())
     states, inputs, noises = tuple(model.states), tuple(model.inputs), tuple(model.noises)
     rates = [s.dot for s in model.states.values()]
@@ -170,6 +171,12 @@ def ode_source(model: Model) -> OdeSource:
 
 
 def _check(model: Model, unknown: set[sm.Symbol], equations: int) -> None:
+    controls = sorted(map(str, unknown & {u.symbol for u in model.controls.values()}))
+    if controls:
+        raise CodegenError(
+            f"model '{model.name}': a simulation needs to know {', '.join(controls)}, which is a control; declare an "
+            "Input, or take model.undisturbed(False), in which it is zero"
+        )
     if unknown:
         raise CodegenError(f"model '{model.name}' uses {sorted(map(str, unknown))}, which it does not declare")
     if equations != len(model.states):

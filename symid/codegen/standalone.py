@@ -17,7 +17,7 @@ from symid.codegen.graph import UNIFORM, Graph
 from symid.codegen.lower import lower
 from symid.codegen.numpyprint import NUMPY_PATTERNS
 from symid.errors import CodegenError
-from symid.model import TIME, Model, c_texts
+from symid.model import TIME, Model, c_texts, explicit
 
 
 C_WORDS = frozenset(
@@ -68,12 +68,13 @@ def _loop(model: Model) -> _Loop:
     """
     Raises
     ------
-    CodegenError : parameters without a value, delays, algebraic variables, or residuals not linear in the rates.
+    CodegenError : parameters without a value, delays, or residuals not linear in the rates.
+    ModelError : algebraic variables that are no expressions.
     """
+    model = explicit(model)
     for what, parts, advice in (
         ("free parameters", model.parameters, "give them values with fixed(), or export a Solution"),
         ("delayed signals", model.delays, "their past is no argument of a function of the present"),
-        ("algebraic variables", model.algebraics, "solve for them and write them as an Expression"),
     ):
         if parts:
             raise CodegenError(f"export: model '{model.name}' has {what} ({', '.join(map(str, parts))}): {advice}")

@@ -56,7 +56,8 @@ def diagnose(
     ----------
     threads : of the compiled simulations. progress : called with a line of text now and then.
     subject, recording : a model and what it is compared with; or a Solution of one recording, which
-        brings its model, recording, window and values.
+        brings its model, recording, window and values. Algebraic variables are solved for, process noise is the
+        noise of `driven`; priors, constraints, boundary conditions and objectives take no part.
     fit_window, held_out : start and end [s], or the label of a split of the recording, whose
         segments have each an initial state of their own; the held-out one is used once, at the end.
     sensor_noise : standard deviation of the sensors, one or by channel; if left out what the recording

@@ -66,7 +66,7 @@ def task_of(subject: Model | Solution, recording: Recording | None, fit_window: 
     start = {
         name: checked.number(v, f"diagnose: start of '{name}'", DiagnosisError) for name, v in (start or {}).items()
     }
-    task = Task(model, recording, fit_window, start={**values, **start}, values=values, **others)
+    task = Task(model.simulated("diagnose"), recording, fit_window, start={**values, **start}, values=values, **others)
     _refuse_odd(task)
     return task
 

@@ -23,6 +23,7 @@ from symid.model.prior import LogNormal, Normal, Prior
 from symid.model.quantity import free_symbols, initial, symbol, terminal
 from symid.model.table import table
 from symid.model.term import Law, LawParameter, Term
+from symid.model.variants import explicit
 
 __all__ = [
     "TIME",
@@ -54,6 +55,7 @@ __all__ = [
     "Term",
     "c_function",
     "c_texts",
+    "explicit",
     "free_symbols",
     "initial",
     "symbol",

@@ -301,6 +301,15 @@ class Model:
         """
         return variants.undisturbed(self, bound)
 
+    def simulated(self, what: str) -> Model:
+        """A new model that can be simulated: algebraic variables solved for, process noise as Noise.
+
+        Raises
+        ------
+        ModelError : a control has no known motion, or an algebraic variable is no expression; `what` begins the words.
+        """
+        return variants.simulated(self, what)
+
     # ---- for the build function of a Law, which works on a fresh copy -----------------
     def redefine(self, name: str, expr: Operand) -> None:
         """Give the Expression or Output `name` another meaning, everywhere it is used.

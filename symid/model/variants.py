@@ -7,9 +7,22 @@ from dataclasses import replace
 from math import inf
 from typing import TYPE_CHECKING, Any
 
+import sympy as sm
+
 from symid import checked
 from symid.errors import ModelError
-from symid.model.declare import Algebraic, Bounds, Component, Constant, Control, Input, Parameter, State
+from symid.model.declare import (
+    Algebraic,
+    Bounds,
+    Component,
+    Constant,
+    Control,
+    Expression,
+    Input,
+    Noise,
+    Parameter,
+    State,
+)
 
 if TYPE_CHECKING:
     from symid.model.model import Model
@@ -75,6 +88,49 @@ def undisturbed(model: Model, bound: bool) -> Model:
     for name in () if bound else model.boundaries:
         del new.components[name]
     return new
+
+
+def explicit(model: Model) -> Model:
+    """With algebraic variables that their equations give as expressions (linear in them) as Expressions.
+
+    Raises
+    ------
+    ModelError
+        An algebraic variable is in no such equation: it belongs to equations with rates, or is not linear.
+    """
+    names, places = list(model.algebraics), model.algebraic_equations()
+    if not names:
+        return model
+    rows, unknown = sm.Matrix([model.residual()[i] for i in places]), [a.symbol for a in model.algebraics.values()]
+    slopes = rows.jacobian(unknown) if len(places) == len(names) else sm.zeros(1)
+    if slopes.free_symbols & set(unknown) or slopes.det() == 0:
+        raise ModelError(
+            f"model '{model.name}': its equations do not give {', '.join(names)} as expressions of states and inputs, "
+            "which a simulation needs: write what they are as an Expression"
+        )
+    values = slopes.LUsolve(-rows.xreplace(dict.fromkeys(unknown, sm.Integer(0))))
+    parts = {n: Expression(v, **_told(model[n])) for n, v in zip(names, values, strict=True)}
+    new = _with(model, parts)
+    for i in places:
+        del new.components[list(model.equations)[i]]
+    return new
+
+
+def simulated(model: Model, what: str) -> Model:
+    """As a simulation needs it: `explicit`, process noise as drawn Noise, and no other control.
+
+    Raises
+    ------
+    ModelError : there are controls, in the words of `what` is asked for; or as for `explicit`.
+    """
+    noises = {name: Noise(**_told(p)) for name, p in model.processes.items()}
+    others = [name for name in model.controls if name not in noises]
+    if others:
+        raise ModelError(
+            f"{what}: nothing says what the control{'s' * (len(others) > 1)} {', '.join(others)} of model "
+            f"'{model.name}' does; take model.undisturbed(False), in which it is zero, or declare an Input"
+        )
+    return explicit(_with(model, noises))
 
 
 def _told(part: Component) -> dict[str, Any]:

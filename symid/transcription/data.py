@@ -196,12 +196,12 @@ def _window_samples(recording: Recording, window: tuple[float, float] | None) ->
         return 0, len(time) - 1
     window = window or (time[0], time[-1])
     t0, t1 = map(float, window)
-    slack = 0.5 * (time[1] - time[0])
-    if not (time[0] - slack <= t0 < t1 <= time[-1] + slack):
+    slack, last_step = 0.5 * (time[1] - time[0]), time[-1] - time[-2]  # ten seconds may end a step before 10 s
+    if not (time[0] - slack <= t0 < t1 <= time[-1] + 1.01 * last_step):
         raise TranscriptionError(
             f"window {t0:g} to {t1:g} s does not lie in {recording.name}, which has {time[0]:g} to {time[-1]:g} s"
         )
-    first, last = np.searchsorted(time, [t0 - slack, t1 - slack])
+    first, last = np.minimum(np.searchsorted(time, [t0 - slack, t1 - slack]), len(time) - 1)
     if last - first < 2:
         raise TranscriptionError(f"window {t0:g} to {t1:g} s holds only {last - first + 1} samples of {recording.name}")
     return int(first), int(last)
