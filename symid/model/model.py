@@ -91,7 +91,14 @@ class Model:
                 "choose another name or use redefine()"
             )
         if hasattr(type(self), name) or name in self.__dict__ or name == "t" or name.startswith("_"):
-            raise ModelError(f"model '{self.name}': the name '{name}' is reserved; choose another")
+            own = (
+                "time, model.time"
+                if name == "t"
+                else "something of every Model"
+                if hasattr(self, name)
+                else "kept back"
+            )
+            raise ModelError(f"model '{self.name}': the name '{name}' is reserved ({own}); choose another")
         refuse_wrong_types(self, part, name)
         copies = part.copies()
         if copies is None:
