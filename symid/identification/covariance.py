@@ -117,13 +117,15 @@ def parameter_errors(
 
 
 def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:
-    """(n,) whether each unknown sits at one of its bounds."""
+    """(n,) whether each unknown sits at one of its bounds, or has but one value."""
     lower, upper, z = t.program.lower, t.program.upper, result.z
     near = 1e-5 * np.maximum(1.0, np.abs(z))
     pull = 1e-8 * t.program.objective_scale
     with np.errstate(invalid="ignore"):
-        return ((z - lower < near) & (result.bound_multipliers_lower > pull)) | (
-            (upper - z < near) & (result.bound_multipliers_upper > pull)
+        return (
+            (lower == upper)
+            | ((z - lower < near) & (result.bound_multipliers_lower > pull))
+            | ((upper - z < near) & (result.bound_multipliers_upper > pull))
         )
 
 
