@@ -25,7 +25,7 @@ from symid.identification.starts.default import default_start, given_start, rand
 from symid.identification.starts.search import can_search, relaxed_start, search_start
 from symid.identification.starts.stable import stable_start
 from symid.identification.study import Solve, Study, start_kinds
-from symid.identification.weighting import information_of, to_likelihood, weights_of
+from symid.identification.weighting import by_noise, information_of, to_likelihood, weights_of
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model
 from symid.nlp import NonlinearProgram, with_ridge
@@ -58,8 +58,9 @@ class Identification:
         likelihood. By default 1, or where outputs have several units, one over the mean variance of those
         of the same unit.
     noise : for each recording, output name -> standard deviation of its white noise [SI], from which the
-        likelihood's weights follow at once; what is not given is taken from `Recording.noise`. By default
-        `solve` estimates it (a Study does not), or takes what `Recording.noise` says if the residual agrees.
+        likelihood's weights follow at once, and the objective is -2 log of it: what the model's own Objective, soft
+        Constraint and smooth Control weigh is compared with that. What is not given is taken from `Recording.noise`. By
+        default `solve` estimates it (a Study does not), or takes what `Recording.noise` says if the residual agrees.
     loss : output name -> width [its unit] beyond which its error counts by its size instead of its square, against
         outliers (`codegen.interval.objective_program`).
     per_recording : names of parameters that differ between the recordings.
@@ -125,6 +126,7 @@ class Identification:
         began = time.perf_counter()
         measured = [measure(self.model, r, w) for r, w in zip(self.recordings, self.windows, strict=True)]
         weights = weights_of(self, measured)
+        information = information_of(self, measured, weights)
         made = transcribe(
             self.model,
             measured,
@@ -135,7 +137,8 @@ class Identification:
             self.backend,
             int(self.refine),
             loss=self.loss,
-            information=information_of(self, measured, weights),
+            information=information,
+            cost=information if by_noise(self) else 1.0,
         )
         made.seconds["build"] = time.perf_counter() - began
         return made

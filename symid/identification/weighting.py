@@ -148,6 +148,7 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
         or p.episodes.count > 1
         or p.ridge
         or p.loss
+        or p.model.costed  # what the user weighed against squared errors stays so
         or not solution.solved
         or (len(p.recordings) * len(p.model.outputs) == 1 and not p.model.informed)
         or solution.errors.model != "white"

@@ -156,6 +156,15 @@ class Model:
         )
 
     @property
+    def costed(self) -> bool:
+        """Whether something beside the data has a weight of the user's: an objective, a soft constraint, smoothness."""
+        return (
+            bool(self.objectives)
+            or any(c.soft is not None for c in self.constraints.values())
+            or any(u.smooth for u in self.controls.values())
+        )
+
+    @property
     def time(self) -> sm.Symbol:
         """Time in seconds, for forces that depend on it explicitly."""
         return TIME

@@ -42,6 +42,7 @@ class Demands:
     duration : name of the parameter that is the motion's duration, or None.
     graded : whether intervals differ in length.
     information : the objective of a squared error of one standard deviation.
+    cost : the objective of a unit of what the model's objectives, soft constraints and smooth controls ask for.
     seconds : what compiling took is added to it.
     """
 
@@ -55,12 +56,13 @@ class Demands:
         duration: str | None,
         graded: bool,
         information: float,
+        cost: float,
         backend: str,
         seconds: dict[str, float],
     ):
         self.model, self.scheme, self.layout, self.duration, self.graded = model, scheme, layout, duration, graded
         self.measured, self.recording_of, self.backend, self.seconds = measured, recording_of, backend, seconds
-        self.information = information
+        self.information, self.cost = information, cost
 
     def demanded(self) -> tuple[Block, ...]:
         """Constraints at nodes, at the ends, and of parameters."""
@@ -70,7 +72,7 @@ class Demands:
         """Running, terminal objectives, priors; these and the process noise's likelihood times `information`."""
         return (
             *self._running(),
-            *self._terminal(terminal_objective(self.model), "terminal", 1.0),
+            *self._terminal(terminal_objective(self.model), "terminal", self.cost),
             *self._terminal(end_penalties(self.model), "prior of ends", self.information, likelihood=True),
             *self._priors(),
         )
@@ -192,7 +194,7 @@ class Demands:
                 _columns(data, layout.intervals[e]),
                 self._constants(e, self.graded),
                 layout.size,
-                weights=np.tile([1.0, self.information], (layout.intervals[e], 1)),
+                weights=np.tile([self.cost, self.information], (layout.intervals[e], 1)),
                 likelihood=np.array([False, True]),
             )
 

@@ -96,6 +96,7 @@ def transcribe(
     duration: str | None = None,
     loss: dict[str, float] | None = None,
     information: float = 1.0,
+    cost: float = 1.0,
 ) -> Transcription:
     """Compile the kernels, lay out the free vector, and gather the data of every episode.
 
@@ -103,6 +104,7 @@ def transcribe(
     duration : name of the parameter that is the motion's duration [s], where this is unknown; the time of
         `measured` is then a share of it.
     information : what the objective is for an error of one standard deviation: priors are weighted by it.
+    cost : what it is for a unit of what the model's own objectives ask for.
     loss : output name -> width [its unit] beyond which its error counts by its size instead of its square.
     """
     model.check(units=False)
@@ -124,7 +126,7 @@ def transcribe(
         layout = scaled_by_data(model, scheme, interval, error, layout, measured, data, recording_of, weights, graded)
     seconds = {k: sum(kernel.seconds.get(k, 0.0) for kernel in (interval, error) if kernel) for k in interval.seconds}
     demands = Demands(
-        model, scheme, layout, tuple(measured), recording_of, duration, graded, information, backend, seconds
+        model, scheme, layout, tuple(measured), recording_of, duration, graded, information, cost, backend, seconds
     )
     tied, tie_names = ties(model, layout, _linked_episodes(episodes, recording_of))
     program = CollocationProgram(

@@ -100,3 +100,17 @@ def test_a_smooth_control_is_an_estimated_disturbance():
     drive = solution.transcription.layout.nodes(solution.result.z, 0)[:, 2]
     assert solution.solved and solution.values["gain"] == pytest.approx(1)
     assert np.sqrt(np.mean((drive - recording["drive"])[20:-20] ** 2)) < 0.15 and not solution.cut_off
+
+
+def test_a_smooth_control_weighs_against_the_likelihood_where_the_noise_is_given():
+    recording = pendulum_recording(noise=0.002)
+    m = pendulum()
+    m.gust = si.Control(unit="1/s^2", smooth=0.3)
+    m.components["balance"] = replace(m.balance, expr=m.balance.expr - m.gust)
+    step = float(recording.time[1] - recording.time[0])
+    given = si.Identification(m, recording, noise=[{"measured": 0.002}]).solve(check=False, options={"tol": 1e-10})
+    by_hand = si.Identification(m, recording, weights={"measured": 1 / (step * 0.002**2)})
+    by_hand = by_hand.solve(check=False, options={"tol": 1e-10})
+    assert given.values["damping"] == pytest.approx(by_hand.values["damping"], rel=1e-6)
+    gusts = [s.transcription.layout.nodes(s.result.z, 0)[:, 2] for s in (given, by_hand)]
+    np.testing.assert_allclose(*gusts, atol=1e-5)
