@@ -14,7 +14,7 @@ from symid.errors import RecordingError, SymidError
 from symid.recording.header import MAP_THEM, MOST_NAMED, no_time
 from symid.recording.names import LABELS, Column, contradictions, measured_column, unit_of
 from symid.recording.readers.raw import RawColumn
-from symid.units import column_name, nearest
+from symid.units import HOW_NAMED, column_name, nearest
 
 
 def load_columns(source: Mapping[str, str] | str | os.PathLike) -> dict[str, str]:
@@ -99,7 +99,7 @@ def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str,
         try:
             column = _column(c)
         except SymidError as error:
-            problems.append(str(error))
+            problems.append(str(error).removesuffix(f"; {HOW_NAMED}"))
             continue
         if c.fault:
             raise RecordingError(f"{path}: {c.fault}; a mapping of columns may leave it out")
@@ -110,7 +110,7 @@ def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str,
         problems = [
             *problems[:3],
             *([f"and {len(problems) - 3} more columns"] if problems[3:] else []),
-            *([] if any(c.name == "time" for c in columns) else [no_time([c.text for c in raw])]),
+            *no_time([c.text for c in raw], columns),
             MAP_THEM,
         ]
     elif problems:
@@ -164,8 +164,10 @@ def _column(c: RawColumn) -> Column:
 
 def _checked(path: Path, columns: list[Column], problems: list[str], raw: list[RawColumn]) -> list[Column]:
     problems = [*problems, *contradictions(columns)]
-    if not any(c.name == "time" for c in columns) and not problems:
-        problems.append(no_time([c.text for c in raw]))
+    if not problems:
+        problems += no_time([c.text for c in raw], columns)
+    if not problems and not any(c.name == "time" for c in columns):
+        problems.append("there is no time column (time_s)")
     if not any(c.unit and c.name != "time" for c in columns) and not problems:
         problems.append("there is no channel besides time")
     if problems:

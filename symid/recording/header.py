@@ -12,14 +12,14 @@ from symid import checked
 from symid.errors import RecordingError, SymidError
 from symid.recording.dialect import bare, dialect_of
 from symid.recording.names import LABELS, ROW_NUMBERS, Column, contradictions, measured_column
-from symid.units import nearest
+from symid.units import HOW_NAMED, nearest
 
 MOST_NAMED = 12
 """Columns that a message lists."""
 DATED = ("time", "date", "datetime", "date_time", "date time", "timestamp")
 """Names, in small letters, of a column that may hold dates."""
 _DATE = re.compile(r"\d{4}-\d\d-\d\d")
-MAP_THEM = "or map the columns: read_recording(columns=...), --columns MAP.toml"
+MAP_THEM = f"{HOW_NAMED}; or map the columns: read_recording(columns=...), --columns MAP.toml"
 
 
 def read_header(path: Path) -> list[Column]:
@@ -102,27 +102,22 @@ def _parse(cells: list[str], first_row: list[str]) -> tuple[list[Column], list[s
             try:
                 columns.append(measured_column(text))
             except SymidError as error:
-                problems.append(str(error))
+                problems.append(str(error).removesuffix(f"; {HOW_NAMED}"))
                 without_unit = True
     problems += contradictions(columns)
-    if not any(column.name == "time" for column in columns) and not _time_named_wrongly(cells):
-        problems.append(no_time(cells))
+    problems += no_time(cells, columns)
     if not problems and not any(c.unit and c.name != "time" for c in columns):
         problems.append("there is no channel besides time")
     return columns, problems, f"; {MAP_THEM}" if without_unit else ""
 
 
-def no_time(names: list[str]) -> str:
-    """What to say where no column is the time."""
+def no_time(names: list[str], columns: list[Column]) -> list[str]:
+    """What to say where no column is the time, and none was refused already for its unit."""
+    if any(c.name == "time" for c in columns) or any(n.lower().split("_")[0] in ("time", "t") for n in names):
+        return []
     counting = next((name for name in names if name.lower() in ("frame", "frame#", "sample")), None)
     if counting:
-        return f"there is no time column (time_s), and '{counting}' counts samples; add one: {counting} / rate"
+        return [f"there is no time column (time_s), and '{counting}' counts samples; add one: {counting} / rate"]
     close = nearest("time_s", names, 1)
-    return "there is no time column (time_s)" + (
-        f"; '{close[0]}' may be meant" if close else f"; columns: {', '.join(names[:MOST_NAMED])}"
-    )
-
-
-def _time_named_wrongly(cells: list[str]) -> bool:
-    """Whether the time column is there but was refused already, for its unit."""
-    return any(cell.lower().split("_")[0] in ("time", "t") for cell in cells)
+    hint = f"; '{close[0]}' may be meant" if close else f"; columns: {', '.join(names[:MOST_NAMED])}"
+    return ["there is no time column (time_s)" + hint]

@@ -129,6 +129,7 @@ def measure(model: Model, recording: Recording, window: tuple[float, float] | No
                 f"which {recording.name} does not have: " + nearest(channel, recording.channels)
                 for name, channel in missing
             )
+            + "; recording.rename gives channels other names, as does a mapping of columns (--columns MAP.toml)"
         )
     _refuse_other_units(model, recording)
     if len(recording.runs) > 1:

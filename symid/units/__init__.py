@@ -17,7 +17,7 @@ u     known input                              p     parameter
 ====  =======================================  ====  =======================================
 """
 
-from symid.units.columns import column_name, known_suffixes, split_column_name
+from symid.units.columns import HOW_NAMED, column_name, known_suffixes, split_column_name
 from symid.units.show import quantity, shown_unit, time_unit, typeset, unit_for, unit_symbol, with_error
 from symid.units.si import (
     STANDARD_GRAVITY,
@@ -34,6 +34,7 @@ from symid.units.si import (
 )
 
 __all__ = [
+    "HOW_NAMED",
     "STANDARD_GRAVITY",
     "FloatArray",
     "IntArray",

@@ -10,6 +10,7 @@ import re
 from symid.errors import RecordingError
 from symid.units.si import SUFFIXES, nearest, normal, parsed
 
+HOW_NAMED = "a column is named as ankle_angle_deg, loss_W_per_K or 'Time [h]'"
 _TIMES = ("s", "ms", "min", "h")
 _AMBIGUOUS = ("F", "H", "L", "T", "d", "h", "l", "min")
 """Symbols that stand alone for something else as often: left, a minimum, a height, a temperature."""
@@ -53,10 +54,7 @@ def split_column_name(column: str) -> tuple[str, str]:
         built = _built(words[start:])
         if built and name:
             return name, built
-    raise RecordingError(
-        f"column '{column}' does not end in a known unit{_nearest_suffixes(words)}; "
-        f"a column is named as ankle_angle_deg, loss_W_per_K or 'Time [h]'"
-    )
+    raise RecordingError(f"column '{column}' does not end in a known unit{_nearest_suffixes(words)}; {HOW_NAMED}")
 
 
 def column_name(name: str, unit: str) -> str:
