@@ -70,7 +70,8 @@ def excess_note(solution: Solution) -> list[str]:
 
 def _excess_said(solution: Solution) -> str:
     ratio = excess(solution.transcription, solution.result.z).max(axis=0)
-    name = list(solution.model.outputs)[int(np.argmax(ratio))]
+    output = list(solution.model.outputs.values())[int(np.argmax(ratio))]
+    name = output.channel.replace("_", " ")
     return f"the error of {name} is {ratio.max():.2g} times what a free smoother leaves of the recording"
 
 

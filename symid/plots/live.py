@@ -38,21 +38,38 @@ class LivePlot:
             self._shown = time.monotonic()
 
     def figure(self) -> Picture:
-        """What has happened so far."""
+        """What has happened so far; earlier starts are pale."""
         figure = Picture(figsize=(8, 2.6), layout="constrained")
         left, right = figure.subplots(1, 2)
-        number = [i.number for i in self.iterations]
-        left.plot(number, [i.objective for i in self.iterations], ".-", color=MODEL, lw=1)
-        left.set(xlabel="iteration", ylabel="objective", title=f"{self.iterations[-1].objective:.6g}")
-        for values, colour, label in (
-            ([i.infeasibility for i in self.iterations], WARN, "violated equations"),
-            ([i.dual_infeasibility for i in self.iterations], INK, "not yet optimal"),
-        ):
-            right.semilogy(number, np.maximum(values, 1e-16), ".-", color=colour, lw=1, label=label)
+        starts = self._starts()
+        for start in starts:
+            alpha = 1.0 if start is starts[-1] else 0.3
+            number = [i.number for i in start]
+            left.plot(number, [i.objective for i in start], ".-", color=MODEL, lw=1, alpha=alpha)
+            for values, colour, label in (
+                ([i.infeasibility for i in start], WARN, "violated equations"),
+                ([i.dual_infeasibility for i in start], INK, "not yet optimal"),
+            ):
+                known = np.where(np.array(values) > 0, values, np.nan)
+                right.semilogy(
+                    number, known, ".-", color=colour, lw=1, alpha=alpha, label=label if alpha == 1 else None
+                )
+        which = f"start {len(starts)}: " if len(starts) > 1 else ""
+        left.set(xlabel="iteration", ylabel="objective")
+        left.set_title(f"{which}objective {self.iterations[-1].objective:.6g}", loc="left", fontsize=10)
         right.set(xlabel="iteration", ylabel="largest, scaled")
-        right.legend(frameon=False, fontsize=8.5)
+        right.legend(frameon=False, fontsize=8.5, ncols=2, loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.1)
         opened(left, right)
         return figure
+
+    def _starts(self) -> list[list[Iteration]]:
+        """The iterations of each start: they count from the beginning again."""
+        found: list[list[Iteration]] = []
+        for one in self.iterations:
+            if not found or one.number <= found[-1][-1].number:
+                found.append([])
+            found[-1].append(one)
+        return found
 
     def _show(self) -> None:
         display = import_module("IPython.display").display

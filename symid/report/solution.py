@@ -25,7 +25,7 @@ from symid.plots import (
 )
 from symid.report.origin import CITATION, command, written
 from symid.report.page import equations, facts, figure, folded, heading, number, page, paragraph, table
-from symid.units import time_unit, unit_symbol, with_error
+from symid.units import time_unit, typeset, unit_symbol, with_error
 
 
 SHOWN_EPISODES = 3
@@ -166,7 +166,9 @@ def _together(solution: Solution) -> list[str]:
         for i, j in combinations(range(len(names)), 2)
         if abs(correlation[i, j]) > TOGETHER
     ]
-    told = [f"{names[i]} and {names[j]} ({correlation[i, j]:+.2f})" for _, i, j in sorted(pairs, reverse=True)]
+    told = [
+        f"{names[i]} and {names[j]} ({typeset(f'{correlation[i, j]:+.2f}')})" for _, i, j in sorted(pairs, reverse=True)
+    ]
     return (
         [
             paragraph(
@@ -187,7 +189,7 @@ def _parameters(solution: Solution, truth: dict[str, float] | None) -> str:
         row = [
             (name, p.meaning),
             with_error(p.value, p.std_error, digits=5).replace("-", "−"),
-            unit_symbol(p.unit),
+            unit_symbol(p.unit).replace(" ", "\N{NO-BREAK SPACE}"),
             bounds,
         ]
         rows.append(row[:2] + [number(float(truth[name]))] + row[2:] if truth else row)

@@ -204,7 +204,7 @@ def test_estimates_that_move_together_are_named(solution):
     covariance = np.array([[1.0, -0.99], [-0.99, 1.0]])
     both = SimpleNamespace(covariance=pd.DataFrame(covariance), values={"stiffness": 1.0, "mass": 2.0})
     (told,) = solution_report._together(both)
-    assert "stiffness and mass (-0.99)" in told
+    assert "stiffness and mass (−0.99)" in told
 
 
 @needs_browser

@@ -93,3 +93,13 @@ def test_a_live_plot_follows_the_solve(monkeypatch):
     left, right = shown[-1].axes
     assert left.lines[0].get_ydata()[-1] == live.iterations[-1].objective and len(right.lines) == 2
     assert Image.open(io.BytesIO(live._repr_png_())).size[0] > 100
+
+
+def test_starts_are_drawn_apart_while_they_are_solved():
+    live = LivePlot()
+    live._show = lambda: None
+    si.Identification(pendulum(), pendulum_recording(noise=0.01)).solve(2, seed=1, on_iteration=live)
+    left, right = live.figure().axes
+    assert len(left.lines) == 2 and len(right.lines) == 4
+    assert all((np.diff(line.get_xdata()) > 0).all() for line in (*left.lines, *right.lines))
+    assert left.get_title(loc="left").startswith("start 2: objective")
