@@ -21,7 +21,7 @@ from symid.discrepancy.prove.evidence import tested
 from symid.discrepancy.say.diagnosis import Diagnosis, finding
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.say.words import Story, words
-from symid.discrepancy.task import Part, refuse_odd_options, task_of
+from symid.discrepancy.task import Part, Task, refuse_odd_options, task_of
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
 from symid.estimation.measurement import fits_of
@@ -101,12 +101,13 @@ def diagnose(
     given = task.model
     task = replace(task, model=with_friction_speeds(given, pieces, checked.noise))
     plain = Data(pieces, checked.noise, driven, checked.rounding).thinned()
-    window = task.fit_window, task.segment_length
 
-    def fits(start: dict[str, float]) -> list[tuple[Data, Fit]]:
+    def fits(task: Task, plain: Data, start: dict[str, float]) -> list[tuple[Data, Fit]]:
+        window = task.fit_window, task.segment_length
         return fits_of(task.model, task.recording, *window, plain, checked.filter, checked.inputs, start, checked.known)
 
-    possible = fitted_as_given(task, plain, fits)
+    task, plain, possible = fitted_as_given(task, plain, fits)
+    pieces_of = task.segment_length if task.segment_length != segment_length else None
     possible = [(data, with_likeliest_jumps(given, fit, data)) for data, fit in possible]
     data, fit = possible[0]
     pool = list(suspects_of(task.model, sizes_of(fit, data)) if suspects is None else suspects)
@@ -121,5 +122,5 @@ def diagnose(
 
     # Say: the verdict, and what a reader should know.
     verdict, effects, equivalent = judge(evidence, search, checked)
-    text = words(Story(verdict, effects, equivalent, ranking, evidence, checked, search.base, search.data))
+    text = words(Story(verdict, effects, equivalent, ranking, evidence, checked, search.base, search.data, pieces_of))
     return finding(verdict, effects, equivalent, ranking, search.base, evidence, checked, text)

@@ -12,6 +12,7 @@ from symid.errors import DiagnosisError
 from symid.discrepancy.model.suspects import Suspect
 from symid.estimation.zero_phase import ZeroPhase
 from symid.identification import Solution
+from symid.mechanics.places import with_places
 from symid.model import Model
 from symid.recording import Recording
 
@@ -66,7 +67,8 @@ def task_of(subject: Model | Solution, recording: Recording | None, fit_window: 
     start = {
         name: checked.number(v, f"diagnose: start of '{name}'", DiagnosisError) for name, v in (start or {}).items()
     }
-    task = Task(model.simulated("diagnose"), recording, fit_window, start={**values, **start}, values=values, **others)
+    model = with_places(model.simulated("diagnose"))
+    task = Task(model, recording, fit_window, start={**values, **start}, values=values, **others)
     _refuse_odd(task)
     return task
 

@@ -24,6 +24,8 @@ PACES = 0.25, 4.0
 """Motions whose swing lasts so many seconds have the pace of one second for which laws and searches are stated."""
 TURNING = 0.25
 """A motion swings over where it leaves its mean by this part of its deviation on the other side: noise does not."""
+FEW_SWINGS, TRENDS = 3, 8
+"""A signal with fewer swings about its mean wanders: its swings are those about the lines through so many parts."""
 MOST_SAMPLES = 8000
 """More samples than this tell a fit of free motion nothing new."""
 
@@ -324,10 +326,27 @@ def pace_of(segments: Sequence[Segment]) -> float:
 
 
 def _turns(time: np.ndarray, y: np.ndarray) -> float:
-    """Seconds of one swing of a signal, from how often it goes over to the other side of its mean."""
-    side = np.sign(y - y.mean()) * (np.abs(y - y.mean()) > TURNING * y.std())
+    """Seconds of one swing of a signal, from how often it goes over to the other side of its mean.
+
+    What wanders off, as the angle of a wheel does, swings about straight lines.
+    """
+    span = float(time[-1] - time[0])
+    found = [2 * span / max(_crossings(z), 1) for z in (y - y.mean(), _without_trend(time, y))]
+    return found[0] if found[0] < span / FEW_SWINGS else found[1]
+
+
+def _crossings(y: np.ndarray) -> int:
+    """How often a signal goes over to the other side of zero."""
+    side = np.sign(y) * (np.abs(y) > TURNING * y.std())
     side = side[side != 0]
-    return 2 * float(time[-1] - time[0]) / max(int(np.sum(side[1:] != side[:-1])), 1)
+    return int(np.sum(side[1:] != side[:-1]))
+
+
+def _without_trend(time: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """A signal less the line through each of its `TRENDS` parts."""
+    edges = np.linspace(0, len(y), TRENDS + 1).astype(int) if len(y) >= TRENDS * FEWEST else np.array([0, len(y)])
+    parts = [(time[a:b] - time[a:b].mean(), y[a:b] - y[a:b].mean()) for a, b in pairwise(edges)]
+    return np.concatenate([x - t * float(t @ x) / float(t @ t) for t, x in parts])
 
 
 def piece_length(segments: tuple[Segment, ...]) -> float:

@@ -54,14 +54,10 @@ def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
 
     Several beginnings are tried, because a free initial state has more than one basin.
     """
-    free = Data(data.segments, data.sensor_noise, driven=False, pace=data.pace)
-    fitter = Fitter(fit.model, free, fixed=tuple(fit.values))
-    runs = [r for r in (_run(fitter, fit, x0) for x0 in _beginnings(fit, data)) if r is not None]
+    best = with_states_of(fit, data)
     time = np.concatenate([e.time for e in data.segments])
     recorded = np.vstack([e.recorded for e in data.segments])
-    size = moves(recorded)
-    nothing = np.full_like(recorded, np.nan)
-    simulated = min(runs, key=lambda y: float(np.sum(((y - recorded) / size) ** 2))) if runs else nothing
+    simulated = np.full_like(recorded, np.nan) if best is None else recorded - np.vstack(best.innovations)
     use = np.arange(len(time)) >= int(settling / data.segments[0].step + 0.5)
     return FreeRun(
         time,
@@ -73,14 +69,20 @@ def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
     )
 
 
-def _run(fitter: Fitter, fit: Fit, x0: np.ndarray) -> np.ndarray | None:
-    try:
-        new = fitter.fit(fit.values, x0, fit.process)
-        p = np.array([new.values[k] for k in fitter.sim.parameters])
-        runs = fitter.run(p, new.initial, None, False)
-    except SymidError:
-        return None
-    return None if runs is None else np.vstack([t.y for t in runs])
+def with_states_of(fit: Fit, data: Data) -> Fit | None:
+    """The fit with the initial states that other data ask for, its values kept; None where every way there diverges."""
+    free = Data(data.segments, data.sensor_noise, driven=False, pace=data.pace)
+    fitter, size = (
+        Fitter(fit.model, free, fixed=tuple(fit.values)),
+        moves(np.vstack([e.recorded for e in data.segments])),
+    )
+    found = []
+    for x0 in _beginnings(fit, data):
+        try:
+            found.append(fitter.fit(fit.values, x0, fit.process))
+        except SymidError:
+            continue
+    return min(found, key=lambda f: float(np.sum((np.vstack(f.innovations) / size) ** 2)), default=None)
 
 
 def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:

@@ -36,7 +36,7 @@ def free_pieces(segments: Sequence[Segment], states: int) -> tuple[Segment, ...]
     length = float(np.median([e.time[-1] - e.time[0] for e in segments]))
     if FEW * swings <= length <= MANY * swings:
         return tuple(segments)
-    return tuple(part for e in whole for part in _cut(e, piece_length(whole)))
+    return tuple(part for e in whole for part in cut(e, piece_length(whole)))
 
 
 def _joined(segments: Sequence[Segment]) -> tuple[Segment, ...]:
@@ -73,7 +73,7 @@ def _sum(a: Segment, b: Segment) -> Segment:
     return Segment(np.concatenate([a.time, b.time]), np.vstack([a.recorded, b.recorded]), inputs, undone=undone)
 
 
-def _cut(segment: Segment, length: float) -> list[Segment]:
+def cut(segment: Segment, length: float) -> list[Segment]:
     """Equal parts of about `length` seconds."""
     parts = max(1, round((segment.time[-1] - segment.time[0]) / length))
     edges = np.linspace(0, len(segment.time), parts + 1).astype(int)

@@ -10,6 +10,7 @@ from symid.mechanics.neural import NeuralNetwork
 from symid.mechanics.rig import rig_model
 from symid.mechanics.skeleton import Skeleton, skeleton
 from symid.mechanics.standing import DoubleLinkPendulum
+from symid.mechanics.places import with_places
 from symid.mechanics.terms import CANONICAL, LIBRARY, suspects
 from symid.mechanics.wrap import from_kane, from_lagrange, from_system
 
@@ -34,4 +35,5 @@ __all__ = [
     "rig_model",
     "skeleton",
     "suspects",
+    "with_places",
 ]

@@ -2,54 +2,154 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from itertools import combinations
+
 import numpy as np
 import sympy as sm
+from scipy.optimize import linear_sum_assignment
 
-from symid.model import Model, Port, State
+from symid.model import Input, Model, Output, Port, State
 from symid.model.dimensions import unit_of
+from symid.units import dimension
 
 ROLES = ("joint", "link", "balance")
 """Of places where a force, or a flow in a balance, can act."""
+AT_REST = 0.1
+"""Of every state, where what stands beside the rates is compared: near rest, and not where an angle's sine vanishes."""
+TURNS = ("rad", "deg", "rpm", "rev")
+"""Words in units of angular speed, which has the dimension of any rate."""
+NOTHING = 1e-300
+"""Instead of a zero whose logarithm is needed."""
 
 
 def with_places(model: Model) -> Model:
-    """The model with a Port of role ``balance`` for each equation with a rate that no port enters.
+    """The model with every place named at which something may be missing, where its user named none.
 
-    A force enters there as it would beside the rate of the state; in an equation of first order, such as that of a
-    tank, it has no rate of its own, and moves the state.
+    Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a ``joint``
+    at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed is all that
+    the model knows, as of a motor; the position of such a port is 0. In another equation of first order, such as that
+    of a tank, a force has no rate of its own, and moves the state: a ``balance``. Outputs without a role become
+    sensors, inputs without one excitations.
+
+    Examples
+    --------
+    >>> slide = si.Model("slide")
+    >>> slide.x, slide.v = si.State(unit="m"), si.State(unit="m/s")
+    >>> slide.motion, slide.push = si.Equation(slide.x.dot - slide.v), si.Input(unit="N")
+    >>> slide.balance = si.Equation(2.0 * slide.v.dot - slide.push)
+    >>> slide.seen = si.Output(slide.x, channel="carriage")
+    >>> [(p.role, p.at, p.unit) for p in with_places(slide).ports.values()]
+    [('joint', 'carriage', 'N')]
     """
-    entered = {e for p in model.ports.values() if p.role in ROLES for e in p.into}
-    rates, new = model.rates(), model.copy()
-    kinematic = {model[x].dot: model[v].symbol for v, x in rates.items()}
-    for name, equation in model.equations.items():
-        residual = model.inline(equation.expr)
-        moved = [s for s in model.states.values() if residual.has(s.dot) and s.role != "memory"]
-        tied = [kinematic.get(s.dot) for s in moved]
-        if name in entered or not moved or any(t is not None and residual.has(t) for t in tied):
-            continue
-        port = _port(model, name, residual, moved[0], rates)
-        if port.unit:
-            setattr(new, f"{name}_place", port)
+    new = model.copy()
+    for name, port in _ports_of_balances(model).items():
+        setattr(new, f"{name}_place", port)
+    for kind, role, at in ((Output, "sensor", "sensor"), (Input, "excitation", "input")):
+        for c in [c for c in new.components.values() if isinstance(c, kind) and not c.role]:
+            new.components[c.name] = replace(c, role=role, at=c.at or f"{at}:{c.channel or c.name}")
     return new
 
 
+def _ports_of_balances(model: Model) -> dict[str, Port]:
+    """By equation, where no port enters it and it is more than the statement that a state is a rate."""
+    entered = {e for p in model.ports.values() if p.role in ROLES for e in p.into}
+    rates = model.rates()
+    kinematic = {model[x].dot: model[v].symbol for v, x in rates.items()}
+    residuals = {name: model.inline(e.expr) for name, e in model.equations.items()}
+    moving = [s for s in model.states.values() if s.role != "memory" and s.dot not in kinematic]
+    balances = [
+        name
+        for name, r in residuals.items()
+        if any(r.has(s.dot) for s in moving) and not any(r.has(d) and r.has(v) for d, v in kinematic.items())
+    ]
+    found = {}
+    for name, state in _own_states(model, residuals, balances, moving).items():
+        port = _port(model, name, residuals[name], state, rates)
+        if name not in entered and port.unit:
+            found[name] = port
+    return found | _between(found, residuals)
+
+
+def _between(ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
+    """Ports between any two coordinates of one kind of which the balance of one has to do with the other.
+
+    A force between two bodies acts on both, against each other: of a spring or a joint that joins them.
+    """
+    found, joints = {}, {n: p for n, p in ports.items() if p.role == "joint"}
+    for (a, p), (b, q) in combinations(joints.items(), 2):
+        met = [residuals[x].has(*y.rate.free_symbols, *y.position.free_symbols) for x, y in ((a, q), (b, p))]
+        if p.unit == q.unit and any(met) and (p.position == 0) == (q.position == 0):
+            found[f"{a}_{b}"] = replace(
+                p,
+                position=p.position - q.position,
+                rate=p.rate - q.rate,
+                into={**p.into, **{k: -v for k, v in q.into.items()}},
+                at=f"{p.at}-{q.at}",
+            )
+    return found
+
+
+def _own_states(
+    model: Model, residuals: Mapping[str, sm.Expr], balances: Sequence[str], moving: Sequence[State]
+) -> dict[str, State]:
+    """The state whose balance each equation is: that with which the product of what stands beside the rates is largest.
+
+    What stands beside the rates of Lagrange's equations is a positive definite matrix, of which no permutation has a
+    larger product than its diagonal (Hadamard 1893), whatever the units.
+    """
+    beside = np.array([[_size(model, sm.diff(residuals[n], s.dot)) for s in moving] for n in balances])
+    if not beside.size:
+        return {}
+    size = np.log(np.maximum(beside, NOTHING))
+    return {balances[i]: moving[j] for i, j in zip(*linear_sum_assignment(size, maximize=True), strict=True)}
+
+
 def _port(model: Model, name: str, residual: sm.Expr, state: State, rates: dict[str, str]) -> Port:
-    position = model[rates[state.name]].symbol if state.name in rates else state.symbol
+    second, turns = state.name in rates, is_speed(state.unit)
+    coordinate = model[rates[state.name]].symbol if second else state.symbol
+    shown = [y.channel or y.name for y in model.outputs.values() if model.inline(y.expr) == coordinate]
+    about = coordinate * model.time if turns and not second else coordinate
     beside = sm.diff(residual, state.dot)
     return Port(
-        position=position,
-        rate=state.symbol if state.name in rates else sm.S.Zero,
-        into={name: -_sign(model, beside)},
-        unit=unit_of(model, beside * state.dot, position),
-        role="balance",
-        at=str(position),
+        position=sm.S.Zero if turns and not second else coordinate,
+        rate=state.symbol if turns or second else sm.S.Zero,
+        into={name: -1.0 if _value(model, beside) >= 0 else 1.0},
+        unit=_unit(model, residual, about) or unit_of(model, beside * state.dot, about),
+        role="joint" if turns or second else "balance",
+        at=shown[0] if shown else str(coordinate),
     )
 
 
-def _sign(model: Model, expr: sm.Expr) -> float:
-    """Of what stands beside a rate: a mass or an area, positive, perhaps behind a minus."""
-    sizes = dict.fromkeys(expr.free_symbols, 1.0) | {c.symbol: c.value for c in model.constants.values()}
-    return -1.0 if float(expr.subs(sizes)) < 0 else 1.0
+def is_speed(unit: str) -> bool:
+    """Whether a state with this unit is a speed [m/s or rad/s]."""
+    found = dimension(unit)
+    return found == dimension("m/s") or found == dimension("rad/s") and any(word in unit for word in TURNS)
+
+
+def coordinate(port: Port) -> sm.Expr:
+    """Its position or, where the model does not know that, its rate."""
+    return port.position if port.position != 0 else port.rate
+
+
+def _unit(model: Model, residual: sm.Expr, about: sm.Expr) -> str:
+    """Of an equation: that of most of its terms without a number in front, which may stand for a mass."""
+    terms = [t for t in sm.Add.make_args(sm.expand(residual)) if abs(t.as_coeff_Mul()[0]) == 1]
+    units = Counter(filter(None, (unit_of(model, t, about) for t in terms)))
+    return units.most_common(1)[0][0] if units else ""
+
+
+def _value(model: Model, expr: sm.Expr) -> float:
+    """Of what stands beside a rate: a mass or an area, with each unknown one, at rest."""
+    moved = {s.symbol for s in model.states.values()}
+    sizes: dict[sm.Symbol, float] = {s: AT_REST if s in moved else 1.0 for s in expr.free_symbols}
+    return float(sm.re(expr.subs(sizes | {c.symbol: c.value for c in model.constants.values()})))
+
+
+def _size(model: Model, expr: sm.Expr) -> float:
+    return abs(_value(model, expr)) if expr.free_symbols or expr else 0.0
 
 
 def places(model: Model) -> list[Port]:

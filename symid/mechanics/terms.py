@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from symid.mechanics.drive_laws import DRIVE_LAWS
 from symid.mechanics.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
 from symid.mechanics.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
 from symid.mechanics.world_laws import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
@@ -22,6 +23,7 @@ LIBRARY: dict[str, Law] = {
         *FURTHER_JOINT_LAWS,
         *FURTHER_LINK_LAWS,
         *FURTHER_WORLD_LAWS,
+        *DRIVE_LAWS,
     )
 }
 """Every law by name: the canonical ones first, then what else the field knows."""

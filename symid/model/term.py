@@ -128,7 +128,8 @@ class Term:
         if self.location not in self.law.places(model):
             raise ModelError(
                 f"{self.law.name} cannot act at '{self.location}' of model '{model.name}': it acts on "
-                f"parts with role {self.law.acts_on!r}, which are at {self.law.places(model) or 'no place'}"
+                f"parts with role {self.law.acts_on!r}, which are at {self.law.places(model) or 'no place'} "
+                "(symid.mechanics.with_places(model) names the places of a model that names none)"
             )
         p = SimpleNamespace()
         for q in self.law.parameters:

@@ -230,7 +230,9 @@ def test_a_hypothesis_beside_an_unknown_rest_is_not_asserted():
     sure = Effect("sensor_offset", "sensor:link1", {}, None, 50.0, "The first sensor is off")
 
     def said(*effects):
-        return " ".join(_finding(SimpleNamespace(verdict="unexplained", effects=effects)))
+        return " ".join(
+            _finding(SimpleNamespace(verdict="unexplained", effects=effects, evidence=SimpleNamespace(elsewhere=None)))
+        )
 
     assert said(unknown, guess) == (
         "Something systematic acts at joint 1 that no established effect explains. It looks like this: a force that "

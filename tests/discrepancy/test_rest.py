@@ -127,9 +127,9 @@ def test_the_rest_of_a_tank_is_a_flow_and_nothing_is_said_of_energy():
     pump = 0.05 + 0.04 * np.sin(0.03 * time) + 0.02 * np.sin(0.11 * time)
     run = simulator(tank(leak=0.03)).simulate([0.05], [1.0], time, {"pump": pump})
     level = run.y[:, 0] + 1e-3 * rng.standard_normal(len(time))
-    segments = segments_between(tank(), time, {"level": level, "pump": pump}, (0.0, 400.0))
+    segments = segments_between(with_places(tank()), time, {"level": level, "pump": pump}, (0.0, 400.0))
     data = Data(segments, np.array([1e-3]), False)
-    fit = fit_model(tank(), data)
+    fit = fit_model(with_places(tank()), data)
     rest = rest_of(fit, data)
     text = " ".join(rest_words(rest))
     assert "flow at the level" in text and "m³/s" in text and "energy" not in text

@@ -12,6 +12,7 @@ from symid.errors import SymidError
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.path import fitted_path
+from symid.mechanics.places import ROLES
 from symid.mechanics.unknown_laws import unknown_force, unknown_input, unknown_sensor
 from symid.model import Model, Port, Term
 
@@ -21,7 +22,7 @@ MOST_ITERATIONS = 20
 def flexible_terms(fit: Fit, data: Data) -> list[Term]:
     """A flexible term at every port, sensor and input, scaled by the motion of the fit."""
     model, path, terms = fit.model, fitted_path(fit, data), []
-    for role in ("joint", "link"):
+    for role in ROLES:
         ports = [p for p in model.ports.values() if p.role == role]
         scales = {p.at: (_size(along(path, p.position, model)), _size(along(path, p.rate, model))) for p in ports}
         law = unknown_force(role, scales, data.span, data.pace)

@@ -17,7 +17,7 @@ from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.independence import independent_share
 from symid.estimation.path import fitted_path
-from symid.mechanics.places import other_signals, places, with_places
+from symid.mechanics.places import other_signals, places
 from symid.mechanics.spline_law import Block, knots_of, spline_law
 from symid.model import Model, Port, Term
 
@@ -118,7 +118,7 @@ def flexible_law(
 
     Places and parts are chosen by forecasts, the few best are fitted completely, and chosen anew around that fit.
     """
-    found, fits = [], [placed(fit) for fit in fits]
+    found = []
     for fit in fits:
         projection = Projection(fit, data)
         ranked = sorted((chosen_blocks(fit, data, p, projection) for p in places(fit.model)), key=lambda c: -c[0])
@@ -130,12 +130,6 @@ def flexible_law(
         return None
     progress(f"a flexible law at {found[0].port.at} is fitted")
     return _refined(found[0], data)
-
-
-def placed(fit: Fit) -> Fit:
-    """The same fit, of the model with a place in every balance."""
-    model = with_places(fit.model)
-    return fit if len(model.ports) == len(fit.model.ports) else replace(fit, model=model)
 
 
 def _comparable(law: FlexibleLaw, first: Fit) -> float:
@@ -279,7 +273,7 @@ def candidate_blocks(fit: Fit, data: Data, port: Port, count: int = KNOTS) -> li
 
     def block(signal, times=1) -> Block | None:
         values = along(path, signal, model)
-        return Block(signal, times, knots_of(values, count)) if np.ptp(values) > 0 else None
+        return Block(signal, times, knots_of(values, count)) if np.ptp(values) > 0 and times != 0 else None
 
     x, v = port.position, port.rate
     one = x * 0 + 1

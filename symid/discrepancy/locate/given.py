@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,6 +12,8 @@ from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
+from symid.estimation.pieces import cut
+from symid.estimation.sensitive import followed
 from symid.identification import Identification
 from symid.identification.starts.default import default_start
 
@@ -18,9 +21,29 @@ PIECES = 4
 """So many of the longest pieces of a recording are enough for a start."""
 
 Fits = list[tuple[Data, Fit]]
+Fitting = Callable[[Task, Data, dict[str, float]], Fits]
 
 
-def fitted_as_given(task: Task, plain: Data, fits: Callable[[dict[str, float]], Fits]) -> Fits:
+def fitted_as_given(task: Task, plain: Data, fits: Fitting) -> tuple[Task, Data, Fits]:
+    """The fits of the model as given, in pieces where a motion cannot be followed from one state for all of its time.
+
+    Raises
+    ------
+    DiagnosisError : as `fitted_in_pieces` does.
+    """
+    found = fitted_in_pieces(task, plain, fits)
+    data, fit = found[0]
+    if not data.driven or fit.kalman_gain is not None or data.filter is not None or _near(data, fit):
+        return task, plain, found
+    lasts = followed(task.model, plain, fit, task.start, _near)
+    if lasts is None:
+        return task, plain, found
+    task = replace(task, segment_length=lasts)
+    plain = plain.with_segments(part for e in plain.segments for part in cut(e, lasts))
+    return task, plain, fitted_in_pieces(task, plain, fits)
+
+
+def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
     """What `fits` makes of the start values of a task, or of those that regression finds, whichever is likelier.
 
     Regression is asked where the first way fails, and where free motion is far from the recording: output errors
@@ -32,13 +55,13 @@ def fitted_as_given(task: Task, plain: Data, fits: Callable[[dict[str, float]], 
     """
     start, problem, found = dict(task.start), None, None
     try:
-        found = fits(start)
+        found = fits(task, plain, start)
         if found[0][1].kalman_gain is not None or start.keys() >= task.model.parameters.keys() or _near(*found[0]):
             return found
     except DiagnosisError as error:
         problem = error
     try:
-        other = fits({**_regressed(task, plain), **start})
+        other = fits(task, plain, {**_regressed(task, plain), **start})
     except SymidError:
         other = None
     if found is None and other is None:

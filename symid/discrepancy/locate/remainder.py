@@ -12,6 +12,7 @@ from symid.discrepancy.locate.flexible import flexible_terms
 from symid.discrepancy.locate.modulation import PARTS, modulated
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.hypothesis import extended, padded
+from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
@@ -92,6 +93,12 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
         )
         found.append(Test(y.at, "innovations that follow from earlier ones", statistic, WHITENESS_LAGS, locates=False))
     return sorted(found, key=lambda t: -round(t.minus_log10_p, 1))
+
+
+def located(left: Sequence[Test]) -> Test:
+    """The test that tells where a remainder acts: whiteness is a good alarm and a poor locator."""
+    places = [t for t in left if t.locates and t.minus_log10_p > POLICY.located]
+    return places[0] if places else left[0]
 
 
 def _columns(projection: Projection, sim: Simulator, term: Term) -> np.ndarray | None:

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.discrepancy.locate.flexible import along
-from symid.discrepancy.locate.flexible_law import chosen_blocks, numbers, placed
+from symid.discrepancy.locate.flexible_law import chosen_blocks, numbers
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
 from symid.estimation.data import Data, swing
 from symid.estimation.fit import Fit
 from symid.estimation.independence import independent_share
 from symid.estimation.path import fitted_path
-from symid.mechanics.places import places
+from symid.mechanics.places import coordinate, places
 from symid.mechanics.spline_law import Block
 from symid.model import Model, Port
 
@@ -107,7 +107,6 @@ def rest_of(fit: Fit, data: Data) -> Rest | None:
     whitened least squares of the innovations on the responses to splines of the states, in each part of the window
     (linear around the fit, so that a large rest is told roughly). None where no place explains anything.
     """
-    fit = placed(fit)
     free = Projection(fit, data)
     ranked = sorted((chosen_blocks(fit, data, p, free) for p in places(fit.model)), key=lambda c: -c[0])
     if not ranked or not ranked[0][0] > 0:
@@ -154,7 +153,7 @@ def _described(fit, data, port, blocks, path, phi, within, estimate) -> Rest:
     """From the shapes of the force along the path and their coefficients to a Rest."""
     (coefficients, covariance, explained), model = estimate, fit.model
     time = np.concatenate([e.time for e in data.segments])
-    position, rate = (along(path, e, model) if e != 0 else np.zeros(len(path)) for e in (port.position, port.rate))
+    position, rate = (along(path, e, model) if e != 0 else np.zeros(len(path)) for e in (coordinate(port), port.rate))
     force = phi @ coefficients
     ends = np.cumsum([len(e.time) for e in data.segments])
     amplitude = _amplitude(position, data)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
 from symid.estimation.data import Segment, swing
 from symid.mechanics.laws import coordinate_unit
+from symid.mechanics.places import coordinate
 from symid.model import Constant, Model, Port
 
 PARTS = 1e-4, 0.005
@@ -27,10 +29,10 @@ def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.nd
         return model
     new = model.copy()
     for port in (p for p in model.ports.values() if p.role == "joint"):
-        weights = weights_of(model, port)
-        if weights is not None:
+        speeds = widths(model, port, segments, noise)
+        if speeds:
             width = Constant(
-                widths(segments, weights, noise)[0],
+                speeds[0],
                 unit=f"{coordinate_unit(model, port.at)}/s",
                 role="friction_speed",
                 at=port.at,
@@ -40,21 +42,29 @@ def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.nd
     return new
 
 
-def weights_of(model: Model, port: Port) -> np.ndarray | None:
-    """(m,) of the outputs in the position of a port; None where it is not recorded."""
+def weights_of(model: Model, expr: Any) -> np.ndarray | None:
+    """(m,) of the outputs in a linear expression of the states; None where it is not recorded."""
     shown = {str(y.expr): i for i, y in enumerate(model.outputs.values())}
-    if not {str(s) for s in port.position.free_symbols} <= shown.keys():
+    if not {str(s) for s in expr.free_symbols} <= shown.keys():
         return None
     weights = np.zeros(len(model.outputs))
     for s in model.states.values():
         if s.name in shown:
-            weights[shown[s.name]] = float(port.position.coeff(s.symbol))
+            weights[shown[s.name]] = float(expr.coeff(s.symbol))
     return weights if weights.any() else None
 
 
-def widths(segments: Sequence[Segment], weights: np.ndarray, noise: np.ndarray) -> tuple[float, ...]:
-    """Speeds, the sharpest first; the usual one is the rms rate of a sine that moves as far and as fast as recorded."""
-    usual = float(np.median([2 * np.pi * np.std(e.recorded @ weights) / swing(e) for e in segments]))
-    creep = 2 * float(np.linalg.norm(weights * noise)) / float(np.median([swing(e) for e in segments]))
+def widths(model: Model, port: Port, segments: Sequence[Segment], noise: np.ndarray) -> tuple[float, ...]:
+    """Speeds, the sharpest first; none where neither the port's position nor its rate is recorded.
+
+    The usual speed is that which was recorded, or the rms rate of a sine that moves as far and as fast as recorded.
+    """
+    weights = weights_of(model, coordinate(port))
+    if weights is None:
+        return ()
+    once = [1.0 if port.position == 0 else swing(e) for e in segments]
+    turn = 1.0 if port.position == 0 else 2 * np.pi
+    usual = float(np.median([turn * np.std(e.recorded @ weights) / s for e, s in zip(segments, once, strict=True)]))
+    creep = 2 * float(np.linalg.norm(weights * noise)) / float(np.median(once))
     sharp = float(np.clip(creep, *(part * usual for part in PARTS))) or 1.0
     return (sharp, *(part * usual for part in WIDER))

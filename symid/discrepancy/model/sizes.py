@@ -52,16 +52,24 @@ def sizes_of(fit: Fit, data: Data) -> Sizes:
 def _reaches(fit: Fit, data: Data) -> dict[str, float]:
     found = {}
     for port in (p for p in fit.model.ports.values() if p.role == "joint"):
-        weights = weights_of(fit.model, port)
+        weights = weights_of(fit.model, port.position)
         moved = 0.0 if weights is None else float(np.median([np.std(e.recorded @ weights) for e in data.segments]))
         if moved and not REACHES[0] <= moved <= REACHES[1]:
             found[port.at] = moved / REACH
+    for i, sensor in enumerate(fit.model.outputs.values()):
+        moved = float(np.median([np.std(e.recorded[:, i]) for e in data.segments]))
+        if moved and not REACHES[0] <= moved <= REACHES[1]:
+            found[sensor.at] = moved / REACH
     return found
 
 
 def _torques(fit: Fit, data: Data) -> dict[str, float]:
-    """Of the loops whose torques follow from states and parameters alone."""
-    found = {}
+    """Rms of excitations, and sizes of the torques of loops that follow from states and parameters alone."""
+    found = {
+        u.at: float(np.sqrt(np.mean(np.concatenate([e.inputs[k] for e in data.segments]) ** 2))) or 1.0
+        for k, u in fit.model.inputs.items()
+        if u.role == "excitation"
+    }
     for place, torque in torques_along(fit.model, fitted_path(fit, data), fit.values).items():
         size = float(np.std(torque))
         if size and not TORQUES[0] <= size <= TORQUES[1]:

@@ -14,6 +14,7 @@ from symid.errors import ModelError
 from symid.estimation.data import Data, Segment
 from symid.mechanics import CANONICAL
 from symid.mechanics import suspects as terms_of
+from symid.mechanics.places import with_places
 from symid.mechanics.world_laws import GEOMETRY_LAWS
 from symid.model import Law, LawParameter, Model, Term
 
@@ -146,6 +147,9 @@ class Suspect:
 def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses.
 
+    A model's places are its ports, sensors and excitations, and where its user named none, the coordinate of each
+    balance, every output and every input.
+
     Of laws that write the same equations, such as a drag on the first link and friction at its joint, the first stands.
 
     Parameters
@@ -161,6 +165,7 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     True
     """
     found: dict[Any, Any] = {}
+    model = with_places(model)
     for term in terms_of(model):
         term = replace(term, law=_sized(term.law, (sizes or Sizes()).at(term.location)))
         equations = _equations(model, term)
@@ -189,7 +194,10 @@ ESTABLISHED = {*CANONICAL, *(law.name for law in GEOMETRY_LAWS), *PLAIN}
 
 
 def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:
-    """The model's equations with a term, whatever its names; None if it is there, or something it needs is not."""
+    """The model's equations with a term, whatever its names; None if it is there, or something that it needs is not.
+
+    A stiffness needs a position, which a model that knows speeds alone does not have.
+    """
     if any(str(t) == str(term) for t in model.terms):
         return None
     try:
@@ -198,10 +206,7 @@ def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:
         return None
     own = [more[term.parameter_name(q.key)].symbol for q in term.law.parameters]
     plain = {s: s.func(f"unknown{i}") for i, s in enumerate(own)}
-    shown = (y.expr.xreplace(plain) for y in more.outputs.values())
-    return (
-        *(e.xreplace(plain) for e in more.residual()),
-        *shown,
-        *(d.of for d in more.delays.values()),
-        *(d.lag.xreplace(plain) for d in more.delays.values()),
-    )
+    written = (*more.residual(), *(y.expr for y in more.outputs.values()), *(d.lag for d in more.delays.values()))
+    if not any(e.has(*own) for e in written):
+        return None
+    return (*(e.xreplace(plain) for e in written), *(d.of for d in more.delays.values()))

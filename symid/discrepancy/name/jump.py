@@ -11,7 +11,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.dry import weights_of, widths
+from symid.discrepancy.model.dry import widths
 from symid.discrepancy.model.hypothesis import Hypothesis, polished, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
@@ -59,7 +59,7 @@ def _likeliest(width: Constant, projection: Projection) -> float:
         columns = projection.response(suspect, simulator(tried), {"torque_Nm": 0.0})
         return 0.0 if columns is None else projection.score(columns)[0]
 
-    sharp, *wider = widths(data.segments, weights_of(model, port), data.sensor_noise)
+    sharp, *wider = widths(model, port, data.segments, data.sensor_noise)
     best = max([sharp, *wider], key=score)
     for factor in FINER if best != sharp else ():
         best = max([best / factor, best, best * factor], key=score)
@@ -87,7 +87,7 @@ def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
     model, data, near = found.base.model, found.data, replace(found.fit, substeps=1)
     sharp = model.constants[name].value
     port = next(p for p in model.ports.values() if p.at == model[name].at and p.role == "joint")
-    *_, widest = widths(data.segments, weights_of(model, port), data.sensor_noise)
+    *_, widest = widths(model, port, data.segments, data.sensor_noise)
 
     @cache
     def fitted(width: float) -> Hypothesis | None:

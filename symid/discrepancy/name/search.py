@@ -93,9 +93,16 @@ class Search:
         return found.evidence(share) - price * len(found.suspects) - (found.belief() if belief else found.doubt())
 
     def _worth(self, more: Hypothesis, less: Hypothesis) -> bool:
-        """Whether what `more` explains is worth its price, whatever its names."""
+        """Whether what `more` explains is worth its price, whatever its names.
+
+        A clock imitates a part of any rest: one that leaves a rest must be worth believing, too.
+        """
         share = max(more, less, key=lambda h: h.log_ratio).share
-        return self.value(more, share, belief=False) > self.value(less, share, belief=False)
+        if self.value(more, share, belief=False) <= self.value(less, share, belief=False):
+            return False
+        if more.suspect.kind != "clock" or self.explained(more):
+            return True
+        return self.value(more, share) > self.value(less, share)
 
     def _preferred(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
         """The one that is believed most, of those that are worth their price on top of `less`."""
@@ -215,7 +222,9 @@ class Search:
             rivals = [
                 h
                 for h in rivals
-                if h.suspect != best.suspect and h.score > POLICY.beam_share * best.score and self._worth(h, nothing)
+                if h.suspect not in best.suspects
+                and h.score > POLICY.beam_share * best.score
+                and self._worth(h, nothing)
             ]
         pairs = []
         for h in rivals[: POLICY.beam]:

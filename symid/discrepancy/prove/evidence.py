@@ -12,6 +12,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.certain import beyond_chance, honest
+from symid.discrepancy.prove.elsewhere import elsewhere
 from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
 from symid.discrepancy.prove.nameless import Nameless, improved, nameless
 from symid.discrepancy.prove.held_out import Proof, compare
@@ -33,6 +34,7 @@ class Evidence:
     white : whether what is left is random. chance : probability that chance makes as much, None where unknown.
     survived : each lasting effect on two halves. halves : what either half alone says, if what is left is not random.
     unnamed : what acts and has no name. final : the improved model, with the names or with a flexible law.
+    elsewhere : what only the held-out data show.
     runs : free simulations by ``baseline_train``, ``augmented_heldout`` and so on. proof : of the held-out data.
     """
 
@@ -46,6 +48,7 @@ class Evidence:
     proof: Proof | None
     unnamed: Nameless
     final: Fit
+    elsewhere: Test | None = None
 
 
 def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], task: Task, plain: Data) -> Evidence:
@@ -80,6 +83,7 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
         else None,
         unnamed,
         final,
+        elsewhere(found.fit, windows["heldout"], runs) if "heldout" in windows and not nameless_too else None,
     )
 
 

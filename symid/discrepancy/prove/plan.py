@@ -13,6 +13,7 @@ from symid.discrepancy.prove.experiment import PAUSE, Experiment, as_recording, 
 from symid.errors import DiagnosisError
 from symid.estimation.data import Segment
 from symid.mechanics import LIBRARY
+from symid.mechanics.places import with_places
 from symid.model import Model
 from symid.recording import Recording
 from symid.simulation import simulator
@@ -66,6 +67,7 @@ def recording_of(plan: Mapping[str, Any], model: Model, truth: str, seed: int) -
     """
     if truth not in plan.get("answers", {}):
         raise DiagnosisError(f"the plan has no answer {truth!r}; known: {', '.join(plan.get('answers', {})) or 'none'}")
+    model = with_places(model)
     answer, known = plan["answers"][truth], {(t.name, t.location) for t in model.terms}
     for name, place in answer["terms"]:
         if (name, place) not in known:

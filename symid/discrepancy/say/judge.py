@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from symid.discrepancy.locate.audit import Audit
-from symid.discrepancy.locate.remainder import Test
+from symid.discrepancy.locate.remainder import Test, located
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.explore import moment_profile
@@ -25,17 +25,15 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
     """Verdict, effects and equivalent hypotheses."""
     found, left, flexible, likes = evidence.found, evidence.left, search.flexible, search.equivalents(evidence.found)
     effects = tuple(_effect(s, found) for s in found.suspects)
-    rest = _located(left) if left and left[0].minus_log10_p > POLICY.remainder else None
+    rest = located(left) if left and left[0].minus_log10_p > POLICY.remainder else None
     rest = None if _may_be_the_sensors(evidence, audit, search) else rest
     equivalent = tuple(likes)
+    if rest is None and found.established and evidence.elsewhere is not None:
+        return "unexplained", (_unnamed(evidence.elsewhere), *effects), equivalent
     if not found.suspects and rest is None:
         return "adequate", (), ()
     if rest is not None and not found.suspects:
-        return (
-            "unexplained",
-            (Effect("unknown", rest.place, {}, None, rest.log_ratio, rest.what, established=False),),
-            (),
-        )
+        return "unexplained", (_unnamed(rest),), ()
     if not found.established:
         unestablished = next(s for s in found.suspects if not s.established)
         effects = tuple(
@@ -50,6 +48,10 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
         unknown = _unknown(_voted(flexible(), effects[0], rest), left, rest, found)
         return "unexplained", (unknown, *(_as_survived(e, evidence) for e in effects)), equivalent
     return "missing_physics", effects, equivalent
+
+
+def _unnamed(test: Test) -> Effect:
+    return Effect("unknown", test.place, {}, None, test.log_ratio, test.what, established=False)
 
 
 def _as_survived(effect: Effect, evidence: Evidence) -> Effect:
@@ -74,12 +76,6 @@ def _unknown(place: str, left: Sequence[Test], rest: Test | None, found: Hypothe
     seen = next((t for t in left if t.locates and t.place == place), rest)
     what = seen.what if rest else "something that only several of the known effects together imitate"
     return Effect("unknown", place, {}, None, rest.log_ratio if rest else found.score, what, established=False)
-
-
-def _located(left: Sequence[Test]) -> Test:
-    """The test that tells where a remainder acts: whiteness is a good alarm and a poor locator."""
-    places = [t for t in left if t.locates and t.minus_log10_p > POLICY.located]
-    return places[0] if places else left[0]
 
 
 def _moment(fit: Fit, data: Data, name: str, error: float) -> tuple[float, float]:

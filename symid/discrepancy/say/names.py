@@ -18,7 +18,9 @@ def place_name(location: str) -> str:
     noun = re.sub(r"([a-z])(\d+)$", r"\1 \2", rest).replace("_", " ")
     noun = noun if noun[-1:].isdigit() else f"the {noun}"
     return (
-        f"the {kind} of {noun}"
+        f"the {kind} {rest}"
+        if kind == "input"
+        else f"the {kind} of {noun}"
         if kind
         else {"the global": "the whole system", "the ": "the whole system"}.get(noun, noun)
     )

@@ -13,7 +13,7 @@ from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.say.names import place_name
 from symid.mechanics.dictionary import law_text
-from symid.mechanics.places import signal_unit
+from symid.mechanics.places import coordinate, signal_unit
 from symid.model import Model, Port
 from symid.units import quantity, reduced, same_dimension
 
@@ -80,7 +80,7 @@ def noun(unit: str) -> str:
 
 def signal_name(model: Model, port: Port, signal) -> str:
     """An expression of the states as a person says it at a port."""
-    angle = signal_unit(model, port.position) == "rad"
+    angle = signal_unit(model, coordinate(port)) == "rad"
     if signal == port.position:
         return ("angle" if angle else "position") if port.rate != 0 else place_name(str(signal)).removeprefix("the ")
     return "speed" if signal == port.rate else place_name(str(signal)).removeprefix("the ")
@@ -200,7 +200,7 @@ def _span(stretch: Stretch) -> str:
 
 def _size(stretch: Stretch, rest: Rest) -> str:
     """Whether the motion was small or large there."""
-    limit = quantity(rest.limit, unit=signal_unit(rest.model, rest.port.position))
+    limit = quantity(rest.limit, unit=signal_unit(rest.model, coordinate(rest.port)))
     if stretch.small >= MOSTLY:
         return f", at small amplitudes, below {limit}"
     return f", at large amplitudes, above {limit}" if stretch.small <= 1 - MOSTLY else ""
@@ -211,7 +211,7 @@ def _by_amplitude(rest: Rest, unit: str) -> list[str]:
     small, large = _way(rest.small), _way(rest.large)
     if small == large or not (small and large):
         return []
-    limit = quantity(rest.limit, unit=signal_unit(rest.model, rest.port.position))
+    limit = quantity(rest.limit, unit=signal_unit(rest.model, coordinate(rest.port)))
     return [
         f"At amplitudes below {limit} it {_verb(small, rest)} "
         f"{quantity(abs(rest.small.power), rest.small.error, unit)}, "

@@ -47,7 +47,10 @@ def _listed(items: Sequence[str], last: str = "and") -> str:
 # ---- the text --------------------------------------------------------------------------------
 @dataclass(frozen=True, eq=False)
 class Story:
-    """What there is to tell."""
+    """What there is to tell.
+
+    pieces : seconds of those in which a motion is compared that cannot be followed from one state for longer.
+    """
 
     verdict: str
     effects: tuple[Effect, ...]
@@ -57,6 +60,7 @@ class Story:
     audit: Audit
     base: Fit
     data: Data
+    pieces: float | None = None
 
     @property
     def left(self) -> Sequence[Test]:
@@ -140,6 +144,8 @@ def _finding(s: Story) -> list[str]:
     known = [e for e in s.effects if e.name != "unknown"]
     if s.verdict == "missing_physics":
         return [f"{e.sentence}." for e in known] + _unproved(s)
+    if s.evidence.elsewhere is not None:
+        return [f"{e.sentence}." for e in known] + _only_held_out(s, s.evidence.elsewhere)
     first, others = s.effects[0], [e for e in known if e is not s.effects[0]]
     said = [f"{e.sentence}." for e in others if e.established]
     part = [f"In part it looks like this: {_lowered(e.sentence)}." for e in others if not e.established]
@@ -160,6 +166,13 @@ def _finding(s: Story) -> list[str]:
 
 def _at(location: str) -> str:
     return f" at {place_name(location)}" if location not in ("", "global") else ""
+
+
+def _only_held_out(s: Story, test: Test) -> list[str]:
+    what = f"{test.what} at {place_name(test.place)}" if test.place else test.what
+    if len(s.effects) > 1:
+        return [f"That is not all: the held-out window shows {what}, and the fit window does not."]
+    return [f"The model explains the fit window but not the held-out one, which shows {what}."]
 
 
 def _unproved(s: Story) -> list[str]:
@@ -311,6 +324,11 @@ def _rest(s: Story) -> list[str]:
 
 def _caveats(s: Story) -> list[str]:
     out = []
+    if s.pieces:
+        out.append(
+            "In this motion small differences soon become large ones: it is compared in pieces of about "
+            f"{s.pieces:.2g} s, each from a state of its own."
+        )
     if s.filter is not None:
         stated = ", as stated" if s.audit.known else ""
         out.append(

@@ -1,0 +1,48 @@
+"""What only the held-out data show: a stop that larger motion reaches, a machine that has changed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from symid.discrepancy.locate.remainder import Test, located, remainder
+from symid.discrepancy.policy import POLICY
+from symid.errors import SymidError
+from symid.estimation.data import Data
+from symid.estimation.fit import Fit, Fitter
+from symid.estimation.free_run import FreeRun, with_states_of
+
+ITERATIONS = 40
+
+
+def elsewhere(fit: Fit, held_out: Data, runs: Mapping[str, FreeRun]) -> Test | None:
+    """What a model that explains the fitted data does not explain in the held-out ones; None where it explains both.
+
+    Asked of free motion whose error is much larger there: the model is refitted to the held-out data alone. Either it
+    leaves something systematic there, too, or it needs values that those of the fitted data exclude.
+    """
+    before, after = runs["augmented_train"].errors, runs["augmented_heldout"].errors
+    if fit.kalman_gain is not None or np.all(after < POLICY.sensors * np.maximum(before, held_out.sensor_noise)):
+        return None
+    begin = with_states_of(fit, held_out)
+    if begin is None:
+        return None
+    try:
+        own = Fitter(fit.model, held_out).fit(fit.values, begin.initial, fit.process, ITERATIONS)
+    except SymidError:
+        return None
+    left = remainder(own, held_out)
+    if left and left[0].minus_log10_p > POLICY.remainder:
+        return located(left)
+    changed = _changed(fit, own)
+    return Test("", f"other values of {', '.join(changed)}", 0.0, 1) if changed else None
+
+
+def _changed(fit: Fit, other: Fit) -> list[str]:
+    """Parameters of which two fits exclude each other's values."""
+    return [
+        k
+        for k in fit.errors
+        if abs(fit.values[k] - other.values[k]) > POLICY.apart * np.hypot(fit.errors[k], other.errors.get(k, np.inf))
+    ]

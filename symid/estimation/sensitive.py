@@ -1,0 +1,64 @@
+"""How long a motion can be followed from one state: where things turn over, a small difference soon is a large one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+
+from symid.errors import SymidError
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, Segment
+from symid.estimation.fit import Fit
+from symid.estimation.pieces import cut
+from symid.model import Model
+
+GROWTH = 30.0
+"""A piece is followed as long as a difference of its states grows no more than so many times: beyond that, a fit of its
+parameters has many optima (Ribeiro et al. 2020). A free pendulum comes there after thirty wide swings."""
+SHORTEST = 2.0
+"""Pieces last at least so many seconds at the pace of one: shorter ones hide losses behind their initial states."""
+SMALL = 1e-6
+"""The difference that is followed, as a part of how much each state moves."""
+
+
+def followed(
+    model: Model, data: Data, fit: Fit, start: Mapping[str, float], near: Callable[[Data, Fit], bool]
+) -> float | None:
+    """Seconds for which a motion can be followed from one state; None where it can as long as the segments are.
+
+    Parameters
+    ----------
+    fit : of the model to the data, however far from them. start : values [SI] from which pieces are fitted.
+    near : whether a fit has found the motion, so that its pieces need not be shorter.
+    """
+    longest = length = max(e.time[-1] - e.time[0] for e in data.segments)
+    pieces = data
+    if _largest(fit, data) <= GROWTH:
+        return None
+    while length / 2 > SHORTEST * data.pace and not near(pieces, fit):
+        length /= 2
+        pieces = data.with_segments(part for e in data.segments for part in cut(e, length))
+        try:
+            fit = fit_model(model, pieces, dict(start))
+        except SymidError:
+            return None
+    return length if length < longest else None
+
+
+def _largest(fit: Fit, data: Data) -> float:
+    return max(
+        growth(fit, e, x0, data.pace, data.sensor_noise) for e, x0 in zip(data.segments, fit.initial, strict=True)
+    )
+
+
+def growth(fit: Fit, segment: Segment, start: np.ndarray, pace: float, noise: np.ndarray) -> float:
+    """Largest difference of the outputs after a small one of any state, over the largest within the pace."""
+    run = segment.simulate(fit.simulator, fit.values, start, substeps=fit.substeps)
+    early, found = max(2, int(pace / segment.step)), 1.0
+    for j, size in enumerate(run.x.std(axis=0)):
+        moved = start + SMALL * size * (np.arange(len(start)) == j)
+        other = segment.simulate(fit.simulator, fit.values, moved, substeps=fit.substeps)
+        apart = np.linalg.norm((other.y - run.y) / noise, axis=1)
+        found = max(found, float(np.nan_to_num(apart, nan=np.inf).max()) / max(float(apart[:early].max()), 1e-300))
+    return found

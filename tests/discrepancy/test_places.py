@@ -1,0 +1,220 @@
+"""A model whose user names no place: joints, sensors and drives are found in its equations."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import sympy as sm
+from scipy.integrate import solve_ivp
+from scipy.ndimage import gaussian_filter1d
+
+import symid as si
+from symid.mechanics.places import with_places
+
+MASS, STIFFNESS, DAMPING = 0.8, 12.0, 0.5
+
+
+def slide() -> si.Model:
+    """A mass on a spring that a drive pushes, written as equations and nothing else."""
+    m = si.Model("slide")
+    m.x, m.v = si.State(unit="m"), si.State(unit="m/s")
+    m.u = si.Input(unit="N", channel="push")
+    m.k, m.c = si.Parameter(unit="N/m", bounds=(0, 1e3)), si.Parameter(unit="N*s/m", bounds=(0, 1e2))
+    m.kinematics = si.Equation(m.x.dot - m.v)
+    m.balance = si.Equation(MASS * m.v.dot + m.c * m.v + m.k * m.x - m.u)
+    m.seen = si.Output(m.x, channel="slide")
+    return m
+
+
+def cart_with_pole() -> si.Model:
+    """Lagrange's equations of a cart with a pole, the pole's first and with the cart's acceleration first in it."""
+    m = si.Model("cart with pole")
+    m.p, m.a, m.v, m.w = (si.State(unit=u) for u in ("m", "rad", "m/s", "rad/s"))
+    m.mass, m.l, m.g = si.Constant(0.25, unit="kg"), si.Constant(0.4, unit="m"), si.Constant(9.81, unit="m/s^2")
+    sin, cos = sm.sin(m.a.symbol), sm.cos(m.a.symbol)
+    m.k1, m.k2 = si.Equation(m.p.dot - m.v), si.Equation(m.a.dot - m.w)
+    m.pole = si.Equation(m.mass * m.l * (cos * m.v.dot + m.l * m.w.dot + m.g * sin))
+    m.cart = si.Equation(5 * m.mass * m.v.dot + m.mass * m.l * (cos * m.w.dot - m.w**2 * sin))
+    m.y = si.Output(m.p, channel="cart")
+    return m
+
+
+def _shown(time, push, x, rng) -> si.Recording:
+    channels = {"push": push, "slide": x + 5e-4 * rng.standard_normal(time.size)}
+    return si.Recording(name="slide", time=time, channels=channels, units={"push": "N", "slide": "m"})
+
+
+def recorded(force, length: float = 30.0, size: float = 1.5) -> si.Recording:
+    """The slide's motion, with a further force [N] of position, speed and push."""
+    rng, t = np.random.default_rng(5), np.arange(0, length, 0.02)
+    tones = rng.uniform(0.1, 1.2, 8), rng.uniform(0, 2 * np.pi, 8)
+    grow = np.where(t < 0.65 * length, 1.0, 2.0)
+    push = size * grow * sum(np.sin(2 * np.pi * f * t + p) for f, p in zip(*tones, strict=True)) / 2
+
+    def rates(time, s):
+        u = np.interp(time, t, push)
+        return [s[1], (u + force(s[0], s[1], u) - STIFFNESS * s[0] - DAMPING * s[1]) / MASS]
+
+    x = solve_ivp(rates, (0, length), [0.0, 0.0], t_eval=t, rtol=1e-8, atol=1e-10, max_step=0.02).y[0]
+    return _shown(t, push, x, rng)
+
+
+def test_equations_alone_say_where_something_may_be_missing():
+    m = with_places(slide())
+    port = m["balance_place"]
+    assert (port.role, port.at, port.unit, dict(port.into)) == ("joint", "slide", "N", {"balance": -1.0})
+    assert (m["seen"].role, m["seen"].at) == ("sensor", "sensor:slide")
+    assert (m["u"].role, m["u"].at) == ("excitation", "input:push")
+    assert with_places(m).components.keys() == m.components.keys()
+
+
+def test_each_of_lagranges_equations_belongs_to_its_own_coordinate_in_any_order_and_unit():
+    m = with_places(cart_with_pole())
+    assert (m["cart_place"].at, str(m["cart_place"].position), m["cart_place"].unit) == ("cart", "p", "N")
+    assert (m["pole_place"].at, str(m["pole_place"].rate), m["pole_place"].unit) == ("a", "w", "N*m")
+
+
+def test_suspects_of_a_model_without_ports_are_those_of_its_joints_sensors_and_drives():
+    found = {str(s.term) for s in si.suspects(slide())}
+    assert {"coulomb_friction@slide", "sensor_delay@sensor:slide", "input_dead_zone@input:push"} <= found
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_dry_friction_is_found_without_a_port_and_nothing_where_nothing_is(friction):
+    found = si.diagnose(
+        slide(), recorded(lambda x, v, u: -friction * np.tanh(v / 1e-3)), fit_window=(0, 20), held_out=(20, 29.9)
+    )
+    assert found.verdict == ("missing_physics" if friction else "adequate")
+    for e in found.effects:
+        value, error = e.parameters["torque_Nm"]
+        assert (e.name, e.location) == ("coulomb_friction", "slide") and abs(value - friction) < 4 * error
+
+
+def test_a_drive_that_does_nothing_below_a_force_is_said_with_that_force():
+    found = si.diagnose(
+        slide(), recorded(lambda x, v, u: -np.clip(u, -0.5, 0.5)), fit_window=(0, 20), held_out=(20, 29.9)
+    )
+    (effect,) = found.effects
+    value, error = effect.parameters["width_Nm"]
+    assert (effect.name, effect.location) == ("input_dead_zone", "input:push")
+    assert abs(value - 0.5) < 0.02 and error < 0.02
+    assert "the input push does nothing below 0.5" in str(found)
+
+
+def test_a_stop_that_only_the_held_out_motion_reaches_is_no_adequate_model():
+    free = recorded(lambda x, v, u: 0.0)
+    early = free.time < 19.45
+    stop = 1.05 * np.abs(free.channels["slide"][early]).max()
+    stopped = recorded(lambda x, v, u: -400.0 * (np.maximum(x - stop, 0) - np.maximum(-x - stop, 0)))
+    assert np.abs(free.channels["slide"][~early]).max() > 1.3 * stop
+    found = si.diagnose(slide(), stopped, fit_window=(0, 19.4), held_out=(19.5, 29.9))
+    assert found.verdict == "unexplained" and found.effects[0].location == "slide"
+    assert "the fit window but not the held-out one" in str(found)
+
+
+def test_a_spring_that_has_changed_between_the_windows_is_told():
+    weaker = recorded(lambda x, v, u: 0.0)
+    rng, t = np.random.default_rng(1), weaker.time
+
+    def rates(time, s):
+        k = STIFFNESS * (1.0 if time < 20 else 0.9)
+        return [s[1], (np.interp(time, t, weaker.channels["push"]) - k * s[0] - DAMPING * s[1]) / MASS]
+
+    x = solve_ivp(rates, (0, 30), [0.0, 0.0], t_eval=t, rtol=1e-8, atol=1e-10, max_step=0.02).y[0]
+    made = _shown(t, weaker.channels["push"], x, rng)
+    found = si.diagnose(slide(), made, fit_window=(0, 19.9), held_out=(20.1, 29.9))
+    assert found.verdict == "unexplained" and "other values of k" in str(found)
+
+
+# ---- machines of which only a speed, or a level, is known --------------------------------------
+def motor() -> si.Model:
+    """A motor of which a tachometer shows the speed, and nothing a position."""
+    m = si.Model("motor")
+    m.w, m.u = si.State(unit="rad/s"), si.Input(unit="V", channel="voltage")
+    m.inertia = si.Constant(2e-3, unit="kg*m^2")
+    m.c, m.gain = si.Parameter(unit="N*m*s/rad", bounds=(0, 1)), si.Parameter(unit="N*m/V", bounds=(0, 10))
+    m.balance = si.Equation(m.inertia * m.w.dot + m.c * m.w - m.gain * m.u)
+    m.shown = si.Output(m.w, channel="tachometer")
+    return m
+
+
+def turned(friction: float = 0.0, limit: float = np.inf) -> si.Recording:
+    """20 s of it under noise of 5 V, with dry friction [N m] and an amplifier that ends at a voltage."""
+    rng, t = np.random.default_rng(2), np.arange(0, 20, 0.01)
+    voltage = 20 * np.convolve(rng.standard_normal(t.size + 60), np.hanning(61) / 30, mode="valid")[: t.size]
+
+    def rates(time, s):
+        u = np.clip(np.interp(time, t, voltage), -limit, limit)
+        return [(0.05 * u - 1e-3 * s[0] - friction * np.tanh(s[0] / 0.05)) / 2e-3]
+
+    speed = solve_ivp(rates, (0, 20), [0.0], t_eval=t, rtol=1e-8, atol=1e-9, max_step=0.01).y[0]
+    channels = {"voltage": voltage, "tachometer": speed + 0.3 * rng.standard_normal(t.size)}
+    return si.Recording(name="motor", time=t, channels=channels, units={"voltage": "V", "tachometer": "rad/s"})
+
+
+def test_where_only_a_speed_is_known_forces_that_follow_it_are_suspects_and_springs_are_not():
+    port = with_places(motor())["balance_place"]
+    assert (port.role, port.position, str(port.rate), port.unit) == ("joint", 0, "w", "N*m")
+    names = {s.term.name for s in si.suspects(motor())}
+    assert {"coulomb_friction", "joint_drag", "constant_torque"} <= names
+    assert not {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "end_range_stiffness"} & names
+
+
+def test_dry_friction_of_a_motor_is_found_from_its_speed():
+    found = si.diagnose(motor(), turned(friction=0.03), fit_window=(0, 13), held_out=(13, 19.9))
+    (effect,) = found.effects
+    value, error = effect.parameters["torque_Nm"]
+    assert (effect.name, effect.location) == ("coulomb_friction", "tachometer") and abs(value - 0.03) < 4 * error
+
+
+def test_an_amplifier_that_ends_at_a_voltage_is_said_with_that_voltage():
+    found = si.diagnose(motor(), turned(limit=4.0), fit_window=(0, 13), held_out=(13, 19.9))
+    value, error = found.effects[0].parameters["limit_Nm"]
+    assert (found.verdict, found.effects[0].name) == ("unexplained", "input_saturation")
+    assert abs(value - 4.0) < max(4 * error, 0.01)
+
+
+# ---- bodies that act on each other, motion that turns over ---------------------------------------
+def belt() -> si.Model:
+    """A motor that turns a load over an elastic belt, written as equations and nothing else."""
+    m = si.Model("belt")
+    m.a, m.b, m.va, m.vb = (si.State(unit=u) for u in ("rad", "rad", "rad/s", "rad/s"))
+    m.u, m.k = si.Input(unit="N*m", channel="torque"), si.Parameter(unit="N*m/rad", bounds=(0, 1e3))
+    m.ja, m.jb = si.Constant(2e-3, unit="kg*m^2"), si.Constant(6e-3, unit="kg*m^2")
+    m.c = si.Parameter(unit="N*m*s/rad", bounds=(0, 1))
+    m.kinematics_a, m.kinematics_b = si.Equation(m.a.dot - m.va), si.Equation(m.b.dot - m.vb)
+    m.motor = si.Equation(m.ja * m.va.dot + m.k * (m.a - m.b) - m.u)
+    m.load = si.Equation(m.jb * m.vb.dot + m.c * m.vb - m.k * (m.a - m.b))
+    m.shown_a, m.shown_b = si.Output(m.a, channel="motor"), si.Output(m.b, channel="load")
+    return m
+
+
+def test_a_force_between_two_bodies_is_a_suspect_and_acts_on_both():
+    port = with_places(belt())["motor_load_place"]
+    assert (port.at, str(port.position), dict(port.into)) == ("motor-load", "a - b", {"motor": -1.0, "load": 1.0})
+    assert "a-b_place" not in with_places(cart_with_pole()).components  # a length and an angle have no difference
+
+
+def test_a_pendulum_that_is_driven_over_the_top_is_compared_in_pieces():
+    m = si.Model("rod")
+    m.a, m.w = si.State(unit="rad"), si.State(unit="rad/s")
+    m.u, m.c = si.Input(channel="motor", unit="N*m"), si.Parameter(unit="N*m*s/rad", bounds=(0, 1))
+    m.inertia, m.weight = si.Constant(0.06, unit="kg*m^2"), si.Constant(1.47, unit="N*m")
+    m.kinematics = si.Equation(m.a.dot - m.w)
+    m.balance = si.Equation(m.inertia * m.w.dot + m.c * m.w + m.weight * sm.sin(m.a.symbol) - m.u)
+    m.shown = si.Output(m.a, channel="encoder")
+    rng, t = np.random.default_rng(0), np.arange(0, 40, 0.01)
+    motor = 6.4 * gaussian_filter1d(rng.standard_normal(t.size), 30)
+
+    def rates(time, s):
+        torque = np.interp(time, t, motor) - 0.02 * s[1] - 1.47 * np.sin(s[0]) - 0.08 * s[0]
+        return [s[1], torque / 0.06]
+
+    angle = solve_ivp(rates, (0, 40), [0.3, 0.0], t_eval=t, rtol=1e-9, atol=1e-11, max_step=0.01).y[0]
+    channels = {"motor": motor, "encoder": angle + 3e-4 * rng.standard_normal(t.size)}
+    made = si.Recording(name="rod", time=t, channels=channels, units={"motor": "N*m", "encoder": "rad"})
+    found = si.diagnose(m, made, fit_window=(0, 27), held_out=(27, 39.9))
+    (effect,) = found.effects
+    value, error = effect.parameters["k_Nm_rad"]
+    assert (effect.name, effect.location) == ("torsional_spring", "encoder") and abs(value - 0.08) < 1e-4
+    assert "compared in pieces of about" in str(found)
