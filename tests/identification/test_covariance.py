@@ -7,8 +7,10 @@ import pytest
 import sympy as sm
 
 import symid as si
+from conftest import pendulum, pendulum_recording
 from symid.identification import error_models
 from symid.identification.covariance import ParameterErrors, _orthonormal, bound_active, parameter_errors
+from symid.identification.sensitivity import outputs_and_targets
 
 TRUTH = {"a": 2.0, "b": 0.7}
 
@@ -126,7 +128,7 @@ def test_where_the_exact_curvature_has_no_minimum_the_expected_one_counts(sign):
     np.testing.assert_allclose(np.diag(errors.inverse), [1 / (w * kept), 1 / (v * np.sum(g**2))], rtol=1e-5)
 
 
-@pytest.mark.parametrize("level", [1e-5, 1.0, 20.0])
+@pytest.mark.parametrize("level", [1e-5, 1.0, 5.0])
 def test_effects_of_very_different_size_are_both_determined(level):
     r = recording(8, level=level)
     solution = si.Identification(regression(lambda m: (m.a * m.f + m.b * m.g, m.a * m.f)), r).solve()
@@ -160,6 +162,16 @@ def test_shapes_that_are_nearly_alike(apart, determined):
     assert error == pytest.approx(np.sqrt([w, v] @ both @ [w, v] / (w + v) ** 2 / ff), rel=1e-5)
 
 
+def test_what_is_undetermined_is_told_in_the_model_s_own_units():
+    """g = 2 f: a and b trade two for one."""
+    r = recording(15, like=lambda f, g: 2 * f)
+    parts = lambda m: (m.a * m.f + m.b * m.g, m.a * m.f + m.b * m.g)  # noqa: E731
+    errors = si.Identification(regression(parts), r).solve().errors
+    np.testing.assert_allclose(errors.null[0], -2 * errors.null[1], rtol=1e-6)
+    ((combination, _),) = errors.determined(["a", "b"], np.array([2.0, 0.7]))
+    assert combination.text == "1/2 a + b" and combination.value == pytest.approx(1.7)
+
+
 def test_a_parameter_that_nothing_sees():
     """b acts on a sample of which nothing was recorded; what is seen keeps its error."""
     r = recording(10)
@@ -171,6 +183,32 @@ def test_a_parameter_that_nothing_sees():
     w, v = weights_of(solution, 0)
     assert errors.inverse[0, 0] == pytest.approx(1 / ((w + v) * np.sum(r["f"] ** 2)), rel=1e-6)
     assert abs(errors.null[0, 0]) < 1e-12 < abs(errors.null[1, 0])
+
+
+@pytest.mark.parametrize("model", ["white", "coloured"])
+def test_an_effect_of_rounding_s_size_is_none(model):
+    """A change by 1e-10 of what is recorded says nothing, whatever the weights; the other parameter keeps its error."""
+    r = recording(14, level=1e-11, known={"y": 0.05, "z": 0.2})
+    parts = lambda m: (sm.sin(m.a) * m.f + m.b * m.g, m.a * m.f)  # noqa: E731 - bent, so that the exact one is another
+    problem = si.Identification(regression(parts, bounds=(0.5, 10)), r, noise=[{"y": 0.05, "z": 0.2}])
+    errors = problem.solve().with_errors(model).errors
+    assert errors.undetermined.tolist() == [False, True]
+    (w, v), a, ff = weights_of(problem.solve(), 0), problem.solve().values["a"], np.sum(r["f"] ** 2)
+    error = np.sum((np.sin(a) * r["f"] - r["y"]) * r["f"])
+    bend = -w * np.sin(a) * error if model == "coloured" else 0.0
+    assert errors.inverse[0, 0] == pytest.approx(1 / (w * np.cos(a) ** 2 * ff + v * ff + bend), rel=1e-5)
+
+
+def test_episodes_weigh_as_many_times_as_there_are():
+    recording = pendulum_recording(duration=2.0, noise=0.01)
+    episodes = si.Episodes(3, push=0.01, seed=1)
+    solution = si.Identification(pendulum(), recording, episodes=episodes).solve(check=False)
+    p = solution.transcription.program
+    (found,) = solution.errors.residuals
+    np.testing.assert_allclose(found.weights, 3 * p.data[0].step * p.weights[0])
+    errors = [y - d for y, d in outputs_and_targets(solution.transcription, solution.result.z)]
+    np.testing.assert_allclose(found.error, np.mean(errors, axis=0))
+    assert found.own.shape[2] == 2  # angle and rate at the start, which all episodes share
 
 
 def test_a_prior_adds_what_it_is_worth():
@@ -223,7 +261,7 @@ def test_at_a_bound_a_parameter_is_held_and_has_no_error():
 
 def test_what_sits_at_a_bound_is_near_it_and_is_pushed():
     """Near is 1e-5 of the value's size, or of one; a push counts beside the objective's size."""
-    z = np.array([0.0, 9e-6, 2e-5, 1.0, 1e6, 1e6 + 9.0, 1e6 + 11.0, 0.0, 0.0])
+    z = np.array([0.0, 9e-6, 1.2e-5, 1.0, 1e6, 1e6 + 9.0, 1e6 + 11.0, 0.0, 0.0])
     lower = np.array([0.0, 0.0, 0.0, -np.inf, 1e6, 1e6, 1e6, 0.0, 0.0])
     push = np.array([1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-9, 9e-6])
     none = np.zeros(9)
@@ -285,6 +323,7 @@ def test_a_basis_of_slopes_has_weighted_squares_of_one(weights):
     np.testing.assert_allclose(gram, np.eye(basis.shape[2]), atol=1e-9)
     rooted, root = (slopes * np.sqrt(weights)[:, None]).reshape(60, 4), np.sqrt(weights)[:, None]
     assert basis.shape[2] == 2  # the third is rounding
+    np.testing.assert_allclose(np.abs(_orthonormal(1e-10 * slopes, weights)), np.abs(basis), rtol=1e-6, atol=1e-9)
     flat = (basis * root).reshape(60, 2)
     np.testing.assert_allclose(flat @ (flat.T @ rooted), rooted, atol=1e-9)
     assert _orthonormal(0 * slopes, weights).shape == (30, 2, 0)
