@@ -186,14 +186,16 @@ def test_a_parameter_that_nothing_sees():
 
 
 @pytest.mark.parametrize("model", ["white", "coloured"])
-def test_an_effect_of_rounding_s_size_is_none(model):
+@pytest.mark.parametrize("weight", [1e-6, 1e6])
+def test_an_effect_of_rounding_s_size_is_none(model, weight):
     """A change by 1e-10 of what is recorded says nothing, whatever the weights; the other parameter keeps its error."""
-    r = recording(14, level=1e-11, known={"y": 0.05, "z": 0.2})
+    r = recording(14, level=5e-11)
     parts = lambda m: (sm.sin(m.a) * m.f + m.b * m.g, m.a * m.f)  # noqa: E731 - bent, so that the exact one is another
-    problem = si.Identification(regression(parts, bounds=(0.5, 10)), r, noise=[{"y": 0.05, "z": 0.2}])
-    errors = problem.solve().with_errors(model).errors
+    problem = si.Identification(regression(parts, bounds=(0.5, 10)), r, weights={"y": weight, "z": weight})
+    solution = problem.solve()
+    errors = solution.with_errors(model).errors
     assert errors.undetermined.tolist() == [False, True]
-    (w, v), a, ff = weights_of(problem.solve(), 0), problem.solve().values["a"], np.sum(r["f"] ** 2)
+    (w, v), a, ff = weights_of(solution, 0), solution.values["a"], np.sum(r["f"] ** 2)
     error = np.sum((np.sin(a) * r["f"] - r["y"]) * r["f"])
     bend = -w * np.sin(a) * error if model == "coloured" else 0.0
     assert errors.inverse[0, 0] == pytest.approx(1 / (w * np.cos(a) ** 2 * ff + v * ff + bend), rel=1e-5)
