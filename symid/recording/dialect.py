@@ -88,8 +88,10 @@ def are_units(cells: Sequence[str]) -> bool:
 
 
 def best_header(rows: Sequence[Sequence[str]], number: re.Pattern = _NUMBER["."]) -> int | None:
-    """Place of the line of names among the lines above the numbers, or None: as wide as the table, no cell blank or a
-    number; of several the one with most units in its names, of those the last that is no line of units.
+    """Place of the line of names among the lines above the numbers, or None.
+
+    It is as wide as the table, no cell is a number, and none is blank but the first, of row numbers. Of several it is
+    the one with most units in its names, of those the last that is no line of units.
     """
     width = Counter(map(len, rows[len(rows) // 2 :])).most_common(1)[0][0]
     possible = []
@@ -97,7 +99,7 @@ def best_header(rows: Sequence[Sequence[str]], number: re.Pattern = _NUMBER["."]
         numbers = sum(bool(number.fullmatch(cell)) for cell in cells)
         if len(cells) == width and 2 * numbers > width:
             break
-        if len(cells) == width and all(cells) and not numbers:
+        if len(cells) == width and all(cells[1:]) and any(cells) and not numbers:
             possible.append(place)
     if len(possible) > 1:
         possible = [p for p in possible if p == possible[0] or not are_units(rows[p])]

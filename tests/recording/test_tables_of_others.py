@@ -167,6 +167,8 @@ OTHERS = {
     "brackets.parquet": lambda p: pq.write_table(pa.table(dict(zip(NAMES, (TIME, HIP, FORCE), strict=True))), p),
     "dates.csv": lambda p: DATED.to_csv(p, index=False, date_format="%Y-%m-%dT%H:%M:%S.%f"),
     "dates.parquet": lambda p: DATED.to_parquet(p),
+    "row_numbers.xlsx": lambda p: pd.DataFrame(dict(zip(NAMES, (TIME, HIP, FORCE), strict=True))).to_excel(p),
+    "row_numbers_and_dates.csv": lambda p: DATED.to_csv(p, date_format="%Y-%m-%dT%H:%M:%S.%f"),
     "dates.xlsx": lambda p: DATED.to_excel(p, index=False),
     "durations.parquet": lambda p: (
         DATED.assign(timestamp=pd.to_timedelta(TIME, unit="s")).rename(columns={"timestamp": "time"}).to_parquet(p)

@@ -34,6 +34,7 @@ def read_delimited(path: Path) -> list[RawColumn]:
     return [
         _text_column(found, name, bare(unit) or None, [cells[i] for _, cells in rows], lines)
         for i, (name, unit) in enumerate(zip(found.names, found.unit_texts, strict=True))
+        if name or i  # a first column without a name holds row numbers
     ]
 
 
@@ -89,7 +90,7 @@ def read_excel(path: Path) -> list[RawColumn]:
         first = place + 1 + with_units
         units = [bare(text) or None for text in texts[place + 1]] if with_units else [None] * len(rows[place])
         columns = zip(texts[place], units, zip(*rows[first:], strict=True), strict=False)
-        found = [_typed_column(name, unit, cells) for name, unit, cells in columns]
+        found = [_typed_column(name, unit, cells) for name, unit, cells in columns if name]
         if sum(not c.fault for c in found) > 1:
             return found
     if found:  # the last, whose faults are told
