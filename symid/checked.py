@@ -26,7 +26,7 @@ def listed(sentences: Sequence[str], most: int = 5, letters: int = 300) -> str:
 def number(value: Any, what: str, error: type[SymidError], *, least: float = -inf) -> float:
     """`value` as a float of at least `least`; text is none, even where it spells one."""
     try:
-        found = float("nan" if isinstance(value, (str, bytes)) else value)
+        found = float("nan" if isinstance(value, (str, bytes, bool)) else value)
     except (TypeError, ValueError, OverflowError):
         found = float("nan")
     if isnan(found) or found < least:

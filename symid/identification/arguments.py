@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from symid import checked
 from symid.errors import SolveError, TranscriptionError
+from symid.ipopt_solver import refuse_unknown_options
 from symid.model import Model
 from symid.recording import Recording
 from symid.transcription import SCHEMES, Episodes, Scheme
@@ -89,6 +90,7 @@ def refuse_wrong_types(problem: Identification) -> None:
 
 def refuse_wrong_options(options: Mapping[str, object]) -> None:
     """SolveError at the first option of a solve that is not what it should be."""
+    refuse_unknown_options(options)
     if options.get("time_limit_s") is not None:
         checked.number(options["time_limit_s"], "time_limit_s", SolveError, least=0.0)
     if options.get("options") is not None:

@@ -3,7 +3,15 @@
 from symid.ipopt_solver.evaluation import Iteration
 from symid.ipopt_solver.linear import LinearSolver
 from symid.ipopt_solver.result import SolverResult, WorstConstraint
-from symid.ipopt_solver.solve import solve_nlp
+from symid.ipopt_solver.solve import refuse_unknown_options, solve_nlp
 from symid.ipopt_solver.version import ipopt_version
 
-__all__ = ["Iteration", "LinearSolver", "SolverResult", "WorstConstraint", "ipopt_version", "solve_nlp"]
+__all__ = [
+    "Iteration",
+    "LinearSolver",
+    "SolverResult",
+    "WorstConstraint",
+    "ipopt_version",
+    "refuse_unknown_options",
+    "solve_nlp",
+]

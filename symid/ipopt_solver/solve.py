@@ -5,6 +5,7 @@ import sys
 import time
 from collections.abc import Callable, Mapping
 from importlib.util import find_spec
+from inspect import signature
 from pathlib import Path
 
 import numpy as np
@@ -126,6 +127,16 @@ def solve_nlp(
     for name in ("objective", "multipliers", "lower", "upper"):
         point[name] = point[name] * given.objective_scale
     return make_result(given, evaluation, ended["status"], point, time.perf_counter() - began, ended["linear"], way)
+
+
+def refuse_unknown_options(options: Mapping[str, object]) -> None:
+    """SolveError at an option that `solve_nlp` does not have, with the nearest names."""
+    known = [name for name, p in signature(solve_nlp).parameters.items() if p.kind is p.KEYWORD_ONLY]
+    for name in options:
+        if name not in known:
+            raise SolveError(
+                f"solve has no option '{name}'; {checked.nearest(name, known)} (Ipopt's own: options={{name: value}})"
+            )
 
 
 def _tightest(time_limit_s: float | None) -> float | None:

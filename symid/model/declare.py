@@ -16,6 +16,7 @@ from typing import Any
 import sympy as sm
 
 from symid.errors import ModelError
+from symid.model.made import Made
 from symid.model.prior import Prior
 from symid.model.quantity import AlongTime, Quantity, symbol
 
@@ -26,7 +27,7 @@ REQUIRED: Any = None
 
 
 @dataclass(frozen=True, kw_only=True)
-class Component:
+class Component(metaclass=Made):
     """What every part of a model has in common.
 
     Parameters

@@ -31,6 +31,7 @@ from symid.model.declare import (
     State,
 )
 from symid.model.fingerprint import fingerprint_of
+from symid.model.made import Copies
 from symid.model.quantity import Operand, free_symbols, refuse_calculus, symbol, sympified
 
 if TYPE_CHECKING:
@@ -38,6 +39,12 @@ if TYPE_CHECKING:
 
 Part = TypeVar("Part", bound=Component)
 TIME = symbol("t")
+
+
+class NoSuchPart(ModelError, AttributeError):
+    """A model has no part of this name; Python's own, too, so that `hasattr` works."""
+
+
 MOST_TOLD = 20
 """Violations in a message; the exception has them all."""
 
@@ -112,10 +119,13 @@ class Model:
         """The part called `name`, or index -> part; to a type checker whatever a subclass says it is."""
         try:
             if name in self.__dict__["groups"]:
-                return {i: self.components[member] for i, member in self.groups[name].items()}
+                return Copies((i, self.components[member]) for i, member in self.groups[name].items())
             return self.__dict__["components"][name]
         except KeyError:
-            raise AttributeError(f"model has no part '{name}'") from None
+            if name.startswith("__"):  # Python asks for names of its own
+                raise AttributeError(name) from None
+            near = checked.nearest(name, [*self.__dict__.get("components", ()), *self.__dict__.get("groups", ())])
+            raise NoSuchPart(f"the model has no part '{name}'; {near}") from None
 
     def __getitem__(self, name: str) -> Any:
         """The part called `name`; ModelError with the nearest names if there is none."""

@@ -80,6 +80,11 @@ class Quantity:
     def __neg__(self) -> sm.Expr:
         return -self.symbol
 
+    def __float__(self) -> float:
+        raise ModelError(
+            f"'{self.symbol}' has no number before it is solved for: use SymPy's functions, sympy.sin(m.x)"
+        )
+
     def __pos__(self) -> sm.Expr:
         return self.symbol
 

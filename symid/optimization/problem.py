@@ -14,7 +14,7 @@ import numpy as np
 from symid import checked
 from symid.checked import nearest
 from symid.errors import SolveError, TranscriptionError
-from symid.ipopt_solver import Iteration, solve_nlp
+from symid.ipopt_solver import Iteration, refuse_unknown_options, solve_nlp
 from symid.model import Model, Parameter
 from symid.optimization.duration import Free, with_duration
 from symid.optimization.guess import shaken, start_vector
@@ -176,6 +176,7 @@ class Optimization:
         """
         starts = checked.whole(starts, "starts", SolveError, least=1)
         seed = checked.whole(seed, "seed", SolveError)
+        refuse_unknown_options(solver)
         given = checked.kind(solver.get("options") or {}, Mapping, "options of Ipopt", SolveError)
         solver["options"] = {"tol": TOLERANCE} | dict(given)
         first = self.start(start)

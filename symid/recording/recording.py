@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symid import checked
 from symid.errors import RecordingError
 from symid.recording.show import as_html, as_text
 from symid.recording.timing import sampling_interval_of
@@ -69,6 +70,8 @@ class Recording:
             object.__setattr__(self, key, value)
 
         put("time", _frozen(self.time, float))
+        for key in ("channels", "units", "signs", "noise"):
+            checked.kind(getattr(self, key), Mapping, f"{self.name}: {key}", RecordingError)
         put("channels", MappingProxyType({k: _frozen(v, float) for k, v in self.channels.items()}))
         for key in ("units", "signs", "noise"):
             put(key, MappingProxyType(dict(getattr(self, key))))

@@ -1,5 +1,6 @@
 """Every argument of a wrong type is refused by an exception of symid that says what to do instead."""
 
+import math
 from pathlib import Path
 
 import numpy as np
@@ -121,6 +122,14 @@ def cart() -> si.Model:
         (lambda m: si.compare({}), "no solution was given"),
         (lambda m: si.profile(m, "x"), "give a Solution, not a Model"),
         (lambda m: si.identifiability(3), "give a Model, not 3"),
+        (lambda m: si.State("m"), "State: too many positional arguments; it takes .*unit="),
+        (lambda m: si.State(units="m"), "State: .* keyword argument 'units'; it takes .*unit="),
+        (lambda m: si.Constant(unit="m"), "Constant: missing .* 'value'; it takes value"),
+        (lambda m: m.kinematic, "no part 'kinematic'; did you mean 'kinematics'"),
+        (lambda m: math.sin(m.x), "has no number before it is solved for: use SymPy's functions"),
+        (lambda m: (setattr(m, "q", si.State(unit="m", index=range(3))), m.q[7]), "no copy with the index 7"),
+        (lambda m: si.Constraint(m.x <= 1, soft=True), "soft=True: give a number"),
+        (lambda m: setattr(m, "t", si.State(unit="s")), "reserved .time, model.time."),
     ],
 )
 def test_values_of_a_wrong_type_are_refused(part, words):
@@ -175,3 +184,11 @@ def test_parts_with_a_wrong_value_are_named_by_check(part, words):
 def test_arguments_of_a_wrong_type_are_refused(call, words):
     with pytest.raises(SymidError, match=words):
         call()
+
+
+def test_a_misspelt_option_of_a_solve_is_refused():
+    with pytest.raises(SymidError, match="no option 'max_iter'; did you mean 'max_iterations'"):
+        si.Optimization(cart(), duration=1).solve(max_iter=3)
+    with pytest.raises(SymidError, match="no option 'tolerance'"):
+        si.Identification(pendulum(), RECORDING).solve(tolerance=3)
+    assert not hasattr(cart(), "absent")
