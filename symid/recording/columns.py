@@ -78,7 +78,7 @@ def mapped(path: Path, raw: list[RawColumn], mapping: Mapping[str, str]) -> tupl
 def _agrees(ours: Column, theirs: RawColumn) -> None:
     """RecordingError where a mapping and the file state two units of one kind, such as mm and m."""
     try:
-        stated = unit_of(theirs.unit) if theirs.unit else measured_column(theirs.text).unit
+        stated = unit_of(theirs.unit, theirs.text) if theirs.unit else measured_column(theirs.text).unit
     except SymidError:
         return
     if stated and ours.unit and stated.si == ours.unit.si and stated.factor != ours.unit.factor:
@@ -151,7 +151,7 @@ def _column(c: RawColumn) -> Column:
     if name in LABELS:
         return Column(name, name, None)
     if c.unit is not None:
-        unit = unit_of(c.unit)
+        unit = unit_of(c.unit, name)
         is_time = name.lower() in ("t", "time", "time_s") and unit.si == "s"
         return Column(c.text, "time" if is_time else name, unit)
     try:

@@ -13,8 +13,15 @@ ROW_NUMBERS = "row numbers"
 CELSIUS = 273.15
 """[K], of 0 degC."""
 
-_BRACKETS = (r"(.*\S)\s*[\[(]([^\[\]()]+)[\])]", r"(.*\S)\s+/\s+(\S.*)", r"(.*\S),\s+(\S+)")
+_BRACKETS = (
+    r"(.*\S)\s*\[([^\[\]]+)\]",
+    r"(.*\S)\s*\(([^()]+)\)",
+    r"(.*\S)\s+/\s+(\S.*)",
+    r"(.*\S),\s+(\S+)",
+    r"(.*\S)_(degC)",
+)
 """``force [N]``, ``force (N)``; ``force / N``, as quantity over unit (ISO 80000-1); ``force, N``."""
+_POWERS = str.maketrans("⁻¹²³⁴", "-1234")
 _IN_WORDS = re.compile(
     r"(milli|micro|kilo)?(sec(ond)?|minute|hour|newton|met(er|re)|radian|degree|volt|watt|gram|kelvin)s?"
 )
@@ -52,7 +59,7 @@ def measured_column(text: str) -> Column:
     """
     found = next(filter(None, (re.fullmatch(pattern, text) for pattern in _BRACKETS)), None)
     name, unit_text = ("_".join(found[1].split()), found[2]) if found else split_column_name(text)
-    unit = unit_of(unit_text)
+    unit = unit_of(unit_text, name)
     if name.lower() in ("time", "t") and unit.si == "s":
         name = "time"
     quantity = name.split("_")[-1]
@@ -65,17 +72,28 @@ def measured_column(text: str) -> Column:
     return Column(text, name, unit)
 
 
-def unit_of(text: str) -> KnownUnit:
-    """A unit as a file states it: also in words, and degrees Celsius (of which `CELSIUS` is added when they are read).
+def unit_of(text: str, name: str = "") -> KnownUnit:
+    """A unit as a file states it: also in words, with powers as ``m/s2`` or ``m s-2``, and degrees Celsius (of which
+    `CELSIUS` is added when they are read).
+
+    Parameters
+    ----------
+    name : of the column, by which ``g`` is gram or standard gravity.
 
     Raises
     ------
-    UnitError : it is not known.
+    UnitError : it is not known. RecordingError : it could be read in two ways.
     """
-    text = text.strip()
+    text = text.strip().translate(_POWERS)
     if text in ("degC", "°C", "celsius", "Celsius"):
         return KnownUnit("degC", "K", 1.0)
-    return known_unit(reduced(text) if _IN_WORDS.fullmatch(text) else text)
+    if text.lower() == "grad":
+        raise RecordingError(f"column '{name}': '{text}' may be degrees or gradians; write deg for degrees")
+    if text == "g" and name:
+        text = split_column_name(f"{name}_g")[1]
+    text = re.sub(r"(?<=[A-Za-z])(-?[1-9])(?![\d.])", r"^\1", re.sub(r"\bNs\b", "N*s", text))
+    known = "1" if text == "-" else text
+    return known_unit(reduced(known) if _IN_WORDS.fullmatch(known) or "^-" in known else known)
 
 
 def contradictions(columns: list[Column]) -> list[str]:

@@ -51,6 +51,8 @@ def split_column_name(column: str) -> tuple[str, str]:
             return name, _meaning_of_g(column, name)
         if suffix in SUFFIXES and name:
             return name, SUFFIXES[suffix].text
+        if name.lower() in ("time", "t") and suffix in _TIMES:  # of a time these are no heights and no minima
+            return name, suffix
         built = _built(words[start:])
         if built and name:
             return name, built
@@ -109,7 +111,7 @@ def _ending(text: str) -> str | None:
 
 def _meaning_of_g(column: str, name: str) -> str:
     words = name.lower().split("_")
-    if any(word.startswith("accel") for word in words):
+    if any(word.startswith("acc") for word in words):
         return "g0"
     if "mass" in words:
         return "g"

@@ -164,7 +164,7 @@ def base_of(text: str) -> tuple[float, str]:
     return float(base.magnitude), _NAMED.get(si, si)
 
 
-_NAMED = {"kg/m/s^2": "Pa", "m*N": "N*m"}
+_NAMED = {"kg/m/s^2": "Pa", "m*N": "N*m", "kg*m/s^2": "N"}
 
 
 def _without_prefixes(unit):

@@ -142,6 +142,37 @@ def test_degrees_celsius_become_kelvins(tmp_path):
     assert recording.time.tolist() == [0, 3600, 7200] and recording.units["room"] == "K"
     assert recording["room"] == pytest.approx([293.15, 294.65, 270.15])
     assert any("from degC to K: + 273.15" in line for line in recording.history)
+    mapped = read_recording(tmp_path / "r.csv", columns={"time_h": "Time [h]", "room_degC": "room [°C]"})
+    assert mapped["room"].tolist() == recording["room"].tolist()
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "factor"),
+    [
+        ("a [m/s2]", "m/s^2", 1.0),
+        ("a [m·s⁻²]", "m/s^2", 1.0),
+        ("w [rad s-1]", "rad/s", 1.0),
+        ("c [Ns/m]", "N*s/m", 1.0),
+        ("AccX [g]", "m/s^2", 9.80665),
+        ("body mass (g)", "kg", 1e-3),
+        ("force [lbf]", "N", 4.4482216152605),
+        ("ratio [-]", "1", 1.0),
+        ("valve [%]", "1", 0.01),
+        ("loss [W/(m2 K)]", "W/(m^2*K)", 1.0),
+    ],
+)
+def test_units_as_people_write_them(tmp_path, name, unit, factor):
+    (tmp_path / "r.csv").write_text(f"t [s],{name}\n0,1\n1,2\n2,4\n", encoding="utf-8")
+    recording = read_recording(tmp_path / "r.csv")
+    (channel,) = recording.channels
+    assert recording.units[channel] == unit and recording[channel] == pytest.approx([factor, 2 * factor, 4 * factor])
+
+
+@pytest.mark.parametrize(("name", "message"), [("x [g]", "gram or standard gravity"), ("q [Grad]", "or gradians")])
+def test_units_with_two_meanings_are_refused(tmp_path, name, message):
+    (tmp_path / "r.csv").write_text(f"t [s],{name}\n0,1\n1,2\n")
+    with pytest.raises(RecordingError, match=message):
+        read_recording(tmp_path / "r.csv")
 
 
 MOMENTS = [datetime.datetime(2024, 5, 1, 23, 59, 59) + datetime.timedelta(milliseconds=10 * i) for i in range(60)]
