@@ -214,12 +214,7 @@ def _suspects(d: Diagnosis) -> list[str]:
         )
     ]
     if not d.ranking:
-        told = "None was worth a complete fit."
-        if not d.improved.ports:
-            told = (
-                "The model declares no joint, body or sensor (si.Port), so there was no place at which a law could be "
-                "tried."
-            )
+        told = "None was worth a complete fit." if d.improved.ports else "No place was found at which a law could act."
         return [*parts, paragraph(told)]
     if max(c.score for c in d.ranking) > 0:
         caption = (
