@@ -12,11 +12,11 @@ import sympy as sm
 from fuzz import few, of_json, spoiled, told
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from test_stored import problem, study
 
 import symid as si
 from symid.discrepancy import read_answer
 from symid.identification.store import _sha256, _text
-from test_stored import problem, study
 
 STORED = Path(__file__).parent / "stored" / "format_2_with_keys"
 PROBLEM = problem(STORED)

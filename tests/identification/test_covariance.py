@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import sympy as sm
+from conftest import pendulum, pendulum_recording
 
 import symid as si
-from conftest import pendulum, pendulum_recording
 from symid.identification import error_models
 from symid.identification.covariance import ParameterErrors, _orthonormal, bound_active, parameter_errors
 from symid.identification.sensitivity import outputs_and_targets
