@@ -30,8 +30,10 @@ def letters(model: Model) -> dict[sm.Symbol, str]:
 
 
 def _upright(letters: str) -> str:
-    """Words upright, so that they are no product of their letters: ``damping`` as ``\\mathrm{damping}``."""
-    return re.sub(r"(?<![\\A-Za-z])[A-Za-z]{2,}", r"\\mathrm{\g<0>}", letters)
+    """Words upright, so that they are no product of their letters, and apart where several stand below: ``damping`` as
+    ``\\mathrm{damping}``.
+    """
+    return re.sub(r"(?<![\\A-Za-z])[A-Za-z]{2,}", r"\\mathrm{\g<0>}", letters.replace(" ", ","))
 
 
 def latex(model: Model) -> str:
