@@ -10,7 +10,7 @@ from symid.identification import error_models
 from symid.identification.combinations import Combination, combinations, involved
 from symid.identification.error_models import Errors
 from symid.identification.sensitivity import PROBES, Reduced, Sensitivity
-from symid.identification.uneven import by_sample, uneven
+from symid.identification.uneven import by_sample, said
 from symid.ipopt_solver import SolverResult
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
@@ -99,8 +99,8 @@ def parameter_errors(
     model, why = error_models.choose(errors, choice, t.episodes.count)
     reduced, inverse = (white, inverse) if model == "white" else _exact(s, white, inverse)
     influences = [g @ inverse for g in s.by_recording(s.weights[:, None] * reduced.slopes, np.sum)]
-    if model == "white" and uneven(errors, influences):
-        why += "; its size varies, and each sample counts by its own error"
+    if model == "white" and (doubt := said(errors, influences)):
+        why += f"; {doubt}"
         total, noise = by_sample(errors, influences)
     else:
         total, noise = error_models.covariance(model, errors, influences)

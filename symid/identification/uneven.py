@@ -18,10 +18,15 @@ if TYPE_CHECKING:
 REFUTED = 1e-3
 """Probability, for all parameters together, below which one size of the noise is refuted. Correlations of squares are
 not quite normal: with 0.01 one size was refuted in 8 of 223 repeats in which it was right."""
+DOUBTED = 0.2
+"""Probability below which an estimated noise is not relied on to have one size. Of 61 samples with noise in proportion
+to the output, intervals of 95 % held the truth in 90 % with 0.001, 92 % with 0.05 and 93 % with this; of even noise in
+95 % with either (400 linear repeats of three systems each)."""
 
 
-def uneven(errors: list[Errors], influences: list[np.ndarray]) -> bool:
-    """Whether errors are larger or smaller where a parameter feels them: by the correlation of the squares of both."""
+def evenness(errors: list[Errors], influences: list[np.ndarray]) -> float:
+    """Probability, were the noise of one size, of errors that are so much larger or smaller where a parameter feels
+    them, by the correlation of the squares of both; for all parameters together."""
     felt = np.concatenate([_expected(r, g) for r, g in zip(errors, influences, strict=True)])
     pulls = np.concatenate([_pulls(r, g) ** 2 for r, g in zip(errors, influences, strict=True)])
     chances = []
@@ -31,7 +36,20 @@ def uneven(errors: list[Errors], influences: list[np.ndarray]) -> bool:
         if seen.sum() > 2 and np.ptp(c[seen]) > 0 and np.ptp(size) > 0:
             z = abs(np.corrcoef(c[seen], size)[0, 1]) * np.sqrt(seen.sum())
             chances.append(2 * scipy.special.ndtr(-z))
-    return bool(chances) and min(chances) * len(chances) < REFUTED
+    return float(min(min(chances) * len(chances), 1.0)) if chances else 1.0
+
+
+def said(errors: list[Errors], influences: list[np.ndarray]) -> str:
+    """Why each sample is to count by its own error; "" where it is not. A noise that is known is believed longer."""
+    chance = evenness(errors, influences)
+    if chance < REFUTED:
+        return "its size varies, and each sample counts by its own error"
+    known = all(np.all(r.believed) for r in errors)
+    return (
+        ""
+        if known or chance > DOUBTED
+        else f"one size is in doubt (p = {chance:.2g}), and each sample counts by its own error"
+    )
 
 
 def by_sample(errors: list[Errors], influences: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:

@@ -7,7 +7,7 @@ stands in the recordings; the rest is estimated together with the parameters, by
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -34,6 +34,9 @@ LOST = 1.0 + 1e-6
 """Objective of a turn's end over that of its start above which it has left the optimum; the rest is tolerance."""
 TIGHT = 1e-9
 """Ipopt's tolerance: a channel of much noise has a small share of an objective that a clear one makes steep."""
+UNFAIR = 6.0
+"""Ratio of two outputs' pulls, weight times variance of the noise, from which weights are made anew where the noise has
+a memory: two groups whose weights are wrong by that have half of the efficiency, 4 c / (1 + c)^2."""
 UNKNOWN = 0.01
 """Noise of an ordinary sensor as a share of the motion, from which the turns start."""
 LEAST = 1e-150
@@ -138,8 +141,9 @@ def estimated(solution: Solution) -> np.ndarray:
 def to_likelihood(solution: Solution, **solver) -> Solution:
     """The maximum-likelihood solution, where the residual is white: noise and parameters are estimated by turns.
 
-    Noise with a memory has no such weights: a sensor that samples it faster says no more. One channel
-    of one recording needs none. `solver` goes to `Identification.solve_from`.
+    Noise with a memory has no such weights: a sensor that samples it faster says no more. There a channel counts by
+    time and by the size of its noise, if the weights until now are far from that (`UNFAIR`). One channel of one
+    recording needs none. `solver` goes to `Identification.solve_from`.
     """
     p = solution.problem
     if (
@@ -151,16 +155,24 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
         or p.model.costed  # what the user weighed against squared errors stays so
         or not solution.solved
         or (len(p.recordings) * len(p.model.outputs) == 1 and not p.model.informed)
-        or solution.errors.model != "white"
     ):
         return solution
+    if solution.errors.model == "white":
+        return _by_turns(solution, _by_noise, solver)
+    pull = weights_of(p, solution.transcription.measured)[0] * _pooled(solution) ** 2
+    if p.model.informed or pull.max() < UNFAIR * pull.min():
+        return solution
+    return _by_turns(solution, _by_time, solver)
+
+
+def _by_turns(solution: Solution, weighed: Callable[[Solution], Identification], solver: dict) -> Solution:
+    """Solved again, with the weights that `weighed` takes from what the last solution leaves, until these settle."""
     old = np.nan
     for _ in range(TURNS):
         noise = np.maximum(estimated(solution), LEAST)
         if np.all(np.abs(np.log(noise / old)) < SETTLED):
             break
-        tables = [dict(zip(p.model.outputs, map(float, row), strict=True)) for row in noise]
-        problem = replace(p, noise=tables)
+        problem = weighed(solution)
         options = {"tol": TIGHT} | (solver.get("options") or {})
         z = problem.transcription.start_from(solution.transcription, solution.result.z)
         result = problem.solve_from(z, **solver | {"options": options, "near": True})
@@ -168,6 +180,29 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
             break
         solution, old = replace(solution, problem=problem, result=result), noise
     return solution
+
+
+def _by_noise(solution: Solution) -> Identification:
+    noise = np.maximum(estimated(solution), LEAST)
+    tables = [dict(zip(solution.model.outputs, map(float, row), strict=True)) for row in noise]
+    return replace(solution.problem, noise=tables)
+
+
+def _by_time(solution: Solution) -> Identification:
+    """Weights of one over the variance of each output's noise, with which the objective is as large as before."""
+    p, sigma = solution.problem, _pooled(solution)
+    before = weights_of(p, solution.transcription.measured)[0]
+    weights = np.mean(before * sigma**2) / sigma**2
+    return replace(p, weights=dict(zip(p.model.outputs, map(float, weights), strict=True)))
+
+
+def _pooled(solution: Solution) -> np.ndarray:
+    """(m,) noise of each output [SI], over all recordings by their lengths."""
+    measured = solution.transcription.measured
+    lengths = np.array([m.step * m.intervals for m in measured])
+    spread = np.sqrt(np.average([_spread(m.recorded) ** 2 for m in measured], axis=0, weights=lengths))
+    noise = np.sqrt(np.average(estimated(solution) ** 2, axis=0, weights=lengths))
+    return np.maximum(noise, RESOLUTION * spread)
 
 
 def _refuse(problem: Identification, what: str, name: str) -> None:

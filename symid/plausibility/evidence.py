@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -22,10 +23,14 @@ from symid.units import FloatArray
 
 EDGE = 5
 """Samples at each end of a piece that are left out, where a filter has not settled."""
-STEPS = 4
-"""Gauss-Newton steps for parameters that enter the equations nonlinearly; gains need one."""
+STEPS, SHORTER = {True: 4, False: 12}, (1.0, 0.25, 0.05)
+"""Gauss-Newton steps at most, where masses are known and where they are unknown, and parts of each that are tried;
+gains need one."""
+PLACES, NOTHING = (0.02, 0.1, 0.4), 0.5
+"""Shares of the range between their bounds at which parameters that enter nonlinearly begin, too, where more than that
+share is left from their first values."""
 WEIGHTINGS, SETTLED = 8, 0.01
-"""Times at most that the equations are weighted anew, by the masses just fitted, until the share settles by that."""
+"""Times at most that the errors are weighted anew, by their covariance, until the share settles by that."""
 FLOOR = 1e-12
 """Least relative spread of errors in any direction, for accelerations that are always alike."""
 LAGS = 5
@@ -72,6 +77,7 @@ class Witness:
         self.explained = [
             i for i, s in enumerate(model.states) if s not in self.rates.values()
         ]  # the others are kinematic
+        self.steady = self._alike("mass")
         if law_open:
             shown = [c[order] for c in motion.curves.values() for order in (0, 1)]
             self.open, _ = np.linalg.qr(self._filtered(np.column_stack([np.ones(motion.time.size), *shown])))
@@ -91,10 +97,12 @@ class Witness:
     def _least(self, measure, change: Change) -> float:
         with np.errstate(all="ignore"):
             found = [measure(change, p) for p in self._first()]
+            if not np.nanmin(found, initial=np.inf) <= NOTHING:
+                found += [measure(change, p) for p in self._other(change)]
         return float(np.nanmin(found)) if np.isfinite(found).any() else np.inf
 
     def _first(self) -> list[FloatArray]:
-        """First values: guesses or zero, lags at several values within their bounds."""
+        """First values: guesses or zero; of lags, and where the equations are not linear in all, several."""
         given = [p.guess if p.guess is not None else 0.0 for p in self.model.parameters.values()]
         first = np.clip(np.array(given, dtype=float), self.lower, self.upper)
         lags = [
@@ -107,35 +115,51 @@ class Witness:
         grid = np.linspace(self.lower[lags], np.minimum(self.upper[lags], self.lower[lags] + 1.0), LAGS)
         return [np.array([*(x if i not in lags else row[lags.index(i)] for i, x in enumerate(first))]) for row in grid]
 
+    @cached_property
+    def _places(self) -> list[FloatArray]:
+        """Further first values, of parameters without a guess; none where lags have several, or where the predicted
+        rates are linear in the parameters."""
+        (first, *lagged), reach = self._first(), self.upper - self.lower
+        within = np.isfinite(reach) & np.array([p.guess is None for p in self.model.parameters.values()], dtype=bool)
+        places = [np.where(within, self.lower + part * reach, first) for part in PLACES]
+        return places if within.any() and not lagged and not (self.steady and self._alike("slopes")) else []
+
+    def _other(self, change: Change) -> list[FloatArray]:
+        """The likeliest of these."""
+        left = [float(np.mean(self._errors(self._given(change, p)[0], p) ** 2)) for p in self._places]
+        return [self._places[int(np.nanargmin(left))]] if np.isfinite(left).any() else []
+
+    def _alike(self, which: str) -> bool:
+        """Whether masses, or slopes by the parameters, are the same whatever the parameters are."""
+        reach = np.where(np.isfinite(self.upper - self.lower), self.upper - self.lower, 1.0)
+        columns = slice(0, len(self.order)) if which == "mass" else slice(self.kernel.n_local, None)
+        places = [np.where(np.isfinite(self.lower), self.lower, 0.0) + part * reach for part in PLACES]
+        local, data, constants = (x[:LAGS] if np.ndim(x) == 2 else x for x in self._arguments(Change(), places[0]))
+        one, other = (self._slopes(local, p, data, constants, columns) for p in (places[0], places[-1]))
+        return bool(np.allclose(one, other, rtol=1e-9, atol=1e-12 * np.abs(one).max(initial=0.0)))
+
     def _given(self, change: Change, p: FloatArray):
         """Arguments of the kernel and sizes of the accelerations, and the covariance of these in their sizes."""
         local, data, constants = self._arguments(change, p)
         accelerations = self._filtered(local[:, : len(self.order)][:, self.explained])
         size = np.std(accelerations, axis=0)
-        return (local, data, constants, size), _covariance((accelerations - accelerations.mean(axis=0)) / size)
+        inverse = self._inverse_mass(local, p, data, constants) if self.steady else None
+        return (local, data, constants, size, inverse), _covariance((accelerations - accelerations.mean(axis=0)) / size)
 
     def _share(self, change: Change, p: FloatArray) -> float:
-        given, _ = self._given(change, p)
-        if not (given[-1] > 0).all():
+        given, recorded = self._given(change, p)
+        if not (given[3] > 0).all():
             return np.inf
-        share = np.inf
-        for _ in range(WEIGHTINGS):
-            before, weight = share, self._weight(given, p)
-            p = self._fitted_with(weight, given, p)
-            share = float(np.mean(self._errors(weight, given, p) ** 2))
-            if not share < (1 - SETTLED) * before:
-                break
-        return min(share, before)
+        return float(np.mean(self._errors(given, self._fitted(np.eye(len(recorded)), given, p)) ** 2))
 
     def _determinant(self, change: Change, p: FloatArray) -> float:
         given, recorded = self._given(change, p)
-        if not (given[-1] > 0).all():
+        if not (given[3] > 0).all():
             return np.inf
-        white, weight, least = np.eye(len(recorded)), self._weight(given, p), np.inf
+        white, least = np.eye(len(recorded)), np.inf
         for _ in range(WEIGHTINGS):
-            before, p = least, self._fitted_with(white @ weight, given, p)
-            weight = self._weight(given, p)
-            left = _covariance(self._errors(weight, given, p))
+            before, p = least, self._fitted(white, given, p)
+            left = _covariance(self._errors(given, p))
             if not np.isfinite(left).all():
                 break
             least = min(least, float(np.exp(np.diff(np.linalg.slogdet([recorded, left])[1])[0] / len(left))))
@@ -144,30 +168,47 @@ class Witness:
             white = np.linalg.inv(np.linalg.cholesky(left))
         return least
 
-    def _errors(self, weight: FloatArray, given, p: FloatArray) -> FloatArray:
-        """(N, accelerations) what the equations leave, filtered."""
-        local, data, constants, _ = given
-        return self._filtered((weight @ self.kernel.residual(local, p, data, constants)[:, :, None])[:, :, 0])
+    def _errors(self, given, p: FloatArray) -> FloatArray:
+        """(N, accelerations) recorded less predicted ones, in their sizes, filtered."""
+        return self._filtered(self._missed(given, p)[0][:, self.explained] / given[3])
 
-    def _weight(self, given, p: FloatArray) -> FloatArray:
-        """(N, accelerations, equations) what turns residuals into errors of accelerations, in their sizes."""
-        local, data, constants, size = given
-        mass = self._slopes(local, p, data, constants, slice(0, len(self.order)))
-        return np.linalg.inv(mass)[:, self.explained, :] / size[:, None]
+    def _inverse_mass(self, local, p, data, constants) -> FloatArray:
+        return np.linalg.inv(self._slopes(local, p, data, constants, slice(0, len(self.order))))
 
-    def _fitted_with(self, weight: FloatArray, given, p: FloatArray) -> FloatArray:
-        """Parameters by Gauss-Newton steps."""
-        local, data, constants, _ = given
-        left = self._errors(weight, given, p).ravel()
-        for _ in range(STEPS if p.size else 0):
-            shared = slice(self.kernel.n_local, None)
-            slopes = self._filtered(weight @ self._slopes(local, p, data, constants, shared)).reshape(left.size, -1)
-            new = np.clip(p + _step(slopes, left, self.lower - p, self.upper - p), self.lower, self.upper)
-            later, linear = self._errors(weight, given, new).ravel(), left + slopes @ (new - p)
-            if not np.sum(later**2) < (1 - 1e-3) * np.sum(left**2):
+    def _missed(self, given, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """(N, states) recorded rates less predicted ones, and (N, states, equations) inverse masses."""
+        local, data, constants, _, inverse = given
+        if inverse is None:
+            inverse = self._inverse_mass(local, p, data, constants)
+        return (inverse @ self.kernel.residual(local, p, data, constants)[:, :, None])[:, :, 0], inverse
+
+    def _linearised(self, given, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """`_errors` and their derivatives (N, accelerations, parameters): the residual's at the predicted rates."""
+        local, data, constants, size, _ = given
+        missed, inverse = self._missed(given, p)
+        there = local.copy()
+        there[:, : len(self.order)] -= missed
+        slopes = self._slopes(there, p, data, constants, slice(self.kernel.n_local, None))
+        both = np.concatenate([missed[:, :, None], inverse @ slopes], axis=2)[:, self.explained] / size[:, None]
+        filtered = self._filtered(both)
+        return filtered[:, :, 0], filtered[:, :, 1:]
+
+    def _fitted(self, white: FloatArray, given, p: FloatArray) -> FloatArray:
+        """Parameters by Gauss-Newton steps, least squares of the errors times `white`."""
+        for _ in range(STEPS[self.steady] if p.size else 0):
+            errors, slopes = self._linearised(given, p)
+            left, slopes = (errors @ white.T).ravel(), (white @ slopes).reshape(errors.size, -1)
+            step = _step(slopes, left, self.lower - p, self.upper - p)
+            for part in SHORTER:
+                new = np.clip(p + part * step, self.lower, self.upper)
+                later = (self._errors(given, new) @ white.T).ravel()
+                if np.sum(later**2) < (1 - 1e-3) * np.sum(left**2):
+                    break
+            else:
                 break
-            p, left = new, later
-            if np.sum((later - linear) ** 2) < 1e-6 * np.sum(later**2):
+            gone = np.sum((later - left - slopes @ (new - p)) ** 2) < 1e-6 * np.sum(later**2)
+            p = new
+            if part == 1.0 and gone:
                 break  # gains enter linearly: the first step was the last
         return p
 

@@ -67,6 +67,8 @@ POWERS = {
     "length": (1e-3, 1e3, 1e-2, 1e2),
     "center_of_mass": (1e-3, 1e3, 1e-2, 1e2),
 }
+OF_UNIT = {"kg": "mass", "kg*m^2": "inertia", "kg m^2": "inertia"}
+"""What a constant of this unit is, where its model does not say."""
 _KINDS = {
     "mass": "masses",
     "inertia": "inertias",
@@ -83,7 +85,9 @@ def model_remarks(model: Model, recording: Recording, window: tuple[float, float
     """
     try:
         motion = motion_of(model, recording, window)
-        told = None if motion is None else foretold(motion)
+        if motion is None or Witness(model, motion).unexplained() <= EXPLAINED:
+            return []
+        told = foretold(motion)
         looks = [(m, law_open) for m, law_open in ((told, False), (motion, False), (told, True)) if m is not None]
         for one, law_open in looks:
             remark = _judged(model, one, law_open)
@@ -158,12 +162,13 @@ def _of_channels(channels: tuple[str, ...], unit: str) -> Iterator[Change]:
 
 def body_changes(model: Model) -> Iterator[Change]:
     """Powers of ten of masses, inertias and lengths, each alone and all of a kind."""
-    parts = [c for c in model.constants.values() if c.role in POWERS]
+    roles = {c.name: c.role or OF_UNIT.get(c.unit, "") for c in model.constants.values()}
+    parts = [c for c in model.constants.values() if roles[c.name] in POWERS]
     for c in parts:
-        for factor in POWERS[c.role]:
+        for factor in POWERS[roles[c.name]]:
             yield Change(f"{c.name} is {_times(1 / factor)}", {c.name: factor})
     for role, kind in _KINDS.items():
-        group = [c.name for c in parts if c.role == role]
+        group = [c.name for c in parts if roles[c.name] == role]
         for factor in POWERS[role] if len(group) > 1 else ():
             yield Change(f"all {kind} are {_times(1 / factor)}", dict.fromkeys(group, factor))
 

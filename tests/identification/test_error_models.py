@@ -11,7 +11,7 @@ import symid as si
 from symid.errors import SolveError, TranscriptionError
 from symid.files import plain
 from symid.identification.error_models import Errors, bandwidth, coloured, white, whiteness
-from symid.identification.uneven import by_sample, uneven
+from symid.identification.uneven import REFUTED, by_sample, evenness, said
 
 
 @pytest.mark.parametrize("make", [integrator, oscillator])
@@ -172,12 +172,13 @@ def test_noise_in_proportion_to_the_motion_is_white_and_counts_by_sample():
     exact = np.einsum("kiq,ki,kip->qp", influence, size**2, influence)
     left = [fitted(size * rng.standard_normal((600, 1)), shapes) for _ in range(40)]
     assert np.mean([whiteness([r]) < 0.01 for r in left]) < 0.1
-    assert all(uneven([r], [influence]) for r in left)
+    assert all(evenness([r], [influence]) < REFUTED for r in left)
     found = np.mean([np.diag(by_sample([r], [influence])[0]) for r in left], axis=0)
     np.testing.assert_allclose(found / np.diag(exact), 1, atol=0.1)
     assert np.mean([np.diag(white([r], [influence])[0]) for r in left], axis=0)[1] < 0.8 * exact[1, 1]
     even = [fitted(rng.standard_normal((600, 1)), shapes) for _ in range(100)]
-    assert np.mean([uneven([r], [influence]) for r in even]) < 0.05
+    assert np.mean([evenness([r], [influence]) < REFUTED for r in even]) < 0.05
+    assert 0.05 < np.mean([said([r], [influence]) != "" for r in even]) < 0.4
 
 
 def test_a_slow_wave_in_the_residual_makes_no_standard_error_vanish():

@@ -7,6 +7,7 @@ import pytest
 import small_systems
 from more_systems import OTHERS
 from small_systems import PRACTISED, UNSEEN, lotka_volterra
+from unfamiliar_systems import UNFAMILIAR, flexible_joint, measured
 
 import symid as si
 from symid.identification import Solve
@@ -74,6 +75,25 @@ def unbounded() -> si.Model:
 @pytest.mark.parametrize("system", [*PRACTISED, *UNSEEN, *OTHERS], ids=lambda f: f.__name__)
 def test_the_default_start_does_not_fail(system):
     assert failures(system, range(DRAWS)) == {}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("noise", ["white", "proportional", "remembering", "heavy"])
+@pytest.mark.parametrize("system", UNFAMILIAR, ids=lambda f: f.__name__)
+def test_systems_that_nothing_was_tuned_on_reach_their_noise(system, noise):
+    for seed in range(20):
+        drawn = measured(system, noise, seed)
+        assert drawn.failure(drawn.problem().solve(), allowed=1.5) == "", seed
+
+
+@pytest.mark.parametrize(("noise", "seed"), [("remembering", 0), ("heavy", 2)])
+def test_a_channel_of_little_noise_is_followed_beside_one_of_much_whatever_its_memory(noise, seed):
+    """Both angles counted alike, and the clear one erred by 8 and 4 times its noise."""
+    drawn = measured(flexible_joint, noise, seed)
+    solution = drawn.problem().solve(check=False)
+    assert drawn.failure(solution, allowed=1.2) == ""
+    table = solution.parameters
+    assert all(abs(table.value[k] - v) < 4 * table.std_error[k] for k, v in drawn.truth.items())
 
 
 @pytest.mark.parametrize(("number", "beyond", "away"), [(0, True, True), (4, True, False), (5, False, False)])
