@@ -21,7 +21,7 @@ from symid.discrepancy.prove.evidence import tested
 from symid.discrepancy.say.diagnosis import Diagnosis, finding
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.say.words import Story, words
-from symid.discrepancy.task import Part, Task, refuse_odd_options, task_of
+from symid.discrepancy.task import Part, Task, listed_suspects, refuse_odd_options, task_of
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
 from symid.estimation.measurement import fits_of
@@ -82,7 +82,8 @@ def diagnose(
     >>> found                                                                                    # doctest: +SKIP
     <Diagnosis: missing_physics: coulomb_friction at joint2>
     """
-    refuse_odd_options(sensor_noise, filter, suspects, threads)
+    refuse_odd_options(sensor_noise, filter, threads)
+    named = listed_suspects(suspects)
     hold_blas_memory(threads)
     task = task_of(
         subject, recording, fit_window, start, held_out=held_out, segment_length=segment_length, settling=settling
@@ -110,7 +111,7 @@ def diagnose(
     pieces_of = task.segment_length if task.segment_length != segment_length else None
     possible = [(data, with_likeliest_jumps(given, fit, data)) for data, fit in possible]
     data, fit = possible[0]
-    pool = list(suspects_of(task.model, sizes_of(fit, data)) if suspects is None else suspects)
+    pool = list(suspects_of(task.model, sizes_of(fit, data))) if named is None else named
     progress(f"the model as given is fitted ({fit.iterations} iterations)")
 
     # Name: the laws that explain it.

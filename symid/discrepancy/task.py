@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -89,12 +89,19 @@ def _refuse_odd(task: Task) -> None:
             )
 
 
-def refuse_odd_options(noise: object, filter: object, suspects: object, threads: object) -> None:
+def listed_suspects(given: object) -> list[Suspect] | None:
+    """The suspects as a list; None stands for those of the library."""
+    if given is None:
+        return None
+    if not isinstance(given, Iterable) or isinstance(given, (str, bytes)):
+        raise DiagnosisError(f"diagnose: suspects={checked.shown(given)}: give a list of them, see symid.suspects")
+    return [checked.kind(one, Suspect, "diagnose: one of the suspects", DiagnosisError) for one in given]
+
+
+def refuse_odd_options(noise: object, filter: object, threads: object) -> None:
     """DiagnosisError for options of another kind, and for a noise of the sensors that is no positive number."""
     checked.whole(threads, "diagnose: threads", DiagnosisError, least=1, most=MOST_THREADS)
     checked.kind(filter, (ZeroPhase, type(None)), "diagnose: filter", DiagnosisError)
-    for suspect in () if suspects is None else checked.kind(suspects, Sequence, "diagnose: suspects", DiagnosisError):
-        checked.kind(suspect, Suspect, "diagnose: one of the suspects", DiagnosisError)
     for name, value in noise.items() if isinstance(noise, Mapping) else (("all", noise),):
         if value is not None and not checked.number(value, f"diagnose: sensor_noise of {name}", DiagnosisError) > 0:
             raise DiagnosisError(f"diagnose: sensor_noise of {name} must be positive, found {checked.shown(value)}")
