@@ -218,3 +218,26 @@ def test_a_pendulum_that_is_driven_over_the_top_is_compared_in_pieces():
     value, error = effect.parameters["k_Nm_rad"]
     assert (effect.name, effect.location) == ("torsional_spring", "encoder") and abs(value - 0.08) < 1e-4
     assert "compared in pieces of about" in str(found)
+
+
+def test_two_gliders_that_lose_energy_lose_each_by_its_own_plain_law():
+    """What the first of several losses took up of the others is given back."""
+    m = si.Model("gliders")
+    m.x1, m.x2, m.v1, m.v2 = (si.State(unit=u) for u in ("m", "m", "m/s", "m/s"))
+    m.a1, m.b1, m.b2, m.a2 = (si.Parameter(unit="1/s^2", bounds=(0, 100)) for _ in range(4))
+    m.k1, m.k2 = si.Equation(m.x1.dot - m.v1), si.Equation(m.x2.dot - m.v2)
+    m.left = si.Equation(m.v1.dot + m.a1 * m.x1 - m.b1 * (m.x2 - m.x1))
+    m.right = si.Equation(m.v2.dot + m.a2 * m.x2 + m.b2 * (m.x2 - m.x1))
+    m.y1, m.y2 = si.Output(m.x1, channel="left"), si.Output(m.x2, channel="right")
+    rng, t = np.random.default_rng(0), np.arange(0, 30, 1 / 30)
+
+    def rates(time, s):
+        d = s[1] - s[0]
+        a = -1.6 * s[0] + 1.1 * d - 0.003 * s[2], -1.8 * s[1] - 1.1 * d - 0.004 * s[3]
+        return [s[2], s[3], a[0] / 0.21, a[1] / 0.33]
+
+    x = solve_ivp(rates, (0, 30), [0.12, -0.05, 0.0, 0.0], t_eval=t, rtol=1e-9, atol=1e-11).y[:2]
+    channels = {k: y + 3e-4 * rng.standard_normal(t.size) for k, y in zip(("left", "right"), x, strict=True)}
+    made = si.Recording(name="gliders", time=t, channels=channels, units=dict.fromkeys(channels, "m"))
+    found = si.diagnose(m, made, fit_window=(0, 20), held_out=(20, 29.9))
+    assert {f"{e.name}@{e.location}" for e in found.effects} == {"viscous_friction@left", "viscous_friction@right"}

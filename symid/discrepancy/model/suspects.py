@@ -144,6 +144,19 @@ class Suspect:
                 yield values | {q.key: float(place)}
 
 
+FAMILIES = (
+    {"viscous_friction", "coulomb_friction", "joint_drag", "quadratic_drag", "link_drag"},
+    {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "constant_torque"},
+)
+"""Laws that take up what one another do: each is at one amplitude nearly another."""
+
+
+def is_alike(suspect: Suspect, other: Suspect) -> bool:
+    """Whether both are laws of one family at one place."""
+    same = suspect.term.location == other.term.location
+    return same and any({suspect.term.name, other.term.name} <= family for family in FAMILIES)
+
+
 def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses.
 

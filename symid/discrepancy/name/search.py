@@ -12,7 +12,7 @@ import numpy as np
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import Test, remainder
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
-from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.jump import with_fitted_jumps
 from symid.discrepancy.policy import POLICY
@@ -79,7 +79,7 @@ class Search:
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
             if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best):
                 break
-        return best, single
+        return self._exchanged(best) if len(best.suspects) > 1 else best, single
 
     def settled(self, found: Hypothesis) -> Hypothesis:
         """What is found, or the flexible law at one place where several laws together explain less than that."""
@@ -231,6 +231,27 @@ class Search:
             self.progress(f"looking for what would complete {h.suspect.term}")
             pairs.append(self._preferred(h, self._added(h, above - h.log_ratio)))
         return [p for p in pairs if p is not None]
+
+    def _exchanged(self, found: Hypothesis) -> Hypothesis:
+        """Each suspect exchanged for others of its family at its place, or left out, as long as that is believed more.
+
+        Of several losses the first takes up what the others lose, and so may be the wrong law at the right place.
+        """
+        while True:
+            taken, off = {s.term for s in found.suspects}, dict[str, float]()
+            sets = [[t for t in found.suspects if t is not s] for s in found.suspects] if len(taken) > 2 else []
+            for s in found.suspects:
+                for other in (o for o in self.pool if is_alike(o, s) and o.term not in taken):
+                    sets.append([other if t is s else t for t in found.suspects])
+                    off |= other.named({q.key: q.null or 0.0 for q in other.law.parameters})
+            new = [hypothesis(chosen, found.fit, self.base, self.data, off) for chosen in sets]
+            tried = [found, *(h for h in new if h is not None)]
+            self.tried += tried[1:]
+            share = max(tried, key=lambda h: h.log_ratio).share
+            best = max(tried, key=lambda h: self.value(h, share))
+            if best is found:
+                return found
+            found = polished(best)
 
     def _reexamined(self, found: Hypothesis, single: list[Hypothesis]) -> Hypothesis:
         """Earlier suspects are left out in turn, and other good single ones tried in the place of the first."""
