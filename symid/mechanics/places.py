@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import combinations
+from itertools import pairwise
 
 import numpy as np
 import sympy as sm
@@ -74,12 +74,12 @@ def _ports_of_balances(model: Model) -> dict[str, Port]:
 
 
 def _between(ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
-    """Ports between any two coordinates of one kind of which the balance of one has to do with the other.
+    """Ports between neighbours (in order of declaration) with coordinates of one kind and coupled balances.
 
     A force between two bodies acts on both, against each other: of a spring or a joint that joins them.
     """
     found, joints = {}, {n: p for n, p in ports.items() if p.role == "joint"}
-    for (a, p), (b, q) in combinations(joints.items(), 2):
+    for (a, p), (b, q) in pairwise(joints.items()):
         met = [residuals[x].has(*y.rate.free_symbols, *y.position.free_symbols) for x, y in ((a, q), (b, p))]
         if p.unit == q.unit and any(met) and (p.position == 0) == (q.position == 0):
             found[f"{a}_{b}"] = replace(
