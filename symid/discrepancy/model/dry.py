@@ -20,8 +20,12 @@ WIDER = 0.05, 0.15, 0.5
 """Parts of the usual speed over which friction may set in that does not jump: of rubber, grease or skin."""
 
 
+INDIRECT = 0.3
+"""Amplitude [rad or m] of what outputs show indirectly, such as the angle of an arm of which a camera sees the tip."""
+
+
 def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.ndarray) -> Model:
-    """The model with a `friction_speed` at each joint whose motion is recorded, where it states none.
+    """The model with a `friction_speed` at each joint, where it states none.
 
     noise : (m,) standard deviation of each output's sensor.
     """
@@ -29,22 +33,27 @@ def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.nd
         return model
     new = model.copy()
     for port in (p for p in model.ports.values() if p.role == "joint"):
-        speeds = widths(model, port, segments, noise)
-        if speeds:
-            width = Constant(
-                speeds[0],
-                unit=f"{coordinate_unit(model, port.at)}/s",
-                role="friction_speed",
-                at=port.at,
-                meaning="width of the smoothed jump of dry friction",
-            )
-            setattr(new, f"{port.name}_friction_speed", width)
+        width = Constant(
+            widths(model, port, segments, noise)[0],
+            unit=f"{coordinate_unit(model, port.at)}/s",
+            role="friction_speed",
+            at=port.at,
+            meaning="width of the smoothed jump of dry friction",
+        )
+        setattr(new, f"{port.name}_friction_speed", width)
     return new
 
 
 def weights_of(model: Model, expr: Any) -> np.ndarray | None:
-    """(m,) of the outputs in a linear expression of the states; None where it is not recorded."""
-    shown = {str(y.expr): i for i, y in enumerate(model.outputs.values())}
+    """(m,) of the outputs in a linear expression of the states; None where it is not recorded.
+
+    A state is recorded where an output shows it, whatever its zero.
+    """
+    shown = {}
+    for i, y in enumerate(model.outputs.values()):
+        own = [s for s in model.states.values() if y.expr.has(s.symbol)]
+        if len(own) == 1 and y.expr.diff(own[0].symbol) == 1:
+            shown[own[0].name] = i
     if not {str(s) for s in expr.free_symbols} <= shown.keys():
         return None
     weights = np.zeros(len(model.outputs))
@@ -55,13 +64,15 @@ def weights_of(model: Model, expr: Any) -> np.ndarray | None:
 
 
 def widths(model: Model, port: Port, segments: Sequence[Segment], noise: np.ndarray) -> tuple[float, ...]:
-    """Speeds, the sharpest first; none where neither the port's position nor its rate is recorded.
+    """Speeds, the sharpest first.
 
-    The usual speed is that which was recorded, or the rms rate of a sine that moves as far and as fast as recorded.
+    The usual speed is that which was recorded, or the rms rate of a sine that moves as far and as fast as recorded;
+    where outputs show the port's motion indirectly, of one with an amplitude of `INDIRECT`.
     """
     weights = weights_of(model, coordinate(port))
     if weights is None:
-        return ()
+        usual = np.sqrt(2) * np.pi * INDIRECT / float(np.median([swing(e) for e in segments]))
+        return tuple(part * usual for part in (float(np.sqrt(PARTS[0] * PARTS[1])), *WIDER))
     once = [1.0 if port.position == 0 else swing(e) for e in segments]
     turn = 1.0 if port.position == 0 else 2 * np.pi
     usual = float(np.median([turn * np.std(e.recorded @ weights) / s for e, s in zip(segments, once, strict=True)]))
