@@ -25,7 +25,7 @@ faults: $(READY)
 
 # Ten minutes of odd input of each kind: readers, JSON, declarations, expressions, arguments.
 fuzz: $(READY)
-	SYMID_FUZZ=4000 $(PY) -m pytest -n 2 tests/faults/test_fuzzed_files.py tests/faults/test_fuzzed_models.py
+	SYMID_FUZZ=4000 $(PY) -m pytest -n 2 tests/faults/test_fuzzed_*.py
 
 # Of lines and branches, by the normal test run; processes that tests start are counted, too.
 coverage: $(READY)

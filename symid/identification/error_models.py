@@ -251,7 +251,8 @@ def bandwidth(error: np.ndarray) -> int:
 
 
 def _memory(x: np.ndarray) -> float:
-    """Sum of lag times autocovariance over all lags above zero, divided by the sum over all lags."""
+    """Sum of lag times autocovariance over all lags above zero, divided by the sum over all lags; infinite where an
+    error foretells the next ones without rest, as a constant one does."""
     count = len(x)
     order = int(min(10 * np.log10(count), count // 5))
     past = np.column_stack([x[order - k : count - k] for k in range(1, order + 1)] + [x[order:]])
@@ -259,7 +260,10 @@ def _memory(x: np.ndarray) -> float:
     rest = np.cumsum(triangle[::-1, -1] ** 2)[::-1]  # squares that the first k lags leave
     best = int(np.argmin((count - order) * np.log(np.maximum(rest, 1e-300)) + 2 * np.arange(order + 1)))
     taps = np.linalg.solve(triangle[:best, :best], triangle[:best, -1])
-    spectrum = 1 / np.abs(np.fft.rfft(np.concatenate([[1.0], -taps]), 4 * count)) ** 2
+    gains = np.abs(np.fft.rfft(np.concatenate([[1.0], -taps]), 4 * count)) ** 2
+    if gains.min() < np.finfo(float).eps ** 2:
+        return np.inf
+    spectrum = 1 / gains
     covariance = np.fft.irfft(spectrum)[:count]
     return abs(np.sum(np.arange(count) * covariance) / spectrum[0])
 

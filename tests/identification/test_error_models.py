@@ -206,6 +206,11 @@ def test_bandwidth_grows_with_the_memory_of_the_noise():
     assert lags[0] < 12 < lags[1] < lags[2] <= 500
 
 
+@pytest.mark.parametrize("error", [np.full(80, 1.5), (-1.0) ** np.arange(80), np.cos(0.25 * np.pi * np.arange(80))])
+def test_an_error_that_foretells_itself_has_the_longest_memory(error):
+    assert bandwidth(error[:, None]) == 20
+
+
 @pytest.mark.parametrize("weight", [1e-10, 1e6])
 def test_a_parameter_at_its_bound_is_told_however_large_the_objective_is(weight):
     model = pendulum().with_bounds(damping=(0.6, 5.0))  # the recorded one is 0.4
