@@ -135,7 +135,8 @@ class Process(Control):
     >>> m.gust = Process(unit="N", size=0.3)            # or Process(unit="N"), whose size is estimated, too
 
     Motion and parameters are those of the largest joint density. Where the noise moves a system as much as its other
-    forces do, that makes the noise too small and damping with it; what is damped little is measured better without.
+    forces do, that takes damping for too small, by several standard errors where the motion is far from linear: compare
+    with an identification without it, whose standard errors are those of noise with a memory.
 
     Parameters
     ----------
