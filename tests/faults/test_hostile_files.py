@@ -13,7 +13,7 @@ import pytest
 from symid.errors import RecordingError
 from symid.files import read_arrays
 from symid.recording import read_recording
-from symid.recording.readers import limits
+from symid.recording.readers import apart, limits
 
 SECRET = np.arange(40.0)
 FRAME = pd.DataFrame({"time_s": 0.01 * np.arange(40), "hip_angle_rad": np.sin(np.arange(40))})
@@ -165,3 +165,16 @@ def test_arrays_that_are_packed_or_huge():
         archive.writestr("z.npy", b"\x93NUMPY\x01\x00" + struct.pack("<H", len(head)) + head.encode())
     with pytest.raises(ValueError, match="no arrays"):
         read_arrays(file.getvalue())
+
+
+def test_a_file_that_ends_the_process_that_reads_it(tmp_path, monkeypatch):
+    """SciPy's reader of MATLAB files is compiled: a damaged one has ended it by a segmentation fault."""
+    from scipy.io import savemat
+
+    savemat(tmp_path / "r.mat", {name: FRAME[name].to_numpy() for name in FRAME})
+    (tmp_path / "scipy.py").write_text("raise SystemExit('code from the folder of the recording')")
+    monkeypatch.chdir(tmp_path)
+    assert len(read_recording("r.mat")) == 40
+    monkeypatch.setattr(apart, "OTHER_END", "import os; os.kill(os.getpid(), 11) # {module} {name}")
+    with pytest.raises(RecordingError, match="cannot be read as a .mat file: it ended the process that read it"):
+        read_recording("r.mat")
