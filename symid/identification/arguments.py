@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 FINEST = 1000
 """Intervals in a sample interval: a recording says nothing of a mesh with more."""
+OF_SOLVE_FROM = ("dual_limit", "kept", "near")
+"""Options of `Identification.solve_from` that are none of the solver's."""
 
 
 class Recordings:
@@ -90,7 +92,7 @@ def refuse_wrong_types(problem: Identification) -> None:
 
 def refuse_wrong_options(options: Mapping[str, object]) -> None:
     """SolveError at the first option of a solve that is not what it should be."""
-    refuse_unknown_options(options)
+    refuse_unknown_options(options, *OF_SOLVE_FROM)
     if options.get("time_limit_s") is not None:
         checked.number(options["time_limit_s"], "time_limit_s", SolveError, least=0.0)
     if options.get("options") is not None:

@@ -129,9 +129,9 @@ def solve_nlp(
     return make_result(given, evaluation, ended["status"], point, time.perf_counter() - began, ended["linear"], way)
 
 
-def refuse_unknown_options(options: Mapping[str, object]) -> None:
-    """SolveError at an option that `solve_nlp` does not have, with the nearest names."""
-    known = [name for name, p in signature(solve_nlp).parameters.items() if p.kind is p.KEYWORD_ONLY]
+def refuse_unknown_options(options: Mapping[str, object], *others: str) -> None:
+    """SolveError at an option that neither `solve_nlp` has nor is one of `others`, with the nearest names."""
+    known = [name for name, p in signature(solve_nlp).parameters.items() if p.kind is p.KEYWORD_ONLY] + [*others]
     for name in options:
         if name not in known:
             raise SolveError(
