@@ -70,8 +70,9 @@ def run(arguments: argparse.Namespace) -> int:
             on_finished=tell,
         )
     lines = [text(found)]
-    files = {"comparison.csv": comparison(found).to_csv(index=False)}
-    if found.findings:
+    files: dict[str, str | bytes] = {}
+    if found.findings:  # an empty comparison would pass for a finished one
+        files["comparison.csv"] = comparison(found).to_csv(index=False)
         files["figure_2.png"] = plot_stable_share(found.findings).png()
         files["starts.png"] = plot_starts_spread(found.findings).png()
     if CASES["FPD-1"] in cases:
@@ -80,5 +81,6 @@ def run(arguments: argparse.Namespace) -> int:
         files["late_feedback.csv"] = late.to_csv(index=False)
     for name, content in files.items():
         write_atomically(Path(arguments.output) / name, content)
-    print("\n\n".join([*lines, f"Written: {', '.join(files)} in {arguments.output}"]))
+    lines += [f"Written: {', '.join(files)} in {arguments.output}"] if files else []
+    print("\n\n".join(lines))
     return 1 if found.failed or not all(f.best.solved for f in found.findings) else 0
