@@ -86,10 +86,17 @@ def diagnose(
     named = listed_suspects(suspects)
     hold_blas_memory(threads)
     task = task_of(
-        subject, recording, fit_window, start, held_out=held_out, segment_length=segment_length, settling=settling
+        subject,
+        recording,
+        fit_window,
+        start,
+        held_out=held_out,
+        segment_length=segment_length,
+        settling=settling,
+        driven=driven,
     )
     pieces = segments_of(task.model, task.recording, task.fit_window, task.segment_length)
-    pieces = pieces if driven else free_pieces(pieces, len(task.model.states))
+    pieces = pieces if task.moved else free_pieces(pieces, len(task.model.states))
 
     def searched(base: Fit, data: Data) -> Search:
         nothing = Hypothesis((), base, base, data)
@@ -101,7 +108,7 @@ def diagnose(
     checked = audit(task.model, task.recording, pieces, sensor_noise, filter)
     given = task.model
     task = replace(task, model=with_friction_speeds(given, pieces, checked.noise))
-    plain = Data(pieces, checked.noise, driven, checked.rounding).thinned()
+    plain = Data(pieces, checked.noise, task.random, checked.rounding).thinned()
 
     def fits(task: Task, plain: Data, start: dict[str, float]) -> list[tuple[Data, Fit]]:
         window = task.fit_window, task.segment_length

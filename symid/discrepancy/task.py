@@ -30,6 +30,7 @@ class Task:
     segment_length : seconds of one piece with an initial state of its own; None for one piece.
     settling : seconds that the fit measure leaves out. start : values [SI] from which the first fit begins.
     values : those of the solution that is diagnosed, if it is one [SI].
+    driven : whether random forces act where the model has noises, and recorded inputs keep the motion going.
     """
 
     model: Model
@@ -40,6 +41,17 @@ class Task:
     settling: float = 0.0
     start: Mapping[str, float] = field(default_factory=dict)
     values: Mapping[str, float] = field(default_factory=dict)
+    driven: bool = True
+
+    @property
+    def random(self) -> bool:
+        """Whether random forces act."""
+        return self.driven and bool(self.model.noises)
+
+    @property
+    def moved(self) -> bool:
+        """Whether anything moves the system, random or recorded, so that its motion stays in the pieces that it has."""
+        return self.random or self.driven and bool(self.model.inputs)
 
 
 def task_of(subject: Model | Solution, recording: Recording | None, fit_window: Part | None, start, **others) -> Task:

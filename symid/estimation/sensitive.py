@@ -16,7 +16,7 @@ from symid.model import Model
 GROWTH = 30.0
 """A piece is followed as long as a difference of its states grows no more than so many times: beyond that, a fit of its
 parameters has many optima (Ribeiro et al. 2020). A free pendulum comes there after thirty wide swings."""
-SHORTEST = 2.0
+SHORTEST = 1.0
 """Pieces last at least so many seconds at the pace of one: shorter ones hide losses behind their initial states."""
 SMALL = 1e-6
 """The difference that is followed, as a part of how much each state moves."""

@@ -241,3 +241,18 @@ def test_two_gliders_that_lose_energy_lose_each_by_its_own_plain_law():
     made = si.Recording(name="gliders", time=t, channels=channels, units=dict.fromkeys(channels, "m"))
     found = si.diagnose(m, made, fit_window=(0, 20), held_out=(20, 29.9))
     assert {f"{e.name}@{e.location}" for e in found.effects} == {"viscous_friction@left", "viscous_friction@right"}
+
+
+def test_a_motion_that_nothing_can_drive_is_free_whether_that_is_said_or_not():
+    m = slide()
+    del m.components["u"], m.components["balance"]
+    m.balance = si.Equation(MASS * m.v.dot + m.c * m.v + m.k * m.x)
+    rng, t = np.random.default_rng(3), np.arange(0, 30, 0.02)
+
+    def rates(time, s):
+        return [s[1], (-STIFFNESS * s[0] - 0.06 * s[1] - 2.0 * s[0] ** 3) / MASS]
+
+    x = solve_ivp(rates, (0, 30), [0.6, 0.0], t_eval=t, rtol=1e-9, atol=1e-11).y[0] + 5e-4 * rng.standard_normal(t.size)
+    made = si.Recording(name="slide", time=t, channels={"slide": x}, units={"slide": "m"})
+    said, unsaid = (si.diagnose(m, made, fit_window=(0, 20), held_out=(20, 29.9), driven=d) for d in (False, True))
+    assert said.words == unsaid.words and [e.name for e in said.effects] == ["cubic_stiffness"]

@@ -33,7 +33,7 @@ def fitted_as_given(task: Task, plain: Data, fits: Fitting) -> tuple[Task, Data,
     """
     found = fitted_in_pieces(task, plain, fits)
     data, fit = found[0]
-    if not data.driven or fit.kalman_gain is not None or data.filter is not None or _near(data, fit):
+    if not task.moved or fit.kalman_gain is not None or data.filter is not None or _near(data, fit):
         return task, plain, found
     lasts = followed(task.model, plain, fit, task.start, _near)
     if lasts is None:
