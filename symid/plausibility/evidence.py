@@ -97,9 +97,9 @@ class Witness:
     def _least(self, measure, change: Change) -> float:
         with np.errstate(all="ignore"):
             found = [measure(change, p) for p in self._first()]
-            if not np.nanmin(found, initial=np.inf) <= NOTHING:
+            if not any(v <= NOTHING for v in found):
                 found += [measure(change, p) for p in self._other(change)]
-        return float(np.nanmin(found)) if np.isfinite(found).any() else np.inf
+        return min((float(v) for v in found if np.isfinite(v)), default=np.inf)
 
     def _first(self) -> list[FloatArray]:
         """First values: guesses or zero; of lags, and where the equations are not linear in all, several."""

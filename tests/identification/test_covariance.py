@@ -143,7 +143,7 @@ def test_effects_of_very_different_size_are_both_determined(level):
 @pytest.mark.parametrize(("apart", "determined"), [(1e-3, True), (1e-5, True), (1e-9, False), (0.0, False)])
 def test_shapes_that_are_nearly_alike(apart, determined):
     """g = f + a little else: the sum alone is determined where the rest is rounding."""
-    r = recording(9, like=lambda f, g: f + apart * g)
+    r = recording(10, like=lambda f, g: f + apart * g)
     solution = si.Identification(regression(lambda m: (m.a * m.f + m.b * m.g, m.a * m.f + m.b * m.g)), r).solve()
     errors = solution.with_errors("white").errors
     assert (errors.null.shape[1] == 0) == determined
