@@ -158,7 +158,7 @@ def _of_rig(path: Path, arguments: argparse.Namespace):
     given = [f"--{k}" for k in ("body", "controller") if getattr(arguments, k) is not None]
     if given:
         raise DiagnosisError(f"{given[0]} describes a standing person and --rig a rig; give one of them")
-    _refuse_odd_noise(arguments)
+    _check_noise(arguments)
     case = rig_case(
         path,
         arguments.rig,
@@ -189,7 +189,7 @@ def _of_person(path: Path, arguments: argparse.Namespace):
         raise DiagnosisError(
             "--friction belongs to --rig; a standing person's feedback holds any viscous friction already"
         )
-    _refuse_odd_noise(arguments)
+    _check_noise(arguments)
     model = build_model(arguments.body, arguments.controller)
     recording = read_recording(path, allow_gaps=arguments.allow_gaps, columns=arguments.columns)
     _warn_of_mistakes(model, recording)
@@ -237,7 +237,7 @@ def _is_number(word: str) -> bool:
         return False
 
 
-def _refuse_odd_noise(arguments: argparse.Namespace) -> None:
+def _check_noise(arguments: argparse.Namespace) -> None:
     from symid.errors import DiagnosisError
 
     if arguments.sensor_noise is not None and not 0 < arguments.sensor_noise < 1:

@@ -21,7 +21,7 @@ from symid.discrepancy.prove.evidence import tested
 from symid.discrepancy.say.diagnosis import Diagnosis, finding
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.say.words import Story, words
-from symid.discrepancy.task import Part, Task, listed_suspects, refuse_odd_options, task_of
+from symid.discrepancy.task import Part, Task, listed_suspects, check_options, task_of
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
 from symid.estimation.measurement import fits_of
@@ -82,7 +82,7 @@ def diagnose(
     >>> found                                                                                    # doctest: +SKIP
     <Diagnosis: missing_physics: coulomb_friction at joint2>
     """
-    refuse_odd_options(sensor_noise, filter, threads)
+    check_options(sensor_noise, filter, threads)
     named = listed_suspects(suspects)
     hold_blas_memory(threads)
     task = task_of(
@@ -115,7 +115,7 @@ def diagnose(
         return fits_of(task.model, task.recording, *window, plain, checked.filter, checked.inputs, start, checked.known)
 
     task, plain, possible = fitted_as_given(task, plain, fits)
-    pieces_of = task.segment_length if task.segment_length != segment_length else None
+    piece_seconds = task.segment_length if task.segment_length != segment_length else None
     possible = [(data, with_likeliest_jumps(given, fit, data)) for data, fit in possible]
     data, fit = possible[0]
     pool = list(suspects_of(task.model, sizes_of(fit, data))) if named is None else named
@@ -130,5 +130,7 @@ def diagnose(
 
     # Say: the verdict, and what a reader should know.
     verdict, effects, equivalent = judge(evidence, search, checked)
-    text = words(Story(verdict, effects, equivalent, ranking, evidence, checked, search.base, search.data, pieces_of))
+    text = words(
+        Story(verdict, effects, equivalent, ranking, evidence, checked, search.base, search.data, piece_seconds)
+    )
     return finding(verdict, effects, equivalent, ranking, search.base, evidence, checked, text)

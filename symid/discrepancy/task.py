@@ -81,11 +81,11 @@ def task_of(subject: Model | Solution, recording: Recording | None, fit_window: 
     }
     model = with_places(model.simulated("diagnose"))
     task = Task(model, recording, fit_window, start={**values, **start}, values=values, **others)
-    _refuse_odd(task)
+    _check_parts(task)
     return task
 
 
-def _refuse_odd(task: Task) -> None:
+def _check_parts(task: Task) -> None:
     """Windows are two times or a label, lengths are numbers, and a piece has some samples."""
     for name in ("fit_window", "held_out"):
         part = getattr(task, name)
@@ -110,7 +110,7 @@ def listed_suspects(given: object) -> list[Suspect] | None:
     return [checked.kind(one, Suspect, "diagnose: one of the suspects", DiagnosisError) for one in given]
 
 
-def refuse_odd_options(noise: object, filter: object, threads: object) -> None:
+def check_options(noise: object, filter: object, threads: object) -> None:
     """DiagnosisError for options of another kind, and for a noise of the sensors that is no positive number."""
     checked.whole(threads, "diagnose: threads", DiagnosisError, least=1, most=MOST_THREADS)
     checked.kind(filter, (ZeroPhase, type(None)), "diagnose: filter", DiagnosisError)

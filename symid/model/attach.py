@@ -35,7 +35,7 @@ def hint(part: Any) -> str:
 def completed(model: Model, part: Component, name: str) -> Component:
     """The part with its name, its expression as SymPy, and defaults taken from its state."""
     changes: dict[str, Any] = {"name": name}
-    refuse_odd_name(model, name)
+    refuse_unusable_name(model, name)
     if isinstance(part, (Expression, Equation, Output)):
         changes["expr"] = _expression(model, part.expr, name)
     if isinstance(part, Output):
@@ -57,7 +57,7 @@ def completed(model: Model, part: Component, name: str) -> Component:
     return replace(part, **changes)
 
 
-def refuse_odd_name(model: Model, name: str) -> None:
+def refuse_unusable_name(model: Model, name: str) -> None:
     """Names stand in generated code and in files: they are identifiers as Python reads them, or indices behind one."""
     if not (name.isidentifier() and name.isprintable() and unicodedata.normalize("NFKC", name) == name):
         raise ModelError(

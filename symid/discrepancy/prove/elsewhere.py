@@ -14,6 +14,7 @@ from symid.estimation.fit import Fit, Fitter
 from symid.estimation.free_run import FreeRun, with_states_of
 
 ITERATIONS = 40
+"""Of the fit to the held-out data, as of any complete refit."""
 
 
 def elsewhere(fit: Fit, held_out: Data, runs: Mapping[str, FreeRun]) -> Test | None:
