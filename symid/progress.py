@@ -7,7 +7,10 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import wraps
+from typing import Any, TypeVar, cast
 
+Function = TypeVar("Function", bound=Callable[..., object])
 SILENCE_S = 4.5
 """After this long without a line one is printed: at least one every five seconds."""
 
@@ -79,3 +82,28 @@ def alive(what: Callable[[], str]) -> Iterator[None]:
         ended.set()
         _speakers.remove(ended)
         watcher.join()
+
+
+def kept_alive(first: str) -> Callable[[Function], Function]:
+    """For a function that tells what it does through its argument `progress`: its last line is said by `alive`.
+
+    Parameters
+    ----------
+    first : what it does until it tells something.
+    """
+
+    def around(function: Function) -> Function:
+        @wraps(function)
+        def called(*arguments: Any, progress: Callable[[str], None] = lambda line: None, **options: Any) -> Any:
+            lately = [first]
+
+            def told(line: str) -> None:
+                lately.append(line)
+                progress(line)
+
+            with alive(lambda: lately[-1]):
+                return function(*arguments, progress=told, **options)
+
+        return cast("Function", called)
+
+    return around

@@ -49,9 +49,8 @@ def compare(solutions: Mapping[str, Solution], *, held_out: tuple[float, float] 
     >>> list(si.compare(two).index)
     ['free', 'fixed']
     """
-    checked.kind(solutions, Mapping, "compare", ModelError)
-    if not solutions:
-        raise ModelError("compare: no solution was given; give a dictionary of name -> Solution")
+    if not isinstance(solutions, Mapping) or not solutions:
+        raise ModelError('compare: give solutions by name, as in {"PD": solution, "with delay": other}')
     for s in solutions.values():
         checked.kind(s, Solution, "compare", ModelError)
     held_out = held_out if held_out is None else checked.window(held_out, "compare: held_out", ModelError)

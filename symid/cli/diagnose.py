@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 from symid.cli.options import add_recording_arguments, refuse_missing_folders, tell_files
@@ -153,6 +154,7 @@ def _of_case(directory: Path, arguments: argparse.Namespace):
 
 def _of_rig(path: Path, arguments: argparse.Namespace):
     from symid.cases import diagnose_case, rig_case
+    from symid.cli.options import with_inputs
     from symid.errors import DiagnosisError
 
     given = [f"--{k}" for k in ("body", "controller") if getattr(arguments, k) is not None]
@@ -169,6 +171,7 @@ def _of_rig(path: Path, arguments: argparse.Namespace):
         allow_gaps=arguments.allow_gaps,
         columns=arguments.columns,
     )
+    case = replace(case, recording=with_inputs(case.recording, case.model, arguments.fill_inputs))
     _warn_of_mistakes(case.model, case.recording)
     if arguments.held_out_csv and case.held_out_window is None:
         raise DiagnosisError("--held-out-csv needs a held-out window; give --held-out T0 T1, or a label")
@@ -177,7 +180,7 @@ def _of_rig(path: Path, arguments: argparse.Namespace):
 
 def _of_person(path: Path, arguments: argparse.Namespace):
     from symid.cases.case import parts_of
-    from symid.cli.options import build_model
+    from symid.cli.options import build_model, with_inputs
     from symid.discrepancy import diagnose
     from symid.errors import DiagnosisError
     from symid.recording import read_recording
@@ -192,6 +195,7 @@ def _of_person(path: Path, arguments: argparse.Namespace):
     _check_noise(arguments)
     model = build_model(arguments.body, arguments.controller)
     recording = read_recording(path, allow_gaps=arguments.allow_gaps, columns=arguments.columns)
+    recording = with_inputs(recording, model, arguments.fill_inputs)
     _warn_of_mistakes(model, recording)
     fit, held_out = parts_of(
         recording, _part("--window", arguments.window), _part("--held-out", arguments.held_out), str(path)

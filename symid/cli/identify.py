@@ -14,6 +14,7 @@ from symid.cli.options import (
     refuse_missing_folders,
     show_iteration,
     tell_files,
+    with_inputs,
 )
 from symid.deadline import START_LIMIT_S
 from symid.progress import say
@@ -78,6 +79,7 @@ def run(arguments: argparse.Namespace) -> int:
     scheme = scheme_by_name(arguments.scheme)
     model = build_model(arguments.body, arguments.controller)
     recording = read_recording(arguments.recording, allow_gaps=arguments.allow_gaps, columns=arguments.columns)
+    recording = with_inputs(recording, model, arguments.fill_inputs)
     if arguments.held_out:
         measure(model, recording, arguments.held_out)  # refused now, not after the solve
     noise = {"torque": arguments.noise} if arguments.episodes > 1 else {}

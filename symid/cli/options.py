@@ -61,6 +61,20 @@ def add_recording_arguments(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="accept blank cells, missing rows and uneven times, and give what is missing no weight",
     )
+    parser.add_argument(
+        "--fill-inputs",
+        type=float,
+        metavar="S",
+        help="interpolate what drives the model where it is missing, for at most so long, s (needs --allow-gaps)",
+    )
+
+
+def with_inputs(recording, model, seconds: float | None):
+    """The recording with the gaps of what drives the model filled, where that was asked for."""
+    from symid.recording import fill_gaps
+
+    channels = [u.channel for u in model.inputs.values() if u.channel in recording.channels]
+    return recording if seconds is None or not channels else fill_gaps(recording, seconds, *channels)
 
 
 def add_model_arguments(parser: argparse.ArgumentParser, required: bool = True) -> None:

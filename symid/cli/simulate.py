@@ -139,12 +139,14 @@ def _model_of_plan(system: dict, channels: list[str]):
 
 def _platform(arguments: argparse.Namespace):
     """The motion to use, and duration [s] and rate [Hz] where the command line gives none."""
-    from symid.recording import read_recording
+    from symid.recording import fill_gaps, read_recording
     from symid.synthetic import DURATION, RATE, GivenPlatform
 
     if arguments.platform is None:
         return None, DURATION, RATE
     recording = read_recording(arguments.platform, allow_gaps=arguments.allow_gaps, columns=arguments.columns)
+    if arguments.fill_inputs is not None:
+        recording = fill_gaps(recording, arguments.fill_inputs, "platform_acceleration")
     start, end = recording.interval
     moving = GivenPlatform(recording.time - start, recording["platform_acceleration"])
     return moving, end - start, 1 / recording.even_step("simulate --platform")

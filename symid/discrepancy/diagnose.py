@@ -29,11 +29,13 @@ from symid.estimation.pieces import free_pieces
 from symid.estimation.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.model import Model
+from symid.progress import kept_alive
 from symid.recording import Recording
 from symid.threads import hold_blas_memory, one_blas_thread
 
 
 @one_blas_thread
+@kept_alive("the model as given is fitted for a diagnosis")
 def diagnose(
     subject: Model | Solution,
     recording: Recording | None = None,

@@ -65,14 +65,18 @@ def excess_note(solution: Solution) -> list[str]:
     ratio = excess(solution.transcription, solution.result.z)
     if not ratio.max(initial=0.0) > SAID:
         return []
-    return [f"{_excess_said(solution)}: noise with a memory, process noise, missing physics, or another optimum"]
+    return [f"T{_excess_said(solution)[1:]}: noise with a memory, process noise, missing physics, or another optimum"]
 
 
 def _excess_said(solution: Solution) -> str:
     ratio = excess(solution.transcription, solution.result.z).max(axis=0)
     output = list(solution.model.outputs.values())[int(np.argmax(ratio))]
     name = output.channel.replace("_", " ")
-    return f"the error of {name} is {ratio.max():.2g} times what a free smoother leaves of the recording"
+    return f"the error of {name} is {_times(ratio.max())} times what a free smoother leaves of the recording"
+
+
+def _times(ratio: float) -> str:
+    return f"{ratio:.0f}" if ratio >= 10 else f"{ratio:.2g}"
 
 
 def _values(solution: Solution, values: np.ndarray) -> str:

@@ -242,6 +242,8 @@ class Solution:
         """
         from symid.identification.problem import Identification
 
+        if isinstance(window, Recording):
+            raise SolveError("fit_on: give a window first, and then a recording: fit_on((0, 10), other)")
         window = checked.window(window, "fit_on: window", SolveError)
         checked.kind(recording, (Recording, type(None)), "fit_on: recording", SolveError)
         known = {name: value for name, value in self.values.items() if "[" not in name}

@@ -75,7 +75,8 @@ def verify(solution: Solution) -> Verification:
             f"{str(optimality).splitlines()[2].strip()}"
         )
     if departs:
-        sentences.append(_said_of_departure(solution, departures))
+        coarse = mesh is not None and bool((mesh["std_errors"].abs() > COARSE).any())
+        sentences.append(_said_of_departure(solution, departures, coarse))
     sentences += said_of_optimum(solution) + _said_of_mesh(solution, mesh)
     return Verification(mesh, departures, departs, optimality, tuple(sentences))
 
@@ -132,7 +133,7 @@ def _allowed(solution: Solution) -> list[np.ndarray]:
     return [np.maximum(DEPARTS * s, 3 * rms) for s in size]
 
 
-def _said_of_departure(solution: Solution, departures) -> str:
+def _said_of_departure(solution: Solution, departures, coarse: bool) -> str:
     worst = np.max(departures, axis=0)
     parts = [
         f"{name} by up to {x:.3g} {unit_symbol(y.unit)}".strip()
@@ -145,6 +146,8 @@ def _said_of_departure(solution: Solution, departures) -> str:
     ) + (
         "Nor does it follow from one sample to the next: the mesh is far too coarse"
         if followed is None
+        else f"Begun anew every {followed:.3g} s it follows: the mesh is too coarse for more than that, see below"
+        if coarse
         else f"Begun anew every {followed:.3g} s it follows: the motion solves the equations, but the model with these "
         "parameters is unstable, and small errors grow"
     )

@@ -58,8 +58,8 @@ def typical_stretch(solution: Solution, episode: int = 0) -> tuple[float, float]
     if 2 * count >= len(time):
         return None
     error = np.stack([frame[name] - frame[f"{name} recorded"] for name in solution.model.outputs])
-    square = np.nanmean(error**2 / np.maximum(np.nanmean(error**2, axis=1, keepdims=True), 1e-300), axis=0)
-    share = np.convolve(np.nan_to_num(square, nan=1.0), np.full(count, 1 / count), "valid")
+    square = error**2 / np.maximum(np.nanmean(error**2, axis=1, keepdims=True), 1e-300)
+    share = np.convolve(np.nan_to_num(square, nan=1.0).mean(axis=0), np.full(count, 1 / count), "valid")
     first = int(np.argmin(np.abs(share - 1)))
     return float(time[first]), float(time[first + count - 1])
 

@@ -2,6 +2,7 @@
 
 from symid.recording.body import read_body
 from symid.recording.columns import load_columns
+from symid.recording.join import join
 from symid.recording.markers import joint_angles
 from symid.recording.prepare import differentiate, fill_gaps, lowpass, rate_name, rate_unit, resample
 from symid.recording.read import read_recording
@@ -15,6 +16,7 @@ __all__ = [
     "fill_gaps",
     "find_dropouts",
     "find_spikes",
+    "join",
     "joint_angles",
     "load_columns",
     "lowpass",

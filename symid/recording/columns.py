@@ -150,6 +150,8 @@ def _column(c: RawColumn) -> Column:
     name = "_".join(c.text.split())
     if name in LABELS:
         return Column(name, name, None)
+    if c.dated:
+        return Column(c.text, "time", unit_of("s"))
     if c.unit is not None:
         unit = unit_of(c.unit, name)
         is_time = name.lower() in ("t", "time", "time_s") and unit.si == "s"

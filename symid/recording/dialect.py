@@ -82,9 +82,11 @@ def bare(unit: str) -> str:
 
 
 def are_units(cells: Sequence[str]) -> bool:
-    """Whether a line holds units and nothing else; some cells may be blank."""
+    """Whether a line holds units: no numbers but 1, most of them known (``%MVC`` may be among them), some blank."""
     found = [bare(cell) for cell in cells if cell.strip()]
-    return any(not _NUMBER["."].fullmatch(cell) for cell in found) and all(map(_is_unit, found))
+    written = [cell for cell in found if cell != "1"]
+    numbers = any(n.fullmatch(cell) for cell in written for n in _NUMBER.values())
+    return bool(written) and not numbers and 2 * sum(map(_is_unit, found)) > len(found)
 
 
 def best_header(rows: Sequence[Sequence[str]], number: re.Pattern = _NUMBER["."]) -> int | None:

@@ -2,7 +2,6 @@
 
 import csv
 import os
-import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import islice
@@ -10,15 +9,13 @@ from pathlib import Path
 
 from symid import checked
 from symid.errors import RecordingError, SymidError
+from symid.recording.dates import is_moment
 from symid.recording.dialect import bare, dialect_of
 from symid.recording.names import LABELS, ROW_NUMBERS, Column, contradictions, measured_column
 from symid.units import HOW_NAMED, nearest
 
 MOST_NAMED = 12
 """Columns that a message lists."""
-DATED = ("time", "date", "datetime", "date_time", "date time", "timestamp")
-"""Names, in small letters, of a column that may hold dates."""
-_DATE = re.compile(r"\d{4}-\d\d-\d\d")
 MAP_THEM = f"{HOW_NAMED}; or map the columns: read_recording(columns=...), --columns MAP.toml"
 
 
@@ -66,11 +63,9 @@ def faults_of_text(path: Path) -> Iterator[None]:
 
 
 def is_dated(path: Path) -> bool:
-    """Whether the time of a text file is told by dates and times of day."""
-    header, *first = (cells for _, cells in islice(file_rows(path), 2))
-    return bool(first) and any(
-        name.lower() in DATED and _DATE.match(cell) for name, cell in zip(header, first[0], strict=False)
-    )
+    """Whether the time of a text file may be told by dates and times of day."""
+    _, *first = (cells for _, cells in islice(file_rows(path), 2))
+    return bool(first) and any(map(is_moment, first[0]))
 
 
 def require_file(path: Path) -> None:

@@ -12,26 +12,30 @@ import numpy as np
 from symid import checked
 from symid.errors import RecordingError
 from symid.recording.recording import Recording
+from symid.recording.timing import MOST_SAMPLES
 from symid.units import FloatArray, known_unit
 
-MOST_SAMPLES = 10**8
-"""More samples than this are rather a fault of the time column."""
 _PASSBAND = 0.8  # of the new Nyquist frequency is kept when downsampling
 _ANTI_ALIAS_ORDER = 8  # of the Butterworth filter, before it runs in both directions
 
 
-def fill_gaps(recording: Recording, max_gap_s: float) -> Recording:
+def fill_gaps(recording: Recording, max_gap_s: float, *channels: str) -> Recording:
     """Fill missing rows and blank cells by cubic Hermite interpolation (PCHIP), onto an even grid.
 
     Parameters
     ----------
     max_gap_s : longest stretch without a value [s] that may be filled
+    channels : of which; all, if none is named. What is missing in the others stays so: an input must be known
+        throughout, an output need not be
 
     Raises
     ------
     RecordingError
-        If a gap is longer, or a channel begins or ends with a missing value.
+        If there is no such channel, a gap is longer, or a channel begins or ends with a missing value.
     """
+    chosen = channels or tuple(recording.channels)
+    for name in chosen:
+        recording[name]
     max_gap_s = checked.number(max_gap_s, "fill_gaps: max_gap_s", RecordingError)
     filled = 0
 
@@ -42,15 +46,18 @@ def fill_gaps(recording: Recording, max_gap_s: float) -> Recording:
         channels = {}
         for name in part.channels:
             good = np.isfinite(part[name])
-            _check_gaps(part, name, good, max_gap_s)
-            channels[name] = _pchip(part.time[good], part[name][good], time)
+            channels[name] = np.full(time.size, np.nan)
+            if name in chosen:
+                _check_gaps(part, name, good, max_gap_s)
+                channels[name] = _pchip(part.time[good], part[name][good], time)
+                filled += time.size - int(good.sum())
             kept = np.searchsorted(time, part.time[good] - step / 2)
             channels[name][kept] = part[name][good]  # a value that was measured stays as it was
-            filled += time.size - int(good.sum())
         return _resampled(part, time, channels)
 
     mended = _by_segment(recording, mend)
-    return mended.noted(f"gaps up to {max_gap_s:g} s filled by PCHIP: {filled} value(s)")
+    of = f" of {', '.join(channels)}" if channels else ""
+    return mended.noted(f"gaps{of} up to {max_gap_s:g} s filled by PCHIP: {filled} value(s)")
 
 
 def resample(recording: Recording, rate_hz: float) -> Recording:

@@ -3,6 +3,7 @@
 import os
 import warnings
 from collections.abc import Mapping
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -14,17 +15,21 @@ from symid.recording.cells import NO_WEIGHT, read_table
 from symid.recording.header import file_rows, is_dated, read_header, require_file
 from symid.recording.names import CELSIUS, Column
 from symid.recording.recording import Recording
+from symid.recording.rows import Table, with_missing, without_repeats
 from symid.recording.spikes import find_dropouts, find_spikes
 from symid.recording.timing import on_grid, time_fault
-from symid.units import FloatArray
+from symid.units import FloatArray, IntArray
 
 PLAIN = (".csv", ".txt", "")
 """Endings of comma-separated text; an ending that no reader has is taken for it, too."""
+EPOCH = 946684800.0, 4102444800.0
+"""Seconds since 1970 of the years 2000 and 2100: a first time between them is a date, not a duration."""
 _CURES = {
     "gap": "read with allow_gaps=True (--allow-gaps on the command line), which gives what is missing no weight "
     "(or mark the parts in a 'segment' column)",
     "uneven": "read with allow_gaps=True (--allow-gaps on the command line)",
-    "repeated": "remove the row, or mark separate runs in a 'segment' column",
+    "repeated": "remove the row, or mark separate runs in a 'segment' column (a row that repeats the one before in "
+    "every cell is left out with allow_gaps=True, --allow-gaps)",
     "backwards": "sort the rows, or mark separate runs in a 'segment' column",
     "single": "record more, or remove the row",
 }
@@ -79,10 +84,10 @@ def read_recording(
         table = read_table(path, found, allow_gaps)
     else:
         found, table, left = _read_other(path, columns, allow_gaps)
-    recording = _assemble(path, found, table, allow_gaps)
+    recording, rows = _assemble(path, found, table, allow_gaps)
     if left:
         recording = recording.noted(f"left out, their unit or length is another: {', '.join(left)}")
-    remarks = _spike_remarks(path, found, recording)
+    remarks = _spike_remarks(path, found, recording, rows)
     for remark in remarks:
         warnings.warn(remark, RecordingWarning, stacklevel=2)
     return recording.noted(*(f"warning: {remark}" for remark in remarks))
@@ -121,8 +126,8 @@ def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column
     return columns, table, left
 
 
-def _assemble(path: Path, columns: list[Column], table: dict[str, np.ndarray], allow_gaps: bool) -> Recording:
-    """The Recording in SI, its times checked run by run."""
+def _assemble(path: Path, columns: list[Column], table: Table, allow_gaps: bool) -> tuple[Recording, IntArray]:
+    """The Recording in SI, its times checked run by run; and for each sample its row in the file (from 1), or 0."""
     units = {c.name: c.unit for c in columns if c.unit}
     history = [f"read {path.name}: {table['time'].size} samples"]
     for name, unit in units.items():
@@ -133,9 +138,11 @@ def _assemble(path: Path, columns: list[Column], table: dict[str, np.ndarray], a
             history.append(f"{name} converted from {unit.text} to {unit.si}: x {unit.factor:.9g}")
             table[name] = table[name] * unit.factor
     text = next(column.text for column in columns if column.name == "time")
-    time, note = _checked_time(path, text, table, allow_gaps)
+    table, rows, notes = _mended(path, table) if allow_gaps else (table, np.arange(table["time"].size), [])
+    history += _from_epoch(table) + notes
+    time, note = _checked_time(path, text, table, rows, allow_gaps)
     names = [name for name in units if name != "time"]
-    return Recording(
+    recording = Recording(
         name=path.stem,
         time=time,
         channels={name: table[name] for name in names},
@@ -145,28 +152,51 @@ def _assemble(path: Path, columns: list[Column], table: dict[str, np.ndarray], a
         split=table.get("split"),
         source=str(path),
     )
+    return recording, rows + 1
+
+
+def _mended(path: Path, table: Table) -> tuple[Table, IntArray, list[str]]:
+    """The table without rows that repeat the one before, and with those that are missing; the row (from 0) that each of
+    its rows was, or -1; and what was done.
+    """
+    count = table["time"].size
+    table, kept = without_repeats(table)
+    notes = [f"{count - kept.size} rows left out that repeat the one before"] if kept.size < count else []
+    table, place, put_in = with_missing(table, _runs(path, table, kept))
+    if put_in.any():
+        notes.append(f"{put_in.sum()} rows put in without values, where the file has none")
+    return table, np.where(place >= 0, kept[place], -1), notes
+
+
+def _from_epoch(table: Table) -> list[str]:
+    """Times since 1970 counted from the first one, in place; and what to say of it."""
+    start = float(table["time"][0])
+    if not EPOCH[0] < start < EPOCH[1]:
+        return []
+    table["time"] = np.round(table["time"] - start, 6)  # a double holds no more digits of such times
+    return [f"time counts from the first sample, {datetime.fromtimestamp(start, UTC):%Y-%m-%d %H:%M:%S} UTC"]
 
 
 def _checked_time(
-    path: Path, text: str, table: dict[str, np.ndarray], allow_gaps: bool
+    path: Path, text: str, table: Table, rows: IntArray, allow_gaps: bool
 ) -> tuple[FloatArray, str | None]:
     """Times of all rows [s], moved onto an even grid where they are nearly so, and a note."""
     time = table["time"].copy()
     largest = 0.0
-    for run in _runs(path, table):
+    for run in _runs(path, table, rows):
         fault = time_fault(time[run])
         if fault is None:
             time[run], change = on_grid(time[run])
             largest = max(largest, change)
         elif not (allow_gaps and fault.kind in ("gap", "uneven")):
-            row = run.start + fault.sample + 1
+            row = rows[run.start + fault.sample] + 1
             raise RecordingError(f"{path}: column '{text}', {_place(path, row)}: {fault.text}; {_CURES[fault.kind]}")
     if largest == 0.0:
         return time, None
     return time, f"times moved onto an even grid, by at most {largest:.2g} s"
 
 
-def _runs(path: Path, table: dict[str, np.ndarray]) -> list[slice]:
+def _runs(path: Path, table: Table, rows: IntArray) -> list[slice]:
     """Rows that belong together; refused where a segment's rows are not all in one place."""
     count = table["time"].size
     labels = [table[name] for name in ("split", "segment") if name in table]
@@ -176,7 +206,7 @@ def _runs(path: Path, table: dict[str, np.ndarray]) -> list[slice]:
     seen = set()
     for run in runs:
         if keys[run.start] in seen:
-            row = run.start + 1
+            row = rows[run.start] + 1
             raise RecordingError(
                 f"{path}: {_place(path, row)} goes back to segment "
                 f"{' '.join(map(str, keys[run.start]))}; keep the rows of a segment together"
@@ -193,7 +223,7 @@ def _place(path: Path, row: int, more: str = "") -> str:
     return f"row {row} ({', '.join(facts)})" if facts else f"row {row}"
 
 
-def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> list[str]:
+def _spike_remarks(path: Path, columns: list[Column], recording: Recording, rows: IntArray) -> list[str]:
     """What stands out in the channels, by row."""
     texts = {column.name: column.text for column in columns}
     remarks = []
@@ -209,9 +239,9 @@ def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> l
             first, last = gone[0]
             more = f", and at {len(gone) - 1} more places" if gone[1:] else ""
             remarks.append(
-                f"{path}: column '{texts[name]}', {_place(path, first + 1, f'time {recording.time[first]:g} s')} to "
-                f"row {last}{more}: jumps to {' '.join(shown(name, values[first]))} and back, as where a value "
-                "is missing; leave such cells empty and read with allow_gaps=True (--allow-gaps)"
+                f"{path}: column '{texts[name]}', {_place(path, rows[first], f'time {recording.time[first]:g} s')} to "
+                f"row {rows[last - 1]}{more}: jumps to {' '.join(shown(name, values[first]))} and back, as where a "
+                "value is missing; leave such cells empty and read with allow_gaps=True (--allow-gaps)"
             )
         spikes = [
             (float(ratio), run.start + int(i))
@@ -220,13 +250,13 @@ def _spike_remarks(path: Path, columns: list[Column], recording: Recording) -> l
         ]
         if spikes:
             ratio, worst = max(spikes)
-            others = sorted(i + 1 for _, i in spikes if i != worst)
+            others = sorted(rows[i] for _, i in spikes if i != worst)
             more = f"; likewise row {', '.join(map(str, others[:5]))}" if others else ""
             more += f" and {len(others) - 5} more" if others[5:] else ""
             there, before, after, unit = shown(name, *values[[worst, worst - 1, worst + 1]])
             remarks.append(
                 f"{path}: column '{texts[name]}', "
-                f"{_place(path, worst + 1, f'time {recording.time[worst]:g} s')}: "
+                f"{_place(path, rows[worst], f'time {recording.time[worst]:g} s')}: "
                 f"{there} {unit} stands out between {before} and {after}, {ratio:.0f} times more "
                 f"than is usual there{more}; keep it out of the window, or correct it"
             )

@@ -87,7 +87,10 @@ class Recording:
         columns = {**self.channels, "segment": self.segment, "split": self.split}
         for name, column in columns.items():
             if column is not None and column.shape != (count,):
-                raise RecordingError(f"{self.name}: '{name}' has shape {column.shape}, time has ({count},)")
+                raise RecordingError(
+                    f"{self.name}: '{name}' has shape {column.shape}, time has ({count},); symid.recording.join "
+                    "takes the channels of a recording with other times"
+                )
         for name in self.channels:
             if name not in self.units:
                 raise RecordingError(f"{self.name}: channel '{name}' has no unit")

@@ -4,10 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symid.units import FloatArray
+from symid.units import FloatArray, IntArray
 
 JITTER = 0.01
 """Largest departure from an even grid, in steps, that is taken for even."""
+MOST_SAMPLES = 10**8
+"""More samples than this are rather a fault of the time column."""
 _ROUNDING_LIMIT = 0.1  # of a step: times rounded more coarsely than this are refused as uneven
 
 
@@ -32,6 +34,20 @@ def grid_step(time: FloatArray) -> float | None:
     """Step [s] of the even grid that the times of one run lie on, or None if they lie on none."""
     step, departure = _departure(time)
     return step if np.abs(departure).max() <= _tolerance(time, step) else None
+
+
+def missing_steps(time: FloatArray) -> IntArray | None:
+    """Which step of an even clock each time of one run belongs to, from 0 on; None where they lie on none."""
+    steps = np.diff(time)
+    if not steps.size or not steps.min() > 0:
+        return None
+    counts = np.rint(steps / np.median(steps))
+    if counts.min() < 1 or not counts.sum() < MOST_SAMPLES:
+        return None
+    index = np.concatenate([[0], np.cumsum(counts)])
+    step = float(time[-1] - time[0]) / index[-1]
+    departure = np.abs(time - (time[0] + step * index)).max()
+    return index.astype(np.int64) if departure <= _tolerance(time, step) else None
 
 
 def on_grid(time: FloatArray) -> tuple[FloatArray, float]:
@@ -69,8 +85,8 @@ def time_fault(time: FloatArray) -> TimeFault | None:
         step, departure = _departure(time)
         i = int(np.argmax(np.abs(departure)))
         text = (
-            f"time is uneven: {time[i]:.15g} s is {100 * abs(departure[i]) / step:.2g} % of a step "
-            f"of {step:g} s away from an even grid"
+            f"time is uneven: {time[i]:.15g} s is {abs(departure[i]) / step:.2f} steps of {step:g} s away from an "
+            "even grid"
         )
         return TimeFault("uneven", i, text)
     return None

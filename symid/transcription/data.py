@@ -144,7 +144,8 @@ def measure(model: Model, recording: Recording, window: tuple[float, float] | No
             raise TranscriptionError(
                 f"the input '{u.name}' is missing in {len(gaps)} samples of {recording.name}, first at "
                 f"{recording.time[gaps[0]]:g} s: an input must be known throughout; use "
-                "symid.recording.fill_gaps, or declare it as a Control that is estimated"
+                f"symid.recording.fill_gaps(recording, SECONDS, '{u.channel}') (--fill-inputs SECONDS on the command "
+                "line), or declare it as a Control that is estimated"
             )
     channels = {
         name: filled(recording.time, recording.channels[name], name, recording.name)

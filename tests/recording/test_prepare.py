@@ -33,7 +33,8 @@ def with_holes(tmp_path) -> Recording:
 
 def test_gaps_are_filled_where_allowed(tmp_path):
     holed = with_holes(tmp_path)
-    assert not holed.complete and holed.sampling_interval is None and len(holed) == 97
+    assert not holed.complete and holed.sampling_interval == pytest.approx(0.01) and len(holed) == 100
+    assert "3 rows put in without values" in holed.history[-1]
     whole = fill_gaps(holed, max_gap_s=0.05)
     assert whole.complete and len(whole) == 100
     truth = 3 * DEGREE * np.sin(0.05 * np.arange(100))
@@ -74,10 +75,11 @@ def test_gaps_that_are_too_long_or_at_an_end_are_refused(tmp_path):
 
 def test_an_incomplete_recording_is_refused_by_the_other_verbs(tmp_path):
     holed = with_holes(tmp_path)
+    uneven = Recording("r", np.array([0, 0.1, 0.3]), {"a": np.zeros(3)}, {"a": "m"})
     with pytest.raises(RecordingError, match="window needs evenly spaced samples; use fill_gaps"):
-        holed.window(0, 0.5)
+        uneven.window(0, 0.2)
     for verb in (lambda r: lowpass(r, 5), lambda r: resample(r, 50), lambda r: differentiate(r, "ankle_angle")):
-        with pytest.raises(RecordingError, match="'ankle_angle' has none at 0.6 s; use fill_gaps"):
+        with pytest.raises(RecordingError, match="'ankle_angle' has none at 0.3 s; use fill_gaps"):
             verb(holed)
 
 

@@ -221,7 +221,9 @@ def test_the_command_line_reads_gaps_and_own_names(tmp_path, capsys):
     ]
     assert main(command) == 2
     assert "--allow-gaps" in capsys.readouterr().err
-    assert main([*command, "--allow-gaps"]) == 0
+    assert main([*command, "--allow-gaps"]) == 2
+    assert "platform_acceleration' is missing in 2 samples of own, first at 1 s" in capsys.readouterr().err
+    assert main([*command, "--allow-gaps", "--fill-inputs", "0.1"]) == 0
     assert "Solved" in capsys.readouterr().out
 
 

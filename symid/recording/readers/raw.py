@@ -18,12 +18,14 @@ class RawColumn(NamedTuple):
     """A column as it stands in a file: its name there, its values (N,), and its unit where the file states one.
 
     `fault` says why the values are no numbers: an error if the column is used, and nothing if a mapping leaves it out.
+    `dated` where dates or times of day were given: it is the time, whatever its name.
     """
 
     text: str
     values: np.ndarray
     unit: str | None = None
     fault: str = ""
+    dated: bool = False
 
 
 def library(name: str, path: Path) -> ModuleType:

@@ -11,7 +11,8 @@ import numpy as np
 
 from symid.errors import RecordingError
 from symid.recording.dialect import MISSING, Dialect, are_units, bare, best_header, dialect_of
-from symid.recording.header import DATED, faults_of_text
+from symid.recording.dates import seconds_of
+from symid.recording.header import faults_of_text
 from symid.recording.names import LABELS
 from symid.recording.readers.limits import refuse_huge, refuse_huge_zip
 from symid.recording.readers.raw import RawColumn, cannot_be_read, library
@@ -46,25 +47,12 @@ def _text_column(found: Dialect, name: str, unit: str | None, cells: list[str], 
         try:
             values[i] = np.nan if cell.lower() in MISSING else found.number(cell)
         except ValueError:
-            dated = _from_dates(name, cells)
-            if dated is not None:
-                return dated
+            seconds = seconds_of(cells)
+            if seconds is not None:
+                return RawColumn(name, seconds, "s", dated=True)
             fault = f"column '{name}', row {i + 1} (line {lines[i]}): {cell[:40]!r} is not a number"
             return RawColumn(name, np.array(cells, dtype=str), unit, fault)
     return RawColumn(name, values, unit)
-
-
-def _from_dates(name: str, cells: Any) -> RawColumn | None:
-    """Seconds since the first of dates and times of day (in text: of ISO 8601, others could be read in two ways)."""
-    import pandas as pd
-
-    if name.lower() not in DATED:
-        return None
-    try:
-        times = pd.to_datetime(pd.Series(cells), format="ISO8601", utc=True)
-    except (ValueError, TypeError):
-        return None
-    return RawColumn("time", (times - times.iloc[0]).dt.total_seconds().to_numpy(dtype=float), "s")
 
 
 def read_excel(path: Path) -> list[RawColumn]:
@@ -104,8 +92,10 @@ def _typed_column(name: str, unit: str | None, cells: tuple) -> RawColumn:
     if name == "split":
         return RawColumn(name, np.array(cells, dtype=str))
     if given and all(isinstance(c, date | datetime) for c in given):
-        dated = _from_dates(name, cells)
-        return dated or RawColumn(name, np.array(cells, dtype=str), unit, f"column '{name}' holds dates")
+        seconds = seconds_of(cells) if len(given) == len(cells) else None
+        if seconds is not None:
+            return RawColumn(name, seconds, "s", dated=True)
+        return RawColumn(name, np.array(cells, dtype=str), unit, f"column '{name}' holds dates")
     if given and all(isinstance(c, time | timedelta) for c in given):
         return RawColumn(re.sub(r"\s*[\[(].*", "", name), np.array([_seconds(c) for c in cells]), "s")
     values = np.empty(len(cells))
@@ -149,10 +139,10 @@ def _stored_column(name: str, column: Any) -> RawColumn:
         return RawColumn(name, column.dt.total_seconds().to_numpy(dtype=float), "s")
     try:
         if kind == "M":
-            dated = _from_dates(name, column)
-            if dated is None:
+            seconds = seconds_of(list(column))
+            if seconds is None:
                 raise ValueError("dates")
-            return dated
+            return RawColumn(name, seconds, "s", dated=True)
         if kind == "O" and any(isinstance(cell, str | bytes) for cell in column):
             raise ValueError("text, of which pandas would make numbers")
         return RawColumn(name, column.to_numpy(dtype=float, na_value=np.nan))
