@@ -15,7 +15,8 @@ from symid import checked
 from symid.errors import ModelError
 from symid.identification import Identification, Solution, Solve, Study
 from symid.identification.covariance import ParameterErrors
-from symid.identification.error_models import Errors, bandwidth
+from symid.identification.noise import Errors
+from symid.identification.noise.hac import bandwidth
 from symid.identification.study import Finished, tell
 from symid.recording import Recording
 
@@ -78,7 +79,7 @@ def bootstrap(
     solution : of a problem that was solved. count : draws. seed : of the draws.
     over : "blocks" or "recordings".
     block : samples of a block; by default 1 where the solution's error model is white, else as many
-        as the noise's memory asks for (`error_models.bandwidth`).
+        as the noise's memory asks for (`noise.hac.bandwidth`).
     executor, store, on_finished : as for `Study.run`.
 
     Raises

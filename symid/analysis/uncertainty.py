@@ -13,7 +13,7 @@ from symid import checked
 from symid.errors import ModelError
 from symid.identification import Solution
 from symid.identification.covariance import ParameterErrors
-from symid.identification.error_models import CHOICES
+from symid.identification.noise import CHOICES
 
 ALIKE = 0.95
 """Share of a parameter's variance explained by others from which on the data hardly tell them apart."""

@@ -6,11 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symid.identification import error_models
 from symid.identification.combinations import Combination, combinations, involved
-from symid.identification.error_models import Errors
+from symid.identification.noise import Errors, choose
 from symid.identification.sensitivity import PROBES, Reduced, Sensitivity
-from symid.identification.uneven import by_sample, said
 from symid.ipopt_solver import SolverResult
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
@@ -79,7 +77,7 @@ def parameter_errors(
     penalty: float = 0.0,
     loss: dict[str, float] | None = None,
 ) -> ParameterErrors:
-    """Standard errors by an error model of `error_models`.
+    """Standard errors by an error model of `noise`.
 
     A change of one recorded sample moves the optimum by the inverse of the optimality system times
     the mixed derivative of the objective; noise of the model's covariance is sent through that
@@ -96,14 +94,10 @@ def parameter_errors(
     white = s.gauss_newton
     inverse, null, shared = _determined(white)
     errors = _errors(white, shared, known)
-    model, why = error_models.choose(errors, choice, t.episodes.count)
-    reduced, inverse = (white, inverse) if model == "white" else _exact(s, white, inverse)
+    model = choose(errors, choice, t.episodes.count)
+    reduced, inverse = (white, inverse) if model.name == "white" else _exact(s, white, inverse)
     influences = [g @ inverse for g in s.by_recording(s.weights[:, None] * reduced.slopes, np.sum)]
-    if model == "white" and (doubt := said(errors, influences)):
-        why += f"; {doubt}"
-        total, noise = by_sample(errors, influences)
-    else:
-        total, noise = error_models.covariance(model, errors, influences)
+    total, noise, why = model.covariance(errors, influences)
     total = total + t.information * inverse @ reduced.prior @ inverse
     scale, q = t.layout.parameter_scale, len(t.layout.parameter_names)
     free = ~at_bound[t.layout.offsets[-1] :]
@@ -113,7 +107,7 @@ def parameter_errors(
     )
     directions = np.zeros((q, null.shape[1]))
     directions[free] = null * scale[free, None]
-    return ParameterErrors(full, unit, directions, ~free, model, why, noise, errors)
+    return ParameterErrors(full, unit, directions, ~free, model.name, why, noise, errors)
 
 
 def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:
@@ -172,7 +166,8 @@ def _errors(reduced: Reduced, shared: np.ndarray, known: np.ndarray) -> list[Err
         step = t.program.data[episodes[0]].step
         weights = step * t.program.weights[episodes[0]] * len(episodes)
         slopes, own_slopes = slopes * present[:, :, None], own[r] * present[:, :, None]
-        found.append(Errors(error, slopes, _orthonormal(own_slopes, weights), weights, known[r], present))
+        own_slopes = _orthonormal(own_slopes, weights)
+        found.append(Errors(error, slopes, own_slopes, weights, known[r], present, t.measured[r].step))
     return found
 
 

@@ -8,7 +8,7 @@ import sympy as sm
 from conftest import pendulum, pendulum_recording
 
 import symid as si
-from symid.identification import error_models
+from symid.identification.noise import choose
 from symid.identification.covariance import ParameterErrors, _orthonormal, bound_active, parameter_errors
 from symid.identification.sensitivity import outputs_and_targets
 
@@ -100,7 +100,8 @@ def test_a_coloured_model_sends_the_noise_through_the_exact_curvature():
     assert exact[0, 0] > 0 and not np.allclose(exact, plain, rtol=0.02, atol=0)
     influence = np.zeros((80, 2, 2))
     influence[:, 0, 0], influence[:, 1, 1] = w * rises / exact[0, 0], v * g / exact[1, 1]
-    wanted, noise = error_models.covariance("coloured", solution.errors.residuals, [influence])
+    residuals = solution.errors.residuals
+    wanted, noise, _ = choose(residuals, "coloured", 1).covariance(residuals, [influence])
     np.testing.assert_allclose(solution.errors.inverse, np.linalg.inv(exact), rtol=1e-6, atol=1e-12)
     np.testing.assert_allclose(solution.errors.covariance, wanted, rtol=1e-6, atol=1e-12)
     np.testing.assert_allclose(solution.errors.noise, noise)

@@ -53,7 +53,7 @@ def test_a_gain_is_determined_where_the_state_that_it_shows_begins_at_a_known_va
     model.motion, model.begin = si.Equation(model.x.dot + model.rate * model.x), si.Boundary(initial={model.x: 1})
     model.seen = si.Output(model.gain * model.x, unit="m", channel="y")
     recording = si.Recording("decay", time, {"y": noisy}, {"y": "m"})
-    solution = si.Identification(model, recording, scheme=si.HermiteSimpson()).solve(check=False)
+    solution = si.Identification(model, recording, scheme=si.HermiteSimpson()).solve(check=False).with_errors("white")
     slopes = np.column_stack([np.exp(-0.5 * time), -3 * time * np.exp(-0.5 * time)])  # by gain and rate
     expected = 0.01 * np.sqrt(np.diag(np.linalg.inv(slopes.T @ slopes)))
     assert solution.parameters.std_error[["gain", "rate"]].to_numpy() == pytest.approx(expected, rel=0.2)

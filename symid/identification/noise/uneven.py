@@ -2,18 +2,15 @@
 
 Where the variance of the errors goes with the influence of the samples, one size for all of them gives wrong standard
 errors; then each sample's own error stands for its noise (White 1980), made larger by its leverage (MacKinnon & White
-1985, HC3). Arrays as in `error_models`.
+1985, HC3). Arrays as in `residual`.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import scipy
 
-if TYPE_CHECKING:
-    from symid.identification.error_models import Errors
+from symid.identification.noise.residual import Errors
 
 REFUTED = 1e-3
 """Probability, for all parameters together, below which one size of the noise is refuted. Correlations of squares are
