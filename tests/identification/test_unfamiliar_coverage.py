@@ -2,7 +2,8 @@
 
 ``PYTHONPATH=tests:tests/identification python tests/identification/test_unfamiliar_coverage.py 0:12 ROWS.jsonl`` does
 the draws of these seeds that the file does not hold yet, appends them, and prints the coverage by noise and by system;
-names of noises may follow. As a user who reads the warnings does, a solution whose mesh errs by `COARSE` standard errors is refined.
+names of noises may follow. As a user who reads the warnings does, a solution whose mesh errs by `COARSE` standard
+errors is refined.
 """
 
 import json
