@@ -99,7 +99,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.report:
         from symid.report import write_diagnosis_report
 
-        write_diagnosis_report(finding, arguments.report, f"Diagnosis of {source.name}", _provenance(source, finding))
+        write_diagnosis_report(finding, arguments.report, f"Diagnosis of {source.name}", {"recording": source.name})
     tell_files(
         report=arguments.report,
         json=arguments.json,
@@ -125,17 +125,6 @@ def _plan(finding, source: Path, arguments: argparse.Namespace) -> None:
     channels = [c.channel for c in (*model.outputs.values(), *model.inputs.values())]
     plans = [plan_of(e) for e in finding.experiments(_tell)]
     write_json(arguments.experiment, {"system": facts, "channels": channels, "experiments": plans})
-
-
-def _provenance(source: Path, finding) -> dict[str, str]:
-    """What was compared with what."""
-    told = {"recording": source.name, "model": finding.baseline.model.name}
-    for key, title in (("train", "fit window"), ("heldout", "held-out window")):
-        if f"baseline_{key}" in finding.runs:
-            one = finding.runs[f"baseline_{key}"]
-            pieces = f" in {len(one.lengths)} pieces" if len(one.lengths) > 1 else ""
-            told[title] = f"{one.time[0]:g} to {one.time[-1]:g} s, {len(one.time)} samples{pieces}"
-    return told
 
 
 def _of_case(directory: Path, arguments: argparse.Namespace):

@@ -15,7 +15,7 @@ from symid.identification.elsewhere import said_of_optimum
 from symid.identification.integrate import Reintegration
 from symid.nlp import OptimalityReport, check_optimality
 from symid.threads import one_blas_thread
-from symid.units import unit_symbol
+from symid.units import quantity, unit_symbol
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -31,6 +31,8 @@ ROUNDED = 1e-6
 DEPARTS = 0.01
 """Part of the recorded outputs' standard deviation by which an integrated motion may depart from the fitted one, or by
 as much as the fit errs."""
+MOST_TOLD = 3
+"""Outputs that a sentence names."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,10 +137,10 @@ def _allowed(solution: Solution) -> list[np.ndarray]:
 
 def _said_of_departure(solution: Solution, departures, coarse: bool) -> str:
     worst = np.max(departures, axis=0)
-    parts = [
-        f"{name} by up to {x:.3g} {unit_symbol(y.unit)}".strip()
-        for (name, y), x in zip(solution.model.outputs.items(), worst, strict=True)
-    ]
+    named = list(zip(solution.model.outputs.items(), worst, np.max(worst / _allowed(solution), axis=0), strict=True))
+    told = sorted(named, key=lambda one: -one[2])[:MOST_TOLD]
+    parts = [f"{name} by up to {quantity(float(x), unit=y.unit or '1')}" for (name, y), x, _ in told]
+    parts += [f"and {len(named) - len(told)} more outputs"] if named[MOST_TOLD:] else []
     followed = _followed(solution)
     return (
         "No integrator reproduces this motion: from the fitted initial state with the fitted parameters it departs "

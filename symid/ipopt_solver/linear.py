@@ -77,7 +77,7 @@ def run_with(wanted: str, run: Callable[[dict], int]) -> tuple[int, LinearSolver
     if done.refused:
         return _mumps_instead(wanted, run, f"the problem is no chain ({done.refused:.3g} multiplications per unknown)")
     seconds = done.seconds_analysis + done.seconds_factor + done.seconds_solve
-    reason = f"a chain with {done.border} unknowns that all of it shares"
+    reason = f"a chain with {done.border} unknown{'s' * (done.border != 1)} that all of it shares"
     return status, LinearSolver("chain", reason, done.factorisations, seconds, done.fill, done.delayed)
 
 

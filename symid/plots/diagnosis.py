@@ -129,7 +129,7 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
 def plot_scores(diagnosis: Diagnosis) -> Picture:
     """How far each single suspect stays behind the best one; at the dashed line all is chance."""
     shown = sorted(diagnosis.ranking, key=lambda c: -c.score)[:MOST_SUSPECTS]
-    figure = Picture(figsize=(9.5, 0.28 * max(len(shown), 2) + 1.2), layout="constrained")
+    figure = Picture(figsize=(9.5, 0.34 * max(len(shown), 2) + 1.2), layout="constrained")
     axes = figure.subplots()
     best = shown[0].score
     behind, places = np.array([best - c.score for c in shown]), np.arange(len(shown))
@@ -155,18 +155,22 @@ def plot_scores(diagnosis: Diagnosis) -> Picture:
             fontsize=8,
             color=INK,
         )
-    axes.set_yticks(places, [law_name(c.suspect.term.name, c.suspect.term.location) for c in shown], fontsize=8.5)
+    names = [law_name(c.suspect.term.name, c.suspect.term.location).replace(" at ", "\nat ") for c in shown]
+    axes.set_yticks(places, names, fontsize=8, linespacing=0.9)
     axes.set(xlim=(-POLICY.equivalent / 4, far), ylim=(len(shown) - 0.4, -0.6))
-    axes.xaxis.set_major_formatter(lambda x, _: f"{x:,.0f}")
-    axes.set_xlabel("score behind that of the best single suspect", fontsize=9)
-    axes.legend(
+    decades = int(np.log10(far))
+    ticks = [0, *(10**k for k in range(decades, 0, -1 if decades < 4 else -2))]
+    axes.set_xticks(ticks, [f"{x:,}" for x in ticks])
+    axes.minorticks_off()
+    figure.supxlabel("score behind that of the best single suspect", fontsize=9)
+    figure.legend(
         *axes.get_legend_handles_labels(),
         fontsize=8.5,
         frameon=False,
         ncols=3,
-        loc="lower right",
-        bbox_to_anchor=(1, 1),
-        borderaxespad=0.1,
+        loc="outside upper right",
+        columnspacing=1.0,
+        handletextpad=0.2,
     )
     opened(axes)
     return figure

@@ -75,11 +75,23 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
         _parameters(d),
         folded("Equations of the improved model" if d.named else "Equations", equations(latex_lines(d.improved))),
         heading("Provenance"),
-        facts((provenance or {}) | origin()),
+        facts((provenance or {}) | _compared(d) | origin()),
         heading("Please cite"),
         *map(paragraph, CITATION),
     ]
     return page(name, *parts, footer=written())
+
+
+def _compared(d: Diagnosis) -> dict[str, str]:
+    """The model and the windows."""
+    told = {"model": d.baseline.model.name}
+    for key, title in (("train", "fit window"), ("heldout", "held-out window")):
+        if f"baseline_{key}" in d.runs:
+            one = d.runs[f"baseline_{key}"]
+            pieces = f" in {len(one.lengths)} pieces" if len(one.lengths) > 1 else ""
+            window = typeset(f"{one.time[0]:g} to {one.time[-1]:g}")
+            told[title] = f"{window} s, {len(one.time)} samples{pieces}"
+    return told
 
 
 def _rest(d: Diagnosis) -> list[str]:

@@ -84,9 +84,18 @@ def equations(lines: Iterable[str]) -> Markup:
     rows = []
     for line in lines:
         for i, part in enumerate(line.split(r"\\")):
-            mathml = convert(part.replace("&", "").replace(r"\qquad", "").strip(), display="block")
+            mathml = _with_primes(convert(part.replace("&", "").replace(r"\qquad", "").strip(), display="block"))
             rows.append(f'<div class="further">{mathml}</div>' if i else f"<div>{mathml}</div>")
     return Markup(f'<div class="scroll equations">{"".join(rows)}</div>')
+
+
+def _with_primes(mathml: str) -> str:
+    """Primes of rates beside the letters instead of above: a browser makes of those hairs that nobody sees."""
+    letters, prime = r"(<mrow>(?:<mi[^>]*>[^<]*</mi>)+)</mrow>", "<mi>&#x02032;</mi>"
+    below = r"(<mrow>(?:(?!<msu).)*?</mrow>)"
+    beside = r"\1<mo>&#x02032;</mo></mrow>"
+    mathml = re.sub(f"<msup>{letters}{prime}</msup>", beside, mathml)
+    return re.sub(f"<msubsup>{letters}{below}{prime}</msubsup>", rf"<msub>{beside}\2</msub>", mathml)
 
 
 def number(x) -> str:

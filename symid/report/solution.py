@@ -119,10 +119,8 @@ def _held_out_figures(held_out: Solution | None) -> list[str]:
         return []
     t0, t1 = held_out.trajectories[0].index[[0, -1]]
     unit, factor = time_unit(t1 - t0)
-    caption = (
-        f"Held out, {t0 * factor:.4g} to {t1 * factor:.4g} {unit}: the model runs freely from a fitted initial state, "
-        "all parameters kept."
-    )
+    window = typeset(f"{t0 * factor:.4g} to {t1 * factor:.4g}")
+    caption = f"Held out, {window} {unit}: the model runs freely from a fitted initial state, all parameters kept."
     return [figure(plot_fit(held_out), caption)]
 
 
@@ -289,7 +287,7 @@ def _provenance(solution: Solution) -> str:
     )
     plain["terms"] = plain["terms"] or "none added"
     for r in recordings:
-        window = f"{r['window_s'][0]:g} to {r['window_s'][1]:g} s, {r['nodes']} nodes"
+        window = typeset(f"{r['window_s'][0]:g} to {r['window_s'][1]:g}") + f" s, {r['nodes']} nodes"
         plain[f"recording '{r['name']}'"] = "; ".join([window, *r["history"]])
     units = {k: unit_symbol(c.unit) for k, c in solution.model.constants.items()}
     plain["constants"] = ", ".join(f"{k} = {v:g} {units[k]}".strip() for k, v in constants.items())

@@ -19,7 +19,7 @@ from symid.conceal import draw_case, write_case
 from symid.discrepancy import suspects
 from symid.discrepancy.locate.latent import latent_torques
 from symid.mechanics import LIBRARY
-from symid.report import diagnosis_html, write_diagnosis_report
+from symid.report import diagnosis_html, page, write_diagnosis_report
 from symid.report.diagnosis import experiment
 
 
@@ -144,7 +144,13 @@ def test_figures_show_the_numbers_of_the_finding(finding):
     behind = [x for x, _ in sorted(np.vstack(dots), key=lambda xy: xy[1])]
     ranked = sorted((c.score for c in finding.ranking), reverse=True)[:12]
     np.testing.assert_allclose(behind, ranked[0] - np.array(ranked))
-    assert "found" in [t.get_text() for t in scores.get_legend().get_texts()]
+    assert "found" in [t.get_text() for t in scores.figure.legends[0].get_texts()]
+    scores.figure.set_size_inches(page.NARROW, scores.figure.get_size_inches()[1])
+    scores.figure.draw_without_rendering()
+    boxes = [t.get_window_extent() for t in [*scores.get_xticklabels(), scores.figure._supxlabel]]
+    assert all(box.x0 >= 0 and box.x1 <= scores.figure.bbox.x1 for box in boxes)
+    ends = sorted((box.x0, box.x1) for box in boxes[:-1])
+    assert all(a[1] < b[0] for a, b in zip(ends[:-1], ends[1:], strict=True))
     panels = plots.plot_before_after(finding).axes
     recorded, before, after = panels[0].lines
     run = finding.runs["augmented_train"]

@@ -298,3 +298,13 @@ def test_a_problem_shows_what_will_be_solved_and_builds_nothing():
         ):
             assert part in text
     assert "transcription" not in vars(problem)
+
+
+def test_rates_have_primes_that_are_seen():
+    """A prime above a word is a hair in a browser: it stands beside the letters, also of a part with an index."""
+    m = si.Model("m")
+    m.speed, m.other = si.State(unit="m/s", index=range(2)), si.State(unit="m/s")
+    m.a = si.Equation({i: m.speed[i].dot + m.other for i in range(2)})
+    m.b = si.Equation(m.other.dot + m.speed[0])
+    mathml = page.equations(show.latex_lines(m))
+    assert mathml.count("<mo>&#x02032;</mo></mrow>") == 3 and "msubsup" not in mathml and "msup" not in mathml
