@@ -110,7 +110,7 @@ def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str,
         problems = [
             *problems[:3],
             *([f"and {len(problems) - 3} more columns"] if problems[3:] else []),
-            *no_time([c.text for c in raw], columns),
+            *no_time([c.text for c in raw], columns, refused=True),
             MAP_THEM,
         ]
     elif problems:
@@ -167,9 +167,7 @@ def _column(c: RawColumn) -> Column:
 def _checked(path: Path, columns: list[Column], problems: list[str], raw: list[RawColumn]) -> list[Column]:
     problems = [*problems, *contradictions(columns)]
     if not problems:
-        problems += no_time([c.text for c in raw], columns)
-    if not problems and not any(c.name == "time" for c in columns):
-        problems.append("there is no time column (time_s)")
+        problems += no_time([c.text for c in raw], columns, refused=False)
     if not any(c.unit and c.name != "time" for c in columns) and not problems:
         problems.append("there is no channel besides time")
     if problems:

@@ -100,15 +100,17 @@ def _parse(cells: list[str], first_row: list[str]) -> tuple[list[Column], list[s
                 problems.append(str(error).removesuffix(f"; {HOW_NAMED}"))
                 without_unit = True
     problems += contradictions(columns)
-    problems += no_time(cells, columns)
+    problems += no_time(cells, columns, refused=bool(problems))
     if not problems and not any(c.unit and c.name != "time" for c in columns):
         problems.append("there is no channel besides time")
     return columns, problems, f"; {MAP_THEM}" if without_unit else ""
 
 
-def no_time(names: list[str], columns: list[Column]) -> list[str]:
-    """What to say where no column is the time, and none was refused already for its unit."""
-    if any(c.name == "time" for c in columns) or any(n.lower().split("_")[0] in ("time", "t") for n in names):
+def no_time(names: list[str], columns: list[Column], refused: bool) -> list[str]:
+    """What to say where no column is the time, and where some were `refused` none of them looks like it."""
+    if any(c.name == "time" for c in columns):
+        return []
+    if refused and any(n.lower().split("_")[0] in ("time", "t") for n in names):
         return []
     counting = next((name for name in names if name.lower() in ("frame", "frame#", "sample")), None)
     if counting:

@@ -74,6 +74,7 @@ RECORDINGS = {
     "header without samples": (LINES[:1], "there is a header but no row with samples"),
     "no header": (LINES[1:], "the first line holds numbers"),
     "no time column": (edited(0, 0, "clock_s"), "there is no time column"),
+    "almost the time column": (edited(0, 0, "time__s"), "there is no time column (time_s); 'time__s' may be meant"),
     "column without a unit": (edited(0, 1, "ankle_angle"), "'ankle_angle'"),
     "unknown unit": (edited(0, 1, "ankle_angle_degrees"), "ankle_angle_degrees"),
     "angle in metres": (edited(0, 1, "ankle_angle_m"), "is in m, but angle is measured in rad"),
