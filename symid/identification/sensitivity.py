@@ -126,14 +126,16 @@ class Sensitivity:
         p = self.t.program
         rows = (p.constraint_lower == p.constraint_upper) | (np.abs(self.multipliers) > ACTIVE)
         jacobian = scipy.sparse.coo_matrix(
-            (p.jacobian(self.z), (p.jacobian_rows, p.jacobian_cols)), shape=(p.rows, len(self.z))
+            (p.jacobian(self.z), (np.asarray(p.jacobian_rows), np.asarray(p.jacobian_cols))),
+            shape=(p.rows, len(self.z)),
         )
         return jacobian.tocsr()[rows].tocsc()
 
     def symmetric(self, values: np.ndarray) -> scipy.sparse.csr_matrix:
         """(n, n) the matrix of half these values of the program's lower triangle."""
         p, n = self.t.program, len(self.z)
-        lower = scipy.sparse.coo_matrix((0.5 * values, (p.hessian_rows, p.hessian_cols)), shape=(n, n))
+        places = (np.asarray(p.hessian_rows), np.asarray(p.hessian_cols))
+        lower = scipy.sparse.coo_matrix((0.5 * values, places), shape=(n, n))
         return (lower + lower.T - scipy.sparse.diags(lower.diagonal())).tocsr()
 
     @cached_property

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.errors import SolveError
-from symid.nlp import NonlinearProgram
+from symid.nlp import Filling, NonlinearProgram
 
 
 class RejectedPoint(Exception):
@@ -87,15 +87,13 @@ class Evaluation:
             self._reject(f"{self.nlp.describe_constraint(row)} (constraint row {row})", values[row])
         return values
 
-    def jacobian(self, z: np.ndarray) -> np.ndarray:
-        values = self._timed("jacobian", z)
-        self._insist(values, self._jacobian_words)
-        return values
+    def jacobian(self, z: np.ndarray, out: np.ndarray) -> None:
+        self._fill("jacobian", out, z)
+        self._insist(out, self._jacobian_words)
 
-    def hessian(self, z: np.ndarray, multipliers: np.ndarray, factor: float) -> np.ndarray:
-        values = self._timed("hessian", z, multipliers, factor)
-        self._insist(values, self._hessian_words)
-        return values
+    def hessian(self, z: np.ndarray, multipliers: np.ndarray, factor: float, out: np.ndarray) -> None:
+        self._fill("hessian", out, z, multipliers, factor)
+        self._insist(out, self._hessian_words)
 
     def iteration(self, number: int, objective: float, primal: float, dual: float, barrier: float) -> bool:
         """Note an iteration and tell whether to go on."""
@@ -108,10 +106,16 @@ class Evaluation:
             self.on_iteration(Iteration(number, objective * self.objective_scale, primal, dual, barrier)) is not False
         )
 
-    def _timed(self, name: str, *arguments):
-        start = time.perf_counter()
+    def _fill(self, name: str, out: np.ndarray, *arguments) -> None:
+        if isinstance(getattr(self.nlp, name), Filling):
+            self._timed(name, *arguments, out=out)
+        else:
+            out[:] = self._timed(name, *arguments)
+
+    def _timed(self, name: str, *arguments, out: np.ndarray | None = None):
+        function, start = getattr(self.nlp, name), time.perf_counter()
         try:
-            return getattr(self.nlp, name)(*arguments)
+            return function(*arguments) if out is None else function.fill(out, *arguments)
         finally:
             self.seconds[name] += time.perf_counter() - start
 

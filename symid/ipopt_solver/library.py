@@ -187,7 +187,7 @@ def _callbacks(nlp: NonlinearProgram, evaluation: Evaluation) -> list:
             _view(rows, size, c_int)[:] = nlp.jacobian_rows
             _view(cols, size, c_int)[:] = nlp.jacobian_cols
         else:
-            _view(out, size)[:] = evaluation.jacobian(current(n, z, new))
+            evaluation.jacobian(current(n, z, new), _view(out, size))
 
     def hessian(n, z, new, factor, m, lam, new_lam, size, rows, cols, out, _) -> None:
         if not size:
@@ -197,7 +197,7 @@ def _callbacks(nlp: NonlinearProgram, evaluation: Evaluation) -> list:
             _view(cols, size, c_int)[:] = nlp.hessian_cols
         else:
             multipliers = _view(lam, m).copy() if m else np.zeros(0)
-            _view(out, size)[:] = evaluation.hessian(current(n, z, new), multipliers, factor)
+            evaluation.hessian(current(n, z, new), multipliers, factor, _view(out, size))
 
     kinds = ((_F, f), (_G, g), (_GRAD, gradient), (_JAC, jacobian), (_HESS, hessian))
     return [kind(_guarded(evaluation, function)) for kind, function in kinds]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from symid import kkt
 from symid.errors import CodegenError, SolveError
-from symid.ipopt_solver.memory import keep_freed_memory
+from symid.ipopt_solver.memory import give_back_freed_memory, keep_freed_memory
 from symid.ipopt_solver.status import SOLVED
 
 CHAIN: dict[str, str | float] = {"linear_solver": "ma27", "linear_system_scaling": "none"}
@@ -72,6 +72,8 @@ def run_with(wanted: str, run: Callable[[dict], int]) -> tuple[int, LinearSolver
         status = run(CHAIN | {"hsllib": str(path)})
     finally:
         done = kkt.end()
+        if 8 * done.fill > kkt.KEEP_BYTES:
+            give_back_freed_memory()
     if not done.unknowns and status not in SOLVED:
         return _mumps_instead(wanted, run, "this Ipopt does not load it (option hsllib, Ipopt 3.14)")
     if done.refused:

@@ -5,9 +5,9 @@ import functools
 
 
 @functools.cache
-def _mallopt():
+def _glibc(function: str):
     try:
-        return ctypes.CDLL(None).mallopt
+        return getattr(ctypes.CDLL(None), function)
     except (OSError, AttributeError, TypeError):  # no glibc: macOS, musl, Windows
         return None
 
@@ -18,9 +18,16 @@ def keep_freed_memory(largest: int) -> None:
     What is kept need not be mapped and cleared anew at each iteration, but is not there for blocks of other sizes.
     """
     m_trim_threshold, m_mmap_threshold, most_of_older = -1, -3, 2**25  # malloc.h; older glibc accepts no more
-    mallopt = _mallopt()
+    mallopt = _glibc("mallopt")
     if mallopt is None:
         return
     if not mallopt(m_mmap_threshold, largest):
         mallopt(m_mmap_threshold, most_of_older)
     mallopt(m_trim_threshold, largest)
+
+
+def give_back_freed_memory() -> None:
+    """Freed blocks that were kept, and what lies free between those in use, go back to the system."""
+    trim = _glibc("malloc_trim")
+    if trim is not None:
+        trim(0)

@@ -291,10 +291,12 @@ class _CyipoptFunctions:
         return self._call("constraints", z)
 
     def jacobian(self, z):
-        return self._call("jacobian", z)
+        self._call("jacobian", z, out := np.empty(self.nlp.jacobian_rows.size))
+        return out
 
     def hessian(self, z, multipliers, factor):
-        return self._call("hessian", z, multipliers, factor)
+        self._call("hessian", z, multipliers, factor, out := np.empty(self.nlp.hessian_rows.size))
+        return out
 
     def jacobianstructure(self):
         return self.nlp.jacobian_rows, self.nlp.jacobian_cols

@@ -22,7 +22,38 @@ static void find_touched(Tree *t, const int *front_at, int64_t nz, const int *ir
     free(touched);
 }
 
-/* Fills `t->entry`, by front; those of the border alone come last. */
+/* Keep every list of places once, in front of all; fronts find theirs by a table of those before them. */
+static int share_places(Tree *t) {
+    int64_t end = 0, room = 16;
+    while (room < 2 * (int64_t)t->fronts) room *= 2;
+    int *table = malloc(sizeof(int) * room);
+    if (!table) return 0;
+    for (int64_t i = 0; i < room; i++) table[i] = -1;
+    for (int f = 0; f <= t->fronts; f++) {
+        Front *v = &t->front[f];
+        Place *own = t->place + v->entry_at;
+        int64_t count = v[1].entry_at - v->entry_at, i = 0;
+        uint64_t hash = 1469598103934665603u;
+        for (int64_t k = 0; k < count; k++)
+            hash = (hash ^ ((uint64_t)own[k].row << 16 | own[k].column)) * 1099511628211u;
+        for (i = (int64_t)(hash >> 20) & (room - 1); table[i] >= 0; i = (i + 1) & (room - 1)) {
+            const Front *w = &t->front[table[i]];
+            if (w[1].entry_at - w->entry_at == count
+                && !memcmp(t->place + w->place_at, own, sizeof(Place) * count)) break;
+        }
+        if (table[i] < 0) {
+            table[i] = f, v->place_at = (int)end, end += count;
+            memmove(t->place + v->place_at, own, sizeof(Place) * count);
+        }
+        v->place_at = t->front[table[i]].place_at;
+    }
+    free(table);
+    Place *kept = realloc(t->place, sizeof(Place) * (size_t)(end + 1));
+    if (kept) t->place = kept;
+    return 1;
+}
+
+/* Fills `t->source` and `t->place`, by front; those of the border alone come last. */
 static int place_entries(Tree *t, int64_t nz, const int *irn, const int *jcn) {
     int *front_at = malloc(sizeof(int) * (t->n + 1));
     int *border_place = malloc(sizeof(int) * ((size_t)(t->tasks + 1) * t->border + 1));
@@ -39,8 +70,8 @@ static int place_entries(Tree *t, int64_t nz, const int *irn, const int *jcn) {
     for (int f = 0; f <= t->fronts; f++) at[f + 1] += at[f];
     for (int f = 0; f <= t->fronts; f++) t->front[f].entry_at = at[f];
     t->front[t->fronts + 1].entry_at = nz;
-    t->entry = malloc(sizeof(Entry) * (size_t)(nz + 1));
-    int complete = t->entry != NULL;
+    t->source = malloc(sizeof(int) * (size_t)(nz + 1)), t->place = malloc(sizeof(Place) * (size_t)(nz + 1));
+    int complete = t->source && t->place;
     for (int64_t k = 0; k < nz && complete; k++) {
         int a = t->position[irn[k] - 1], b = t->position[jcn[k] - 1];
         int low = a < b ? a : b, high = a < b ? b : a, f = owner_of(t, front_at, low);
@@ -50,10 +81,10 @@ static int place_entries(Tree *t, int64_t nz, const int *irn, const int *jcn) {
             row = high < t->top ? place_in(t, v, high)
                                 : v->own + v->chain + border_place[(size_t)v->task * t->border + row];
         complete = row >= 0 && row < WIDEST_FRONT && column < WIDEST_FRONT;
-        t->entry[at[f]++] = (Entry){(int)k, (unsigned short)row, (unsigned short)column};
+        t->source[at[f]] = (int)k, t->place[at[f]++] = (Place){(unsigned short)row, (unsigned short)column};
     }
     free(front_at), free(border_place), free(at);
-    return complete;
+    return complete && share_places(t);
 }
 
 static void estimate(Tree *t) {
@@ -70,7 +101,7 @@ static void estimate(Tree *t) {
 static void free_tree(Tree *t) {
     for (int a = 0; t->plan && a <= t->tasks; a++) free(t->plan[a].touched);
     free(t->child), free(t->sibling);
-    free(t->position), free(t->front), free(t->chain), free(t->chain_map), free(t->entry), free(t->plan);
+    free(t->position), free(t->front), free(t->chain), free(t->chain_map), free(t->source), free(t->place), free(t->plan);
     *t = (Tree){0};
 }
 

@@ -11,9 +11,9 @@
 
 typedef struct {
     Arena factors, handed; /* handed: what fronts give to their parents, last in first out */
-    double *square;        /* chain columns of the front at hand */
+    double *panel, *square; /* of the front at hand: fully summed columns, and the chain's */
     double *column, *columns;
-    size_t square_room, columns_room;
+    size_t panel_room, square_room, columns_room;
     double *border, *left, *right; /* border: (touched, touched); left, right: (BATCH, touched) */
     int batched;
     double *outside;       /* of a solve: sums for positions behind the tasks' */
@@ -121,20 +121,43 @@ static int hand_over(Factor *s, Work *w, int f, int chain, int touched) {
     return 1;
 }
 
-/* Memory of a front with `size` fully summed and `outer` other rows, all zero. */
+/* Room for a front with `size` fully summed and `outer` other rows, all zero. */
 static int open_front(Work *w, Part *p, int size, int chain, int outer) {
     p->size = size, p->base = padded(size), p->stride = p->base + padded(outer);
     size_t head = padded((size + 1) / 2 + 2 * size), area = (size_t)p->stride * size;
     size_t square = (size_t)padded(outer) * chain;
     size_t columns = (size_t)padded(outer) * size + 2 * (size_t)p->stride + size;
-    double *block = take(&w->factors, head + area);
-    if (!block || !make_room(&w->square, &w->square_room, square)
+    if (!make_room(&w->panel, &w->panel_room, head + area) || !make_room(&w->square, &w->square_room, square)
         || !make_room(&w->columns, &w->columns_room, columns)) return 0;
-    p->rows = (int *)block, p->inverse = block + (size + 1) / 2, p->panel = block + head;
+    p->rows = (int *)w->panel, p->inverse = w->panel + (size + 1) / 2, p->panel = w->panel + head;
     w->column = w->columns + (size_t)padded(outer) * size;
     p->initial = w->column + 2 * (size_t)p->stride;
     memset(p->panel, 0, sizeof(double) * area);
     memset(w->square, 0, sizeof(double) * square);
+    return 1;
+}
+
+/* Numbers that a packed front takes. */
+static size_t packed_size(int size, int pivots, int outer) {
+    return (size_t)pivots * outer + (size_t)pivots * (2 * size - pivots - 1) / 2;
+}
+
+/* Keep of a front what solves need; its panel serves the next one. */
+static int pack(Work *w, Part *p, int outer) {
+    size_t below = packed_size(p->size, p->pivots, outer), inverse = 2 * (size_t)p->pivots;
+    double *block = take(&w->factors, inverse + below + (p->size + 1) / 2), *to = block + inverse;
+    if (!block) return 0;
+    memcpy(block, p->inverse, sizeof(double) * inverse);
+    p->packed = to;
+    for (int k = 0; k < p->pivots; k++) {
+        const double *x = p->panel + (size_t)k * p->stride;
+        int left = p->size - 1 - k;
+        memcpy(to, x + k + 1, sizeof(double) * left);
+        memcpy(to + left, x + p->base, sizeof(double) * outer);
+        to += left + outer;
+    }
+    memcpy(to, p->rows, sizeof(int) * p->size);
+    p->inverse = block, p->rows = (int *)to, p->panel = NULL;
     return 1;
 }
 
@@ -155,10 +178,10 @@ static int factorise_front(Factor *s, Work *w, int f) {
     for (int c = t->child[f]; c >= 0; c = t->sibling[c]) size += s->part[c].size - s->part[c].pivots;
     if (!open_front(w, p, size, v->chain, outer)) return 0;
     for (int i = 0; i < v->own; i++) p->rows[i] = v->first + i;
-    for (int64_t k = v->entry_at; k < v[1].entry_at; k++) {
-        Entry e = t->entry[k];
-        p->panel[e.column * p->stride + (e.row < v->own ? e.row : e.row - v->own + p->base)] += scaled(s, e.source);
-    }
+    const Place *e = t->place + v->place_at;
+    for (int64_t k = v->entry_at; k < v[1].entry_at; k++, e++)
+        p->panel[e->column * p->stride + (e->row < v->own ? e->row : e->row - v->own + p->base)] +=
+            scaled(s, t->source[k]);
     Target target = {p->panel, w->square, size, p->base, p->stride, padded(outer)};
     int delayed = v->own, first = t->child[f];
     for (int c = first; c >= 0; c = t->sibling[c]) {
@@ -175,8 +198,7 @@ static int factorise_front(Factor *s, Work *w, int f) {
     leave_on_border(w, p, v->chain, touched, stride);
     if (!hand_over(s, w, f, v->chain, touched)) return 0;
     w->counts.factor += (int64_t)p->pivots * p->stride;
-    if (p->pivots < p->size) give_back(&w->factors, p->panel + (size_t)p->pivots * p->stride);
-    return 1;
+    return pack(w, p, outer);
 }
 
 static void factorise_task(Factor *s, int a) {
@@ -202,10 +224,10 @@ static int factorise_border(Factor *s) {
     if (!open_front(w, p, size, 0, 0)) return 0;
     Target target = {p->panel, NULL, size, p->base, p->stride, 0};
     for (int i = 0; i < t->border; i++) p->rows[i] = t->top + i;
-    for (int64_t k = t->front[t->fronts].entry_at; k < t->front[t->fronts + 1].entry_at; k++) {
-        Entry e = t->entry[k];
-        *place(&target, e.row, e.column) += scaled(s, e.source);
-    }
+    const Front *v = &t->front[t->fronts];
+    const Place *e = t->place + v->place_at;
+    for (int64_t k = v->entry_at; k < v[1].entry_at; k++, e++)
+        *place(&target, e->row, e->column) += scaled(s, t->source[k]);
     for (int b = 0; b <= t->tasks; b++) {
         const TaskPlan *plan = &t->plan[b];
         for (int j = 0; j < plan->border; j++)
@@ -224,5 +246,5 @@ static int factorise_border(Factor *s) {
     factorise_panel(p, 0, w->column, w->columns, 0, &w->counts);
     w->counts.null += p->size - p->pivots;
     w->counts.factor += (int64_t)p->pivots * p->stride;
-    return 1;
+    return pack(w, p, 0);
 }

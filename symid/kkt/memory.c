@@ -60,12 +60,6 @@ static double *take(Arena *a, size_t count) {
     return out;
 }
 
-/* Give back what lies behind `end`, a place in the block taken last. */
-static void give_back(Arena *a, const double *end) {
-    size_t used = (size_t)(end - a->now->data);
-    a->now->used = (used + LANES - 1) / LANES * LANES;
-}
-
 static Mark mark(const Arena *a) { return (Mark){a->now, a->now ? a->now->used : 0}; }
 
 static void back_to(Arena *a, Mark m) {

@@ -3,7 +3,10 @@
    A panel holds the fully summed columns of a front, each over all rows of the front, by column;
    both triangles of its square part are kept, so that every column is contiguous. Its rows are
    the fully summed ones, from `base` on the chain's and the border's, each part filled up with
-   zeros to full vectors. */
+   zeros to full vectors.
+
+   What a solve needs of a panel is kept packed, once its pivots are taken: of every pivot's column
+   the fully summed rows below it, then the chain's and the border's, without the zeros. */
 
 typedef double Vector __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
 
@@ -11,7 +14,9 @@ typedef double Vector __attribute__((vector_size(8 * LANES), aligned(8), may_ali
 #define NOTHING 2e-15     /* a column brought down to this part of itself is rounding: zero */
 
 typedef struct {
-    double *panel, *inverse; /* inverse: of the pivots, (pivots, 2): diagonal, and beside it for a pair's first */
+    double *panel;           /* of the front at hand only */
+    double *packed;          /* its pivots' columns, for solves */
+    double *inverse;         /* of the pivots, (pivots, 2): diagonal, and beside it for a pair's first */
     int *rows;               /* positions of the fully summed, pivots first; the first of a pair as ~position */
     double *initial;         /* largest entry of each fully summed column before elimination */
     int size, base, pivots, stride;

@@ -75,7 +75,7 @@ static void free_factor(Factor *s) {
     for (int a = 0; s->work && a < s->tree.tasks + 2; a++) {
         Work *w = &s->work[a];
         free_arena(&w->factors), free_arena(&w->handed);
-        free(w->square), free(w->columns), free(w->border), free(w->left), free(w->right), free(w->outside);
+        free(w->panel), free(w->square), free(w->columns), free(w->border), free(w->left), free(w->right), free(w->outside);
     }
     free(s->part), free(s->mark), free(s->work), free(s->x), free(s->scale), free(s->product);
     free_tree(&s->tree);
@@ -87,8 +87,8 @@ static size_t expected(const Tree *t, int a) {
     size_t total = 0;
     for (int f = t->plan[a].first; f < t->plan[a].end; f++) {
         const Front *v = &t->front[f];
-        size_t stride = padded(v->own) + padded(v->chain + t->plan[a].border);
-        total += (size_t)v->own * stride + padded((v->own + 1) / 2 + 2 * v->own);
+        size_t head = 2 * v->own + (v->own + 1) / 2;
+        total += padded(head + packed_size(v->own, v->own, v->chain + t->plan[a].border));
     }
     return total;
 }

@@ -7,15 +7,29 @@ static inline double *home(double *x, double *outside, int inner, int p) {
 
 static inline int position_of(int row) { return row < 0 ? ~row : row; }
 
+/* Column k of a front as its panel held it, in `column` (stride), which is zero elsewhere; returns the next packed one.
+   Columns are unpacked in turn, up or down. */
+static inline const double *unpack(const Part *p, int k, int outer, const double *packed, double *column) {
+    int left = p->size - 1 - k;
+    column[k] = 0;
+    memcpy(column + k + 1, packed, sizeof(double) * left);
+    memcpy(column + p->base, packed + left, sizeof(double) * outer);
+    return packed + left + outer;
+}
+
 static void forward_front(const Factor *s, int f, double *x, double *outside, double *y) {
     const Tree *t = &s->tree;
     const Part *p = &s->part[f];
     const Front *v = &t->front[f];
     int chain = f < t->fronts ? v->chain : 0, border = f < t->fronts ? t->plan[v->task].border : 0;
-    memset(y, 0, sizeof(double) * p->stride);
+    const double *packed = p->packed;
+    double *column = y + p->stride;
+    memset(y, 0, sizeof(double) * 2 * p->stride);
     for (int k = 0; k < p->pivots; k++) y[k] = *home(x, outside, t->inner, position_of(p->rows[k]));
-    for (int k = 0; k < p->pivots; k++)
-        subtract(y, p->panel + (size_t)k * p->stride, y[k], k & ~(LANES - 1), p->stride);
+    for (int k = 0; k < p->pivots; k++) {
+        packed = unpack(p, k, chain + border, packed, column);
+        subtract(y, column, y[k], k & ~(LANES - 1), p->stride);
+    }
     for (int k = 0; k < p->pivots; k++) *home(x, outside, t->inner, position_of(p->rows[k])) = y[k];
     for (int k = p->pivots; k < p->size; k++) *home(x, outside, t->inner, position_of(p->rows[k])) += y[k];
     const int *c = t->chain + v->chain_at;
@@ -38,7 +52,9 @@ static void backward_front(const Factor *s, int f, double *x, double *y) {
     const Front *v = &t->front[f];
     int chain = f < t->fronts ? v->chain : 0, border = f < t->fronts ? t->plan[v->task].border : 0;
     const int *c = t->chain + v->chain_at;
-    memset(y, 0, sizeof(double) * p->stride);
+    const double *packed = p->packed + packed_size(p->size, p->pivots, chain + border);
+    double *column = y + p->stride;
+    memset(y, 0, sizeof(double) * 2 * p->stride);
     for (int k = 0; k < p->size; k++) y[k] = x[position_of(p->rows[k])];
     for (int k = 0; k < chain; k++) y[p->base + k] = x[c[k]];
     for (int b = 0; b < border; b++) y[p->base + chain + b] = x[t->top + t->plan[v->task].touched[b]];
@@ -52,13 +68,16 @@ static void backward_front(const Factor *s, int f, double *x, double *y) {
             k++;
         }
     }
-    for (int k = p->pivots - 1; k >= 0; k--)
-        y[k] -= product(p->panel + (size_t)k * p->stride, y, k & ~(LANES - 1), p->stride);
+    for (int k = p->pivots - 1; k >= 0; k--) {
+        packed -= p->size - 1 - k + chain + border;
+        unpack(p, k, chain + border, packed, column);
+        y[k] -= product(column, y, k & ~(LANES - 1), p->stride);
+    }
     for (int k = 0; k < p->pivots; k++) x[position_of(p->rows[k])] = y[k];
 }
 
 static double *vector_of(Work *w, const Part *p) {
-    return make_room(&w->columns, &w->columns_room, p->stride) ? w->columns : NULL;
+    return make_room(&w->columns, &w->columns_room, 2 * (size_t)p->stride) ? w->columns : NULL;
 }
 
 static int forward_task(Factor *s, int a, double *outside) {

@@ -7,6 +7,7 @@ typedef struct {
     int own;           /* unknowns that this front is first to hold fully summed */
     int first;         /* position of the first of them; the others follow */
     int chain;         /* later unknowns outside the border that it touches */
+    int place_at;      /* where the places of its entries begin */
     int64_t chain_at;  /* where their list begins */
     int parent;        /* -1: the border's front */
     int task;
@@ -14,9 +15,8 @@ typedef struct {
 } Front;
 
 typedef struct {
-    int source;               /* place in the matrix's values */
     unsigned short row, column; /* row: own, then chain, then border */
-} Entry;
+} Place;
 
 typedef struct {
     int first, end;  /* fronts */
@@ -31,7 +31,8 @@ typedef struct {
     int *child, *sibling;         /* (fronts + 1,) first child, next sibling, -1; the border's front is last */
     Front *front;                 /* children before parents */
     int *chain, *chain_map;       /* positions, and places in the parent: own unknowns, then its chain */
-    Entry *entry;
+    int *source;                  /* (nz,) of the fronts' entries in turn: place in the matrix's values */
+    Place *place;                 /* of entries in their fronts; fronts alike, as those of a chain are, share theirs */
     TaskPlan *plan;               /* (tasks + 1,) */
     double flops, factor;         /* multiplications and numbers of a factorisation without delays */
 } Tree;
@@ -153,8 +154,9 @@ static void fill_fronts(Draft *d, Tree *t, const int *turn, const int *task_of) 
     for (int i = 0; i < d->count; i++) of[d->fresh[i]] = i;
     for (int f = 0; f < d->count; f++) {
         int i = of[f];
-        t->front[f] = (Front){(int)(d->own_at[i + 1] - d->own_at[i]), at, (int)(d->chain_at[i + 1] - d->chain_at[i]),
-                              d->chain_at[i], d->parent[i] < 0 ? -1 : d->fresh[d->parent[i]], task_of[i], 0};
+        t->front[f] = (Front){.own = (int)(d->own_at[i + 1] - d->own_at[i]), .first = at,
+                              .chain = (int)(d->chain_at[i + 1] - d->chain_at[i]), .chain_at = d->chain_at[i],
+                              .parent = d->parent[i] < 0 ? -1 : d->fresh[d->parent[i]], .task = task_of[i]};
         if (task_of[i] < t->tasks) t->inner = at + t->front[f].own;
         TaskPlan *p = &t->plan[task_of[i]];
         if (p->end == 0) p->first = f;

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
+from symid.nlp.filling import Filling
 from symid.nlp.program import NonlinearProgram
 
 
@@ -16,11 +18,20 @@ def with_unit_objective(nlp: NonlinearProgram) -> NonlinearProgram:
     size = nlp.objective_scale
     if size == 1:
         return nlp
-    hessian = None if nlp.hessian is None else lambda z, multipliers, factor: nlp.hessian(z, multipliers, factor / size)
     return replace(
         nlp,
         objective=lambda z: nlp.objective(z) / size,
         gradient=lambda z: nlp.gradient(z) / size,
-        hessian=hessian,
+        hessian=_scaled(nlp.hessian, size),
         objective_scale=1.0,
     )
+
+
+def _scaled(hessian: Callable | None, size: float) -> Callable | None:
+    if hessian is None:
+        return None
+    if isinstance(hessian, Filling):
+        return Filling(
+            hessian.size, lambda out, z, multipliers, factor: hessian.fill(out, z, multipliers, factor / size)
+        )
+    return lambda z, multipliers, factor: hessian(z, multipliers, factor / size)

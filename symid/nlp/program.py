@@ -9,6 +9,7 @@ import numpy as np
 import scipy
 
 from symid.errors import TranscriptionError
+from symid.nlp.places import Places
 
 Vector = np.ndarray
 
@@ -34,14 +35,15 @@ class NonlinearProgram:
     constraints : callable
         ``constraints(z) -> (m,)``.
     jacobian : callable
-        ``jacobian(z) -> (nnz_j,)``, the values at `jacobian_rows`, `jacobian_cols`.
-    jacobian_rows, jacobian_cols : int array, shape (nnz_j,)
-        Positions of the Jacobian's entries, from 0, each at most once.
+        ``jacobian(z) -> (nnz_j,)``, the values at `jacobian_rows`, `jacobian_cols`. As a `Filling`, like the
+        Hessian, it need not make an array of its own.
+    jacobian_rows, jacobian_cols : int array, shape (nnz_j,), or Places
+        Positions of the Jacobian's entries, from 0, each at most once. `Places` are not checked.
     hessian : callable, optional
         ``hessian(z, multipliers, objective_factor) -> (nnz_h,)``, the lower triangle of the
         second derivative of objective_factor * f + multipliers' g. Without it a solver has to
         approximate.
-    hessian_rows, hessian_cols : int array, shape (nnz_h,)
+    hessian_rows, hessian_cols : int array, shape (nnz_h,), or Places
         Positions of the Hessian's entries, from 0, row >= column, each at most once.
     variable_scale : array, shape (n,), optional
         Typical size of each variable: a solver works on z / variable_scale.
@@ -92,7 +94,7 @@ class NonlinearProgram:
                 self._freeze_vector(name, size)
         self._freeze_indices("jacobian", (m, n))
         self._freeze_indices("hessian", (n, n))
-        if (self.hessian_rows < self.hessian_cols).any():
+        if not isinstance(self.hessian_rows, Places) and (self.hessian_rows < self.hessian_cols).any():
             raise TranscriptionError(
                 "NonlinearProgram.hessian_rows, hessian_cols: an entry lies above the diagonal; "
                 "give the lower triangle only (row >= column)."
@@ -113,7 +115,7 @@ class NonlinearProgram:
 
     def jacobian_matrix(self, z: Vector) -> scipy.sparse.csr_array:
         """Evaluate the Jacobian at `z` as a sparse matrix, shape (m, n)."""
-        places = (self.jacobian_rows, self.jacobian_cols)
+        places = (np.asarray(self.jacobian_rows), np.asarray(self.jacobian_cols))
         return scipy.sparse.csr_array((self.jacobian(z), places), shape=(self.m, self.n))
 
     def hessian_matrix(self, z: Vector, multipliers: Vector, objective_factor: float = 1.0) -> scipy.sparse.csr_array:
@@ -121,7 +123,8 @@ class NonlinearProgram:
         if self.hessian is None:
             raise TranscriptionError("The nonlinear program has no Hessian: give `hessian` with its rows and columns.")
         values = self.hessian(z, multipliers, objective_factor)
-        triangle = scipy.sparse.csr_array((values, (self.hessian_rows, self.hessian_cols)), shape=(self.n, self.n))
+        places = (np.asarray(self.hessian_rows), np.asarray(self.hessian_cols))
+        triangle = scipy.sparse.csr_array((values, places), shape=(self.n, self.n))
         return (triangle + scipy.sparse.tril(triangle, -1).T).tocsr()
 
     def __repr__(self) -> str:
@@ -146,6 +149,8 @@ class NonlinearProgram:
 
     def _freeze_indices(self, matrix: str, shape: tuple[int, int]) -> None:
         names = (f"{matrix}_rows", f"{matrix}_cols")
+        if any(isinstance(getattr(self, name), Places) for name in names):
+            return
         rows, cols = (np.asarray(getattr(self, name)) for name in names)
         if rows.ndim != 1 or rows.shape != cols.shape:
             raise TranscriptionError(

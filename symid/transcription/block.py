@@ -52,17 +52,19 @@ class Block:
 
     def columns(self) -> np.ndarray:
         """(N, n_local + n_shared) columns of z that the kernel sees at each point."""
-        shared = np.broadcast_to(self.shared, (self.points, len(self.shared)))
-        return np.hstack([self.view(np.arange(self.size)), shared])
+        shared = np.broadcast_to(self.shared.astype(np.intc), (self.points, len(self.shared)))
+        return np.hstack([self.view(np.arange(self.size, dtype=np.intc)), shared])
 
     def arguments(self, z: np.ndarray) -> tuple[np.ndarray, ...]:
         return self.view(z), z[self.shared], self.data, self.constants
 
     # ---- as constraints ------------------------------------------------------------------
-    def jacobian_places(self, first_row: int) -> tuple[np.ndarray, np.ndarray]:
-        k = self.kernel
-        rows = first_row + k.m * np.arange(self.points)[:, None] + k.jacobian_rows
-        return rows.ravel(), self.columns()[:, k.jacobian_cols].ravel()
+    def jacobian_rows(self, first: int) -> np.ndarray:
+        k, points = self.kernel, np.arange(self.points, dtype=np.intc)
+        return (k.m * points[:, None] + (first + k.jacobian_rows).astype(np.intc)).ravel()
+
+    def jacobian_columns(self) -> np.ndarray:
+        return self.columns()[:, self.kernel.jacobian_cols].ravel()
 
     def bounds(self) -> tuple[np.ndarray, np.ndarray]:
         zero = np.zeros(self.kernel.m)
@@ -79,7 +81,7 @@ class Block:
 
     def gradient_places(self) -> np.ndarray:
         """Columns of `gradient`, for a sum over equal ones."""
-        return self.columns()[:, self.kernel.jacobian_cols].ravel()
+        return self.jacobian_columns().astype(np.intp)
 
     def gradient(self, z: np.ndarray) -> np.ndarray:
         return (self.weights[:, self.kernel.jacobian_rows] * self.kernel.jacobian(*self.arguments(z))).ravel()

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.codegen import Kernel
-from symid.nlp import NonlinearProgram
+from symid.nlp import Filling, NonlinearProgram, Places
 from symid.transcription.block import Block
 from symid.transcription.delays import LateSignal
 from symid.transcription.layout import Layout
@@ -75,15 +75,20 @@ class CollocationProgram:
         self.demand_starts = self.tie_start + len(self.ties) + np.cumsum([0, *(b.rows for b in demanded)])
         self.rows = int(self.demand_starts[-1])
         self.constraint_lower, self.constraint_upper = self._constraint_bounds()
-        self.jacobian_rows, self.jacobian_cols = self._jacobian_structure()
+        entries = sum(b.points * len(b.kernel.jacobian_rows) for b in (*self.intervals, *self.demanded))
+        entries += 2 * len(self.ties) + sum(len(s.jacobian_structure()[0]) for s in late)
+        self.jacobian_rows = Places(entries, self._jacobian_rows)
+        self.jacobian_cols = Places(entries, self._jacobian_columns)
         self.hessian_rows, self.hessian_cols = self._hessian_structure()
+        self.jacobian = Filling(entries, self._fill_jacobian)
+        self.hessian = Filling(len(self.hessian_rows), self._fill_hessian)
         self._share()
         self._slope_places = np.concatenate([np.zeros(0, int), *(b.gradient_places() for b in self.wanted)])
 
     def _share(self) -> None:
         """Nobody can change what every nonlinear program made from this one holds, too."""
         bounds = (self.lower, self.upper, self.constraint_lower, self.constraint_upper)
-        for array in (self.jacobian_rows, self.jacobian_cols, self.hessian_rows, self.hessian_cols, *bounds):
+        for array in (self.hessian_cols, *bounds):
             array.setflags(write=False)
 
     # ---- structure -------------------------------------------------------------------
@@ -119,14 +124,20 @@ class CollocationProgram:
             np.concatenate([np.zeros(int(self.demand_starts[0])), *(p[side] for p in pairs)]) for side in (0, 1)
         )
 
-    def _jacobian_structure(self) -> tuple[np.ndarray, np.ndarray]:
-        places = [b.jacobian_places(first) for b, first in zip(self.intervals, self.row_starts[:-1], strict=True)]
-        places += [signal.jacobian_structure() for signal in self.late]
-        places.append((np.repeat(self.tie_start + np.arange(len(self.ties)), 2), self.ties.ravel()))
-        places += [b.jacobian_places(first) for b, first in zip(self.demanded, self.demand_starts[:-1], strict=True)]
-        return tuple(np.concatenate([p[side] for p in places]).astype(np.int32) for side in (0, 1))
+    def _jacobian_rows(self) -> np.ndarray:
+        rows = [b.jacobian_rows(int(first)) for b, first in zip(self.intervals, self.row_starts, strict=False)]
+        rows += [signal.jacobian_structure()[0] for signal in self.late]
+        rows.append(np.repeat(self.tie_start + np.arange(len(self.ties)), 2))
+        rows += [b.jacobian_rows(int(first)) for b, first in zip(self.demanded, self.demand_starts, strict=False)]
+        return np.concatenate([r.astype(np.intc, copy=False) for r in rows])
 
-    def _hessian_structure(self) -> tuple[np.ndarray, np.ndarray]:
+    def _jacobian_columns(self) -> np.ndarray:
+        columns = [b.jacobian_columns() for b in self.intervals]
+        columns += [signal.jacobian_structure()[1] for signal in self.late]
+        columns += [self.ties.ravel(), *(b.jacobian_columns() for b in self.demanded)]
+        return np.concatenate([c.astype(np.intc, copy=False) for c in columns])
+
+    def _hessian_structure(self) -> tuple[Places, np.ndarray]:
         """Merged lower triangle; `_scatter` keeps where each block's values go: intervals, wanted, demanded, late."""
         keys = [b.hessian_keys() for b in (*self.intervals, *self.wanted, *self.demanded)]
         keys += [_keys(*signal.hessian_structure(), self.layout.size) for signal in self.late]
@@ -136,7 +147,10 @@ class CollocationProgram:
             np.ascontiguousarray(i.reshape(k.shape), dtype=np.int32)
             for i, k in zip(np.split(index, ends[:-1]), keys, strict=True)
         ]
-        return (merged // self.layout.size).astype(np.int32), (merged % self.layout.size).astype(np.int32)
+        rows, columns = np.divmod(merged, self.layout.size)
+        numbers, counts = np.arange(self.layout.size, dtype=np.intc), np.bincount(rows, minlength=self.layout.size)
+        counts = counts.astype(np.intc)
+        return Places(len(rows), lambda: np.repeat(numbers, counts)), columns.astype(np.intc)
 
     # ---- values ----------------------------------------------------------------------
     def interval_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
@@ -164,9 +178,9 @@ class CollocationProgram:
             *zip(self.demanded, self.demand_starts, strict=False),
         ]
 
-    def jacobian(self, z: np.ndarray) -> np.ndarray:
+    def _fill_jacobian(self, out: np.ndarray, z: np.ndarray) -> None:
         """(nnz,) values in the order of `jacobian_rows` and `jacobian_cols`."""
-        out, start = np.empty(len(self.jacobian_rows)), 0
+        start = 0
 
         def fill(block: Block) -> None:
             nonlocal start
@@ -182,11 +196,10 @@ class CollocationProgram:
             start += len(values)
         for block in self.demanded:
             fill(block)
-        return out
 
-    def hessian(self, z: np.ndarray, multipliers: np.ndarray, objective_factor: float) -> np.ndarray:
+    def _fill_hessian(self, out: np.ndarray, z: np.ndarray, multipliers: np.ndarray, objective_factor: float) -> None:
         """(nnz,) values of the Lagrangian's lower triangle, in the order of `hessian_rows`/`cols`."""
-        out, scatter = np.zeros(len(self.hessian_rows)), iter(self._scatter)
+        out[:], scatter = 0.0, iter(self._scatter)
 
         def add(block: Block, first: int) -> None:
             lam = multipliers[first : first + block.rows].reshape(block.points, block.kernel.m)
@@ -200,7 +213,6 @@ class CollocationProgram:
             add(block, int(first))
         for signal, index in zip(self.late, scatter, strict=True):
             out += np.bincount(index, signal.hessian(z, multipliers), minlength=len(out))
-        return out
 
     def curvature_beside_errors(self, z: np.ndarray, likelihood_only: bool = False) -> np.ndarray:
         """(nnz,) second derivatives of the objective without the output errors, in the order of `hessian_rows`/`cols`.

@@ -1,11 +1,14 @@
 """The nonlinear program refuses nonsense; its checkers find planted mistakes and pass what is right."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from nlp_problems import HS071_SOLUTION, hs071, one_variable, tracking
 
 from symid.errors import TranscriptionError
-from symid.nlp import check_derivatives, check_optimality
+from symid.ipopt_solver import solve_nlp
+from symid.nlp import Filling, Places, check_derivatives, check_optimality
 
 GENERIC = np.array([1.1, 4.2, 3.3, 1.7])
 
@@ -183,3 +186,30 @@ def test_scales_measure_in_their_own_units():
     nlp = one_variable(variable_scale=[100.0], objective_scale=1000.0)
     report = check_optimality(nlp, np.array([3.5]), np.zeros(0), np.zeros(1), np.zeros(1))
     assert report.stationarity == pytest.approx(1.0 * 100 / 1000)
+
+
+def test_places_that_are_made_on_demand_are_an_array_to_numpy():
+    rows = Places(4, lambda: np.repeat([0, 2], 2))
+    assert len(rows) == rows.size == 4 and np.asarray(rows).dtype == np.intc
+    assert (rows == [0, 0, 2, 2]).all() and (rows[1:3] + 1).tolist() == [1, 3]
+    assert np.append(rows, 5).tolist() == [0, 0, 2, 2, 5]
+
+
+def test_a_program_with_places_on_demand_and_functions_that_fill_has_the_same_matrices():
+    nlp = hs071()
+    rows, cols = np.array(nlp.jacobian_rows), np.array(nlp.jacobian_cols)
+
+    def fill(out, z):
+        out[:] = nlp.jacobian(z)
+
+    lazy = replace(
+        nlp,
+        jacobian=Filling(len(rows), fill),
+        jacobian_rows=Places(len(rows), lambda: rows),
+        jacobian_cols=Places(len(cols), lambda: cols),
+    )
+    z = np.array([1.0, 4.5, 3.5, 1.2])
+    assert (lazy.jacobian_matrix(z) != nlp.jacobian_matrix(z)).nnz == 0
+    assert check_derivatives(lazy, z).ok
+    assert np.array_equal(solve_nlp(lazy).z, solve_nlp(nlp).z)
+    assert np.array_equal(solve_nlp(lazy, interface="cyipopt").z, solve_nlp(nlp, interface="cyipopt").z)
