@@ -1,4 +1,6 @@
-"""A user's own law is one more suspect: the example of the README."""
+"""A user's own law is one more suspect: the example of the page on diagnoses."""
+
+from types import SimpleNamespace
 
 import numpy as np
 from conftest import ROOT
@@ -11,11 +13,11 @@ from symid.simulation import simulator
 BODY = {"m1_kg": 0.1, "a1_m": 0.1, "I1_kg_m2": 1e-4, "g_m_s2": 9.81}
 
 
-def test_the_law_of_the_readme_is_found():
-    text = (ROOT / "README.md").read_text().split("one more suspect of a diagnosis:")[1].split("```")[1]
-    code = text.removeprefix("python").split("found =")[0]
+def test_the_law_of_the_page_is_found():
+    page = (ROOT / "docs/pages/howto/diagnose.md").read_text(encoding="utf-8")
+    code = page.split("## Your own suspect")[1].split("```")[1].removeprefix("python")
     model = rig_model(BODY)
-    given = {"model": model}
+    given = {"si": si, "case": SimpleNamespace(model=model)}
     exec(code, given)
     (suspect,) = given["mine"]
     true = {suspect.term.parameter_name("strength_Nm"): 0.004}
