@@ -113,8 +113,8 @@ def diagnose(
     plain = Data(pieces, checked.noise, task.random, checked.rounding).thinned()
 
     def fits(task: Task, plain: Data, start: dict[str, float]) -> list[tuple[Data, Fit]]:
-        window = task.fit_window, task.segment_length
-        return fits_of(task.model, task.recording, *window, plain, checked.filter, checked.inputs, start, checked.known)
+        window, c = (task.fit_window, task.segment_length), checked
+        return fits_of(task.model, task.recording, *window, plain, c.filter, c.inputs, start, c.known, c.stated)
 
     task, plain, possible = fitted_as_given(task, plain, fits)
     piece_seconds = task.segment_length if task.segment_length != segment_length else None

@@ -20,6 +20,9 @@ from symid.estimation.zero_phase import ZeroPhase
 ORDERS = (2, 3, 4)
 RATES = (1, 2, 4)
 """Samples of the filter for each one that was kept."""
+FEWER_SAMPLES = 5.0
+"""That samples were left out after the filter must be likelier by the exponential of this, odds of 150 to 1: spectra of
+a few seconds tell it by 0.5, those of a minute by 100."""
 LOOK = 12.0
 """So many times the pace lasts one look at a spectrum, which is steep: shorter ones smear it."""
 SHORTEST = 6
@@ -49,7 +52,11 @@ def estimated_filter(
         gain = ZeroPhase(order, cutoff, rate / step).gain(f)
         return sum(_misfit(f, p, gain**2) for p in power)
 
-    _, order, rate, at = min((cost(n, r, c), n, r, i) for n, r in product(ORDERS, RATES) for i, c in enumerate(cutoffs))
+    _, order, rate, at = min(
+        (cost(n, r, c) + FEWER_SAMPLES * (r > 1), n, r, i)
+        for n, r in product(ORDERS, RATES)
+        for i, c in enumerate(cutoffs)
+    )
     near = cutoffs[max(at - 1, 0)], cutoffs[min(at + 1, CUTOFFS - 1)]
     best = minimize_scalar(
         lambda c: cost(order, rate, c), bounds=near, method="bounded", options={"xatol": 1e-3 * near[0]}

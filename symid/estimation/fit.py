@@ -113,7 +113,7 @@ class Fitter:
         self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
         self.driven = data.driven and bool(model.noises)
         self.noises = len(model.noises)
-        self.tuned = [*range(self.noises)] if self.driven and not data.memory else []
+        self.tuned = [*range(self.noises)] if self.driven else []
         self.tuned += [self.noises] if data.cutoff_free else []
         self.near, self.bounded = near, False
         self.step = data.segments[0].step
@@ -169,9 +169,7 @@ class Fitter:
         if not self.driven:
             # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
             whitening = whitening.apart((1e-6 * self.data.sensor_noise) ** 2)
-        sign, logdet = np.linalg.slogdet(
-            whitening.covariance / np.outer(self.data.sensor_noise, self.data.sensor_noise)
-        )
+        sign, logdet = np.linalg.slogdet(whitening.covariance)
         if self.data.filter is not None:
             logdet -= 2 * len(whitening.covariance) * self.data.filter.log_volume(self.step, self.sharpness(process))[0]
         return (-self.data.samples * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), whitening

@@ -16,6 +16,8 @@ import numpy as np
 
 SMALLEST_GAIN = 0.03
 """The filter is undone where it left at least this part of a signal; rounding stays far below the sensors' noise."""
+ROLL_OFF = 0.1
+"""Part of the band, below and above its edge, over which what is kept fades away."""
 PADDING = 5.0
 """Seconds of odd reflection at both ends that fade away, so that the undoing meets no step and no kink there."""
 
@@ -61,7 +63,7 @@ class ZeroPhase:
             ]
         )
         frequency = np.fft.rfftfreq(len(long), step)
-        spectrum = np.fft.rfft(long) * (frequency <= 0.5 / step / ratio * (1 + 1e-9))
+        spectrum = np.fft.rfft(long) * _kept(frequency * 2 * step * ratio, ratio)
         kept, added = (np.fft.irfft(spectrum * a, len(long))[pad : pad + len(x)] for a in (1.0, self.excess(frequency)))
         return kept + added + middle, added
 
@@ -76,3 +78,15 @@ class ZeroPhase:
         """The filter whose excess is `sharpness` times as large."""
         tangent = np.tan(np.pi * self.cutoff / self.rate) * sharpness ** (-0.5 / self.order)
         return ZeroPhase(self.order, float(np.arctan(tangent) * self.rate / np.pi), self.rate)
+
+
+def _kept(x: np.ndarray, ratio: int) -> np.ndarray:
+    """What is kept of frequencies `x`, in parts of the highest that one sample in `ratio` holds; all where ratio is 1.
+
+    The square root of a raised cosine (Proakis & Salehi 2008, 9.2): what is kept of a frequency and of the one that one
+    sample in `ratio` shows in its place have the power of one, so that white noise stays white; and it has no corner
+    at which the ends of the recording would ring on and on.
+    """
+    if ratio == 1:
+        return np.ones(len(x))
+    return np.cos(0.25 * np.pi * np.clip((x - 1) / ROLL_OFF + 1, 0, 2))

@@ -15,7 +15,7 @@ from symid.analysis import Stability, stability_of
 from symid.errors import SolveError
 from symid.identification import Finished, Identification, Solution, Solve, StartRow, Study
 from symid.identification.starts.search import EXPLODED
-from symid.identification.starts.stable import SOLVED_SURVIVES, survival
+from symid.identification.starts.stable import SOLVED_SURVIVES, survives
 from symid.model import Model
 from symid.recording import Recording
 from symid.reproduce.article import HELD_OUT, RANGE, TORQUE_NOISE, WINDOW, Case
@@ -97,7 +97,7 @@ def reproduce(
     executor, jobs, store : as for `Study.run`; `jobs` are also the threads of the simulations.
     """
     solves = {}
-    for case in cases:
+    for case in sorted(cases, key=lambda case: -case.episodes):  # the long ones first: none is left alone at the end
         for seed in seeds if case.episodes > 1 else seeds[:1]:
             labels = {"controller": case.controller, "episodes": case.episodes, "noise seed": seed}
             for k in range(starts):
@@ -125,7 +125,7 @@ def _survives(one: Identification) -> Callable[[StartRow], bool]:
     if one.ridge_about != "start":
         return lambda row: True
     names = one.transcription.layout.parameter_names
-    return lambda row: survival(one.transcription, np.array([row.parameters[k] for k in names])) >= SOLVED_SURVIVES
+    return lambda row: survives(one.transcription, np.array([row.parameters[k] for k in names]), SOLVED_SURVIVES)
 
 
 def _start_kind(case: Case) -> str:

@@ -8,7 +8,8 @@ import pytest
 from conftest import pendulum
 from scipy.signal import butter, filtfilt
 
-from symid.discrepancy.locate.audit import audit, white_noise
+from symid.discrepancy.locate.audit import audit
+from symid.estimation.sensor_noise import white_noise
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.prove.halves import Half, HalfVerdict, _reason, _said, survivals, verdicts
 from symid.discrepancy.say.diagnosis import Effect
@@ -34,11 +35,11 @@ def audited(angle, given=None, noise=None):
 
 def test_noise_is_told_from_the_highest_frequencies():
     a = audited(MOTION + 2e-3 * np.random.default_rng(1).standard_normal(len(TIME)))
-    assert a.noise[0] == pytest.approx(2e-3, rel=0.05) and not a.stated and not a.filtered and a.rounding[0] == 0
+    assert a.noise[0] == pytest.approx(2e-3, rel=0.05) and not a.stated.any() and not a.filtered and a.rounding[0] == 0
 
 
 def test_noise_that_is_stated_is_taken():
-    assert audited(MOTION, 3e-4).noise[0] == 3e-4 and audited(MOTION, 3e-4).stated
+    assert audited(MOTION, 3e-4).noise[0] == 3e-4 and audited(MOTION, 3e-4).stated.all()
     assert audited(MOTION, noise={"link1_angle": 5e-4}).noise[0] == 5e-4
 
 

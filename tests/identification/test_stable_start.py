@@ -9,7 +9,7 @@ from conftest import pendulum, pendulum_recording
 from symid.errors import TranscriptionError
 from symid.identification import Identification
 from symid.identification.starts import stable
-from symid.identification.starts.stable import DisplacedRuns, displaced, stable_start, survival
+from symid.identification.starts.stable import DisplacedRuns, displaced, stable_start, survives
 from symid.nlp import check_derivatives, with_ridge
 from symid.transcription import Episodes
 
@@ -56,17 +56,17 @@ def test_price_weighs_the_displaced_runs_against_the_episodes(problem):
 
 def test_a_damped_loop_survives_and_one_that_gains_energy_falls():
     t = Identification(pendulum(), mild_recording()).transcription
-    assert survival(t, np.array([0.4])) == 1.0
-    assert survival(t, np.array([-3.0])) == 0.0
+    assert survives(t, np.array([0.4]), 1.0)
+    assert not survives(t, np.array([-3.0]), 1 / stable.JUDGES)
 
 
 def test_a_loop_has_to_survive_the_larger_input_too(monkeypatch):
     t = Identification(pendulum(), pendulum_recording(noise=0.01)).transcription  # twice the drive turns it over
     monkeypatch.setattr(stable, "WIDE", (1.0, 1.0))
     monkeypatch.setattr(stable, "LOUD", (1.0,))
-    quiet = survival(t, np.array([0.4]))
+    assert survives(t, np.array([0.4]), 0.5)
     monkeypatch.setattr(stable, "LOUD", (1.0, 2.0))
-    assert quiet > 0.5 and survival(t, np.array([0.4])) < 0.1
+    assert not survives(t, np.array([0.4]), 0.1)
 
 
 def test_stable_start_survives_follows_and_is_solved(problem):
@@ -75,7 +75,7 @@ def test_stable_start_survives_follows_and_is_solved(problem):
     assert t.layout.parameters(z)[0] == pytest.approx(0.4, abs=0.1)
     assert not np.allclose(t.layout.states(z, 0), t.layout.states(z, 1))  # each episode has its own noise
     result = problem.solve_from(z)
-    assert result.solved and survival(t, t.layout.parameters(result.z)) == 1.0
+    assert result.solved and survives(t, t.layout.parameters(result.z), 1.0)
 
 
 def test_stable_start_is_the_same_for_a_seed(problem):
@@ -84,7 +84,7 @@ def test_stable_start_is_the_same_for_a_seed(problem):
 
 
 def test_where_no_loop_survives_the_start_follows_the_recording_all_the_same(problem, monkeypatch):
-    monkeypatch.setattr(stable, "survival", lambda t, parameters: 0.0)
+    monkeypatch.setattr(stable, "survives", lambda t, parameters, least: False)
     z = stable_start(problem, seed=0, number=0)
     assert problem.transcription.layout.parameters(z)[0] == pytest.approx(0.4, abs=0.1)
 

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from math import comb
 
 import numpy as np
 from scipy.signal import welch
 
 from symid.estimation.cutoff import estimated_filter
 from symid.estimation.data import Segment, pace_of
+from symid.estimation.sensor_noise import noise_before, white_noise
 from symid.estimation.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
 
-ORDER = 6
-"""Differences of this order leave noise and hardly any motion."""
 FALLING = 4.0
 """A spectrum that still falls by this factor in the upper half of its band shows no floor of sensor noise."""
 FLAT = 1.12
@@ -37,7 +35,7 @@ class Audit:
 
     Attributes
     ----------
-    noise : (m,) standard deviation of the sensor [SI]. stated : whether that was given.
+    noise : (m,) standard deviation of the sensor [SI]. stated : (m,) whether that was given.
     cutoff : (m,) above this frequency the signal is empty, so it was low-pass filtered [Hz]; NaN where not.
     filter : the zero-phase filter that did it, as the spectra show it; None where none of the outputs was filtered.
     inputs : whether the inputs may have been filtered, too. known : whether the filter was stated.
@@ -45,7 +43,7 @@ class Audit:
     """
 
     noise: np.ndarray
-    stated: bool
+    stated: np.ndarray
     cutoff: np.ndarray
     rounding: np.ndarray
     filter: ZeroPhase | None = None
@@ -78,36 +76,22 @@ def audit(
         and any(np.isfinite(_cutoff([e.inputs[u] for e in segments], step, pace)) for u in model.inputs)
     )
     if isinstance(given, (int, float)):
-        return Audit(np.full(len(names), float(given)), True, cutoff, rounding, filter, inputs, known)
-    noise = [
-        float(table[c]) if c in table else _noise([e.recorded[:, i] for e in segments], step, filter)
-        for i, c in enumerate(names)
-    ]
-    return Audit(np.array(noise), all(c in table for c in names), cutoff, rounding, filter, inputs, known)
+        noise, stated = np.full(len(names), float(given)), np.full(len(names), True)
+        return Audit(noise, stated, cutoff, rounding, filter, inputs, known)
+    pieces = {c: [e.recorded[:, i] for e in segments] for i, c in enumerate(names)}
+    found = {
+        c: white_noise(x) if filter is None else noise_before(x, step, filter)
+        for c, x in pieces.items()
+        if c not in table
+    }
+    noise = np.array([float(table[c]) if c in table else found[c] for c in names])
+    return Audit(noise, np.array([c in table for c in names]), cutoff, rounding, filter, inputs, known)
 
 
 def _filter(model: Model, segments: tuple[Segment, ...]) -> ZeroPhase:
     longest = max(segments, key=lambda e: len(e.time))
     inputs = [longest.inputs[u] for u in model.inputs]
     return estimated_filter(list(longest.recorded.T), inputs, longest.step, pace_of(segments))
-
-
-def _noise(pieces: list[np.ndarray], step: float, filter: ZeroPhase | None) -> float:
-    """Rms of a sensor's white noise, before a filter where there was one."""
-    if filter is None:
-        return white_noise(pieces)
-    ratio = filter.ratio(step)
-    return white_noise([filter.undone(x, step, ratio)[0][::ratio] for x in pieces]) * np.sqrt(ratio)
-
-
-def white_noise(pieces: list[np.ndarray]) -> float:
-    """Rms of white noise, from differences of an order that motion hardly reaches.
-
-    The squared binomial coefficients of order k add up to (2k)!/(k!)^2 (Anderson 1971, 3.4).
-    """
-    differences = [np.diff(x, ORDER) for x in pieces if len(x) > ORDER]
-    power = np.mean(np.concatenate(differences) ** 2) / comb(2 * ORDER, ORDER)
-    return float(np.sqrt(max(power, 1e-18 + 1e-12 * np.mean(np.concatenate(pieces) ** 2))))
 
 
 def _step(x: np.ndarray) -> float:

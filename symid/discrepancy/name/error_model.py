@@ -1,14 +1,16 @@
 """Which error model belongs to a recording: what was filtered, and how long the noise remembers.
 
-What is missing in a model colours its innovations, too. So the search for what is missing comes first, with
-white innovations; only colour that outlasts the best explanation is taken for the sensors', and the search
-begins anew with noise that remembers as much.
+What is missing in a model colours its innovations, too. So a memory of the noise competes with what may be missing: it
+is believed at once where it explains more than any one suspect or flexible law does. Else the search comes first,
+with white innovations; colour that outlasts the best explanation is then taken for the sensors', and the search begins
+anew with noise that remembers as much.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import inf, log
 
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.search import Search
@@ -29,6 +31,11 @@ def with_error_model(
     searched : makes a search.
     """
     search = _likeliest([searched(base, data) for data, base in possible])
+    most = search.most_of_one()
+    data, base = with_memory(search.base, search.data) if most < inf else (search.data, search.base)
+    if _gain(data, base, search) > most:
+        progress(f"the noise remembers {data.memory} samples; looking again")
+        search = searched(base, data)
     found, ranking = search.run()
     data, explained = with_memory(found.fit, search.data)
     if data is search.data:
@@ -36,6 +43,12 @@ def with_error_model(
     progress(f"the noise remembers {data.memory} samples; looking again")
     search = searched(_refitted(search.base, explained, data), data)
     return search, *search.run()
+
+
+def _gain(data: Data, base: Fit, search: Search) -> float:
+    """Evidence for what noise remembers, with the penalty of BIC for each coefficient."""
+    coefficients = (data.memory - search.data.memory) * len(data.sensor_noise) ** 2
+    return base.loglik2 - search.base.loglik2 - coefficients * log(data.samples)
 
 
 def _likeliest(searches: list[Search]) -> Search:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import log
+from math import inf, log
 
 import numpy as np
 
@@ -57,10 +57,14 @@ class Search:
         nothing = Hypothesis((), self.base, self.base, self.data)
         return self._explored(nothing, [s for s in self.pool if s.kind != "clock"])
 
+    @cached_property
+    def single(self) -> list[Hypothesis]:
+        """Each suspect alone, best first."""
+        return self._added(Hypothesis((), self.base, self.base, self.data))
+
     def run(self) -> tuple[Hypothesis, list[Hypothesis]]:
         """The best hypothesis, and each suspect alone, best first."""
-        best = Hypothesis((), self.base, self.base, self.data)
-        single = self._added(best)
+        best, single = Hypothesis((), self.base, self.base, self.data), self.single
         while len(best.suspects) < POLICY.most_effects:
             more = self._preferred(best, self._added(best) if best.suspects else single)
             if more is None and not best.suspects and not self.explained(best):
@@ -85,6 +89,13 @@ class Search:
         """What is found, or the flexible law at one place where several laws together explain less than that."""
         doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
         return self.flexible() if doubtful and self.beaten(found) else found
+
+    def most_of_one(self) -> float:
+        """Evidence for the one suspect or flexible law that explains most; infinite where one explains everything."""
+        nothing = Hypothesis((), self.base, self.base, self.data)
+        if self.explained(self._preferred(nothing, self.single) or nothing):
+            return inf
+        return max(h.evidence(1.0) for h in [nothing, self.flexible(), *self.single])
 
     # ---- judging -----------------------------------------------------------------------------
     def value(self, found: Hypothesis, share: float, belief: bool = True) -> float:

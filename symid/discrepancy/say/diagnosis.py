@@ -258,7 +258,7 @@ class Diagnosis:
         names = [y.channel for y in self.improved.outputs.values()]
         return {
             "sensor_noise": dict(zip(names, map(float, self.audit.noise), strict=True)),
-            "sensor_noise_stated": self.audit.stated,
+            "sensor_noise_stated": bool(self.audit.stated.all()),
             "filtered_above_Hz": {
                 k: f for k, f in zip(names, map(float, self.audit.cutoff), strict=True) if isfinite(f)
             },

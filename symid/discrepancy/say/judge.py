@@ -63,7 +63,7 @@ def _as_survived(effect: Effect, evidence: Evidence) -> Effect:
 def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> bool:
     """Whether a rest beside a finding that helps is less than the noise of sensors that nobody stated."""
     better = evidence.proof is None or evidence.proof.margin > 0
-    return better and not audit.stated and near_noise(evidence.found, search.data)
+    return better and not audit.stated.all() and near_noise(evidence.found, search.data)
 
 
 def _voted(flexible: Hypothesis, effect: Effect, rest: Test | None) -> str:

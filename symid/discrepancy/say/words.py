@@ -335,7 +335,7 @@ def _caveats(s: Story) -> list[str]:
             f"The recording was low-pass filtered{stated}: about as a Butterworth filter of order {s.filter.order}, "
             f"forwards and backwards, does at {s.filter.cutoff:.2g} Hz. That was undone before anything was compared."
         )
-    elif not s.audit.stated:
+    elif not s.audit.stated.all():
         out.append(
             "The sensors' noise was not stated; the highest frequencies of the recording show "
             f"{s.channels(s.audit.noise)}."

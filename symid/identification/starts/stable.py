@@ -56,39 +56,41 @@ RELAXED_RIDGE, RIDGE = 4e-4, 1e-5
 """About zero: in the identification with process noise, which has no loop yet to stay near; in all shootings."""
 
 
-def survival(t: Transcription, parameters: np.ndarray) -> float:
-    """Share of `JUDGES` states from which the loop's simulations stay within `LIMIT`, without held-out data.
+def survives(t: Transcription, parameters: np.ndarray, least: float) -> bool:
+    """Whether the loop's simulations from a share of `least` of the states stay within `LIMIT`, without held-out data.
 
-    The states are spread evenly over the box of the states recorded in the window, made `WIDE[1]`
+    The `JUDGES` states are spread evenly over the box of the states recorded in the window, made `WIDE[1]`
     times as wide; inputs and recorded outputs are those of the window, forwards and backwards in turn.
     A loop has to survive the recorded input and the larger one: the former shows slow wandering about
     another posture, which the wider limit of the latter would let pass, the latter shows falls.
+    As soon as the share is certain no further state is simulated.
     """
-    loop, share = simulator(t.model), []
+    loop, states, fell = simulator(t.model), [], 0
     for m in t.measured:
-        states = displaced(m.states[m.nodes], JUDGES, WIDE[1])
-        share.append(np.logical_and.reduce([_survives(loop, parameters, m, states, loud) for loud in LOUD]))
-    return float(np.mean(share))
+        runs = [_Judging(m, loud) for loud in LOUD]
+        states += [(runs, x) for x in displaced(m.states[m.nodes], JUDGES, WIDE[1])]
+    for k, (runs, x) in enumerate(states):
+        fell += not all(run.survived(loop, parameters, x) for run in runs)
+        if len(states) - fell < least * len(states):
+            return False
+        if k + 1 - fell >= least * len(states):
+            return True
+    return True
 
 
-def _survives(loop: Simulator, parameters: np.ndarray, m: Measured, states: np.ndarray, loud: float) -> np.ndarray:
-    """(K,) whether the loop survives from each of `states`, with the input of one recording `loud` times as large."""
-    order = _there_and_back(m.last - m.first)
-    time, targets = m.step * np.arange(len(order)), m.targets[m.nodes]
-    inputs = {k: loud * u[m.nodes][order] for k, u in m.inputs.items()}
-    limit = loud * LIMIT * np.mean(np.std(targets, axis=0))
-    runs = (
-        loop.simulate(
-            parameters,
-            x,
-            time,
-            inputs,
-            limit=LIMIT * 1e2 * loud * float(np.max(np.abs(m.states[m.nodes]))),
-            keep="outputs",
-        )
-        for x in states
-    )
-    return np.array([not r.diverged and np.sqrt(np.mean((r.y - targets[order]) ** 2)) <= limit for r in runs])
+class _Judging:
+    """Runs with the input of one recording, `loud` times as large."""
+
+    def __init__(self, m: Measured, loud: float):
+        order = _there_and_back(m.last - m.first)
+        self.time, self.targets = m.step * np.arange(len(order)), m.targets[m.nodes][order]
+        self.inputs = {k: loud * u[m.nodes][order] for k, u in m.inputs.items()}
+        self.limit = loud * LIMIT * np.mean(np.std(m.targets[m.nodes], axis=0))
+        self.far = loud * LIMIT * 1e2 * float(np.max(np.abs(m.states[m.nodes])))
+
+    def survived(self, loop: Simulator, parameters: np.ndarray, state: np.ndarray) -> bool:
+        run = loop.simulate(parameters, state, self.time, self.inputs, limit=self.far, keep="outputs")
+        return bool(not run.diverged and np.sqrt(np.mean((run.y - self.targets) ** 2)) <= self.limit)
 
 
 @one_blas_thread
@@ -98,7 +100,7 @@ def stable_start(problem: Identification, seed: int, number: int) -> np.ndarray:
     1. One episode, `CANDIDATES` times: regression, relaxed identification and evolution as for
        `search_start`. They are shot with displaced runs at a falling price; of each round the best
        go on (successive halving: Jamieson & Talwalkar 2016).
-    2. All episodes, for each of those left: shooting on, judged by `survival` again and again.
+    2. All episodes, for each of those left: shooting on, judged by `survives` again and again.
 
     The start is the loop that follows best of all that survive (`SURVIVES`); where none does, the
     best of the first step. What is solved from it should have a ridge about it
@@ -135,7 +137,7 @@ def _descend(t: Transcription, z: np.ndarray) -> list[np.ndarray]:
     for n, (price, evaluations) in enumerate(DESCENT):
         loop = DisplacedRuns(t, price, RUNS[1])
         z = loop.shoot(z, evaluations)
-        if survival(t, (z * loop.scale)[: loop.q]) >= SURVIVES:
+        if survives(t, (z * loop.scale)[: loop.q], SURVIVES):
             standing.append(z)
         elif n >= TRUST:
             break
