@@ -140,7 +140,7 @@ def person(seed: int) -> Exam:
     rng = np.random.default_rng((9005, seed))
     delay, cutoff = DELAYS_S[seed % len(DELAYS_S)], CUTOFFS_HZ[seed // len(DELAYS_S) % len(CUTOFFS_HZ)]
     rate = RATES_HZ[seed // len(DELAYS_S) % len(RATES_HZ)]
-    recording, model = _article()
+    recording, _, model = _article()
     term = LIBRARY["feedback_delay"].at("global")
     truth = model.with_term(term) if delay else model
     n, gains = PERSON_S * FULL_RATE_HZ + 1, _gains(delay)
@@ -174,22 +174,21 @@ def person(seed: int) -> Exam:
 def _article():
     folder = fetch.standing()
     body = si.mechanics.DoubleLinkPendulum.from_json(folder / "body.json")
-    return si.read_recording(folder / "recording_100hz.csv"), body.with_feedback(si.mechanics.FullStatePD())
+    recordings = [si.read_recording(folder / f"recording_{rate}hz.csv") for rate in (100, 50)]
+    return *recordings, body.with_feedback(si.mechanics.FullStatePD())
 
 
 @cache
 def _gains(delay: float) -> dict[str, float]:
     """Of the person in the article, if the feedback were so late."""
-    recording, model = _article()
-    plain = si.Identification(model, recording.resampled(50.0), window=(0, 100)).solve()
+    _, recording, model = _article()
+    plain = si.Identification(model, recording, window=(0, 100)).solve()
     if not delay:
         return plain.values
     term = LIBRARY["feedback_delay"].at("global")
     name = term.parameter_name("delay_s")
     late = model.with_term(term).fixed(**{name: delay})
-    return si.Identification(late, recording.resampled(50.0), window=(0, 100)).solve(start=plain.values).values | {
-        name: delay
-    }
+    return si.Identification(late, recording, window=(0, 100)).solve(start=plain.values).values | {name: delay}
 
 
 DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, person)}
