@@ -109,7 +109,7 @@ def test_the_least_certain_effect_counts_in_the_samples_of_its_errors():
 def test_effects_that_cannot_be_left_out_stay(monkeypatch):
     found, chance_makes_more = two_frictions(), np.linspace(400.0, 500.0, POLICY.nulls)
     monkeypatch.setattr(certain, "hypothesis", lambda *arguments: None)
-    kept, chance = certain.beyond_chance(found, chance_makes_more, [], white=True)
+    kept, chance = certain.beyond_chance(found, chance_makes_more, 0.0, white=True)
     assert kept is found and chance > POLICY.chance
 
 

@@ -42,7 +42,10 @@ def with_error_model(
         return search, found, ranking
     progress(f"the noise remembers {data.memory} samples; looking again")
     search = searched(_refitted(search.base, explained, data), data)
-    return search, *search.run()
+    again, ranking = search.run()
+    # Noise with a memory may take up so much of what is missing that a search which begins anew goes astray.
+    known = Hypothesis(found.suspects, explained, search.base, data)
+    return search, search.better(again, known), ranking
 
 
 def _gain(data: Data, base: Fit, search: Search) -> float:

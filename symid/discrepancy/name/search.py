@@ -115,6 +115,11 @@ class Search:
             return True
         return self.value(more, share) > self.value(less, share)
 
+    def better(self, one: Hypothesis, other: Hypothesis) -> Hypothesis:
+        """The one of two sets of suspects that is believed more."""
+        share = max(one, other, key=lambda h: h.log_ratio).share
+        return max(one, other, key=lambda h: self.value(h, share))
+
     def _preferred(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
         """The one that is believed most, of those that are worth their price on top of `less`."""
         worth = [h for h in found if self._worth(h, less)]

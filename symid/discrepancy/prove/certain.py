@@ -55,15 +55,13 @@ def sure(found: Hypothesis) -> Hypothesis:
     return found
 
 
-def beyond_chance(
-    found: Hypothesis, maxima: np.ndarray, ranking: Sequence[Hypothesis], white: bool
-) -> tuple[Hypothesis, float | None]:
+def beyond_chance(found: Hypothesis, maxima: np.ndarray, best: float, white: bool) -> tuple[Hypothesis, float | None]:
     """The hypothesis without effects that chance alone makes, the weakest dropped first; and the probability of that.
 
     Parameters
     ----------
-    maxima : of the log-likelihood ratios that chance makes. ranking : each suspect alone: where nothing is
-        found the probability is that of the best of them.
+    maxima : of the log-likelihood ratios that chance makes. best : the largest that the recording gives to any one
+        suspect, forecast as `maxima` are: where nothing is found the probability is that of it.
     """
     while found.suspects:
         # Honest errors count independent samples only, the maxima count all: the same units are compared.
@@ -75,7 +73,7 @@ def beyond_chance(
         if less is None:
             return found, chance
         found = less
-    return found, false_alarm_probability(max((h.log_ratio for h in ranking), default=0.0), maxima)
+    return found, false_alarm_probability(best, maxima)
 
 
 def _without(kept: Sequence[Suspect], found: Hypothesis, white: bool) -> Hypothesis | None:

@@ -16,7 +16,7 @@ from symid.discrepancy.prove.elsewhere import elsewhere
 from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
 from symid.discrepancy.prove.nameless import Nameless, improved, nameless
 from symid.discrepancy.prove.held_out import Proof, compare
-from symid.discrepancy.prove.nulls import null_maxima
+from symid.discrepancy.prove.nulls import largest, null_maxima
 from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_values
 from symid.discrepancy.task import Task
 from symid.estimation.data import Data, segments_of
@@ -62,7 +62,8 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
     left = search.remainder(found)
     white = all(t.locates or t.minus_log10_p <= POLICY.remainder for t in left)
     before, found = found.suspects, honest(found, white, search.threads)
-    found, chance = beyond_chance(found, null_maxima(search.projection, found.fit), ranking, white)
+    best = float(largest(search.projection, search.projection.rest[:, None])[0])
+    found, chance = beyond_chance(found, null_maxima(search.projection, found.fit), best, white)
     if found.suspects != before:
         left = search.remainder(found)
     nameless_too = bool(left and left[0].minus_log10_p > POLICY.remainder) or not found.established

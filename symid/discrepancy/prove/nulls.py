@@ -28,10 +28,14 @@ def null_maxima(projection: Projection, fit: Fit) -> np.ndarray:
     signs = np.repeat(signs, fit.covariance.shape[0], axis=0)
     if len(signs) != len(rest):
         return np.zeros(0)
-    noise = projection.project(rest[:, None] * signs)
-    best = np.zeros(POLICY.nulls)
+    return largest(projection, projection.project(rest[:, None] * signs))
+
+
+def largest(projection: Projection, rest: np.ndarray) -> np.ndarray:
+    """(k,) the largest log-likelihood ratio that is forecast for any suspect, for columns (N m, k) of what is left."""
+    best = np.zeros(rest.shape[1])
     for basis in projection.bases:
-        best = np.maximum(best, ((basis.T @ noise) ** 2).sum(0))
+        best = np.maximum(best, ((basis.T @ rest) ** 2).sum(0))
     return best
 
 
