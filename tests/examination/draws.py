@@ -180,15 +180,17 @@ def _article():
 
 @cache
 def _gains(delay: float) -> dict[str, float]:
-    """Of the person in the article, if the feedback were so late."""
+    """Of the person in the article, if the feedback were so late and had to keep the body up in spite of noise."""
     _, recording, model = _article()
     plain = si.Identification(model, recording, window=(0, 100)).solve()
     if not delay:
         return plain.values
     term = LIBRARY["feedback_delay"].at("global")
     name = term.parameter_name("delay_s")
-    late = model.with_term(term).fixed(**{name: delay})
-    return si.Identification(late, recording, window=(0, 100)).solve(start=plain.values).values | {name: delay}
+    late, episodes = model.with_term(term).fixed(**{name: delay}), si.Episodes(3, torque=TORQUE_NM)
+    return si.Identification(late, recording, window=(0, 60), episodes=episodes).solve(start=plain.values).values | {
+        name: delay
+    }
 
 
 DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, person)}

@@ -2,8 +2,8 @@
 
 What is missing in a model colours its innovations, too. So a memory of the noise competes with what may be missing: it
 is believed at once where it explains more than any one suspect or flexible law does. Else the search comes first,
-with white innovations; colour that outlasts the best explanation is then taken for the sensors', and the search begins
-anew with noise that remembers as much.
+with white innovations; colour that outlasts the best explanation is then taken for the sensors', unless a flexible law
+explains more than both, and the search begins anew with noise that remembers as much.
 """
 
 from __future__ import annotations
@@ -33,12 +33,13 @@ def with_error_model(
     search = _likeliest([searched(base, data) for data, base in possible])
     most = search.most_of_one()
     data, base = with_memory(search.base, search.data) if most < inf else (search.data, search.base)
-    if _gain(data, base, search) > most:
+    if _gain(data, base, search.data, search.base) > most:
         progress(f"the noise remembers {data.memory} samples; looking again")
         search = searched(base, data)
     found, ranking = search.run()
     data, explained = with_memory(found.fit, search.data)
-    if data is search.data:
+    more = _gain(data, explained, search.data, found.fit)
+    if data is search.data or found.evidence(1.0) + more < search.flexible().evidence(1.0):
         return search, found, ranking
     progress(f"the noise remembers {data.memory} samples; looking again")
     search = searched(_refitted(search.base, explained, data), data)
@@ -48,10 +49,10 @@ def with_error_model(
     return search, search.better(again, known), ranking
 
 
-def _gain(data: Data, base: Fit, search: Search) -> float:
-    """Evidence for what noise remembers, with the penalty of BIC for each coefficient."""
-    coefficients = (data.memory - search.data.memory) * len(data.sensor_noise) ** 2
-    return base.loglik2 - search.base.loglik2 - coefficients * log(data.samples)
+def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:
+    """Evidence for what noise remembers in `data` beyond `before`, with the penalty of BIC for each coefficient."""
+    coefficients = (data.memory - before.memory) * len(data.sensor_noise) ** 2
+    return fit.loglik2 - white.loglik2 - coefficients * log(data.samples)
 
 
 def _likeliest(searches: list[Search]) -> Search:
