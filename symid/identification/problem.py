@@ -6,7 +6,7 @@ import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from pathlib import Path
 from typing import Any, cast
@@ -18,6 +18,7 @@ from symid.errors import RecordingWarning, SolveError, TranscriptionError
 from symid.identification.arguments import Recordings, refuse_wrong_options, refuse_wrong_types
 from symid.identification.identity import problem_identity
 from symid.identification.process_size import to_sized, unsized
+from symid.identification.program import TRACE, off_its_bounds, program_of
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution
 from symid.identification.start_row import StartRow
@@ -28,10 +29,10 @@ from symid.identification.study import Solve, Study, start_kinds
 from symid.identification.weighting import by_noise, information_of, to_likelihood, weights_of
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model
-from symid.nlp import NonlinearProgram, with_ridge
+from symid.nlp import NonlinearProgram
 from symid.transcription import Episodes, Midpoint, Scheme, Transcription, measure, transcribe
 
-NEAR = {"mu_strategy": "monotone", "mu_init": 1e-11, "bound_push": 1e-11, "bound_frac": 1e-11}
+NEAR = {"mu_strategy": "monotone", "mu_init": 1e-11, "bound_push": TRACE, "bound_frac": TRACE}
 """Options of Ipopt for a start close to an optimum: no barrier drives it from bounds that are near, such as a level of
 zero, or into another optimum: of clear data the scaled objective is 1e-5 or less, which the barrier must not exceed."""
 DELAY_OPTIONS = {"mumps_pivot_order": 2}
@@ -208,18 +209,7 @@ class Identification:
 
         kept : free parameters that stay at a value [SI], by name.
         """
-        nlp, layout = self.transcription.nonlinear_program(start), self.transcription.layout
-        if kept:
-            columns = layout.offsets[-1] + np.array([layout.parameter_names.index(name) for name in kept])
-            z, lower, upper = nlp.start.copy(), nlp.lower.copy(), nlp.upper.copy()
-            scaled = np.array(list(kept.values())) / layout.parameter_scale[columns - layout.offsets[-1]]
-            z[columns] = lower[columns] = upper[columns] = scaled
-            nlp = replace(nlp, start=z, lower=lower, upper=upper)
-        if not self.ridge:
-            return nlp
-        columns = np.arange(layout.offsets[-1], layout.size)
-        centre = start[columns] if self.ridge_about == "start" else 0.0
-        return with_ridge(nlp, columns, self.ridge * len(layout.intervals), centre)
+        return program_of(self, start, kept)
 
     def solve_from(
         self,
@@ -250,7 +240,7 @@ class Identification:
             told = None if on_iteration is None else on_iteration(iteration)
             return told is not False and iteration.dual_infeasibility <= dual_limit
 
-        nlp = _off_its_bounds(self.nonlinear_program(start, kept))
+        nlp = off_its_bounds(self.nonlinear_program(start, kept))
         return solve_nlp(nlp, on_iteration=watch, warm_start=warm_start, **solver)
 
     def solve(
@@ -315,10 +305,3 @@ class Identification:
         best = ended.best()
         settle = to_sized if unsized(self.model) else to_likelihood
         return settle(best, on_iteration=on_iteration, **solver)
-
-
-def _off_its_bounds(nlp: NonlinearProgram) -> NonlinearProgram:
-    """`nlp` with its start a trace inside of the bounds, where a square root or logarithm has derivatives."""
-    trace = NEAR["bound_push"] * np.maximum(1.0, np.abs(nlp.start))
-    free = nlp.upper - nlp.lower > 2 * trace
-    return replace(nlp, start=np.where(free, np.clip(nlp.start, nlp.lower + trace, nlp.upper - trace), nlp.start))

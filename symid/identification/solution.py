@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from symid import checked
 from symid.errors import SolveError
 from symid.identification.covariance import ParameterErrors, bound_active, parameter_errors
 from symid.identification.fit import fit_measures
@@ -240,33 +239,9 @@ class Solution:
         ------
         SolveError : parameters differ between recordings, or no such run was found.
         """
-        from symid.identification.problem import Identification
+        from symid.identification.free_run import free_run
 
-        if isinstance(window, Recording):
-            raise SolveError("fit_on: give a window first, and then a recording: fit_on((0, 10), other)")
-        window = checked.window(window, "fit_on: window", SolveError)
-        checked.kind(recording, (Recording, type(None)), "fit_on: recording", SolveError)
-        known = {name: value for name, value in self.values.items() if "[" not in name}
-        if len(known) < len(self.values):
-            raise SolveError("fit_on: parameters differ between recordings; fix those you mean with model.fixed()")
-        p, run = self.problem, self.problem.recordings[0] if recording is None else recording
-        fitted = self.transcription.measured[0].first == 0
-        bound = fitted and window[0] <= run.time[0]
-        other = Identification(
-            self.model.fixed(**known).undisturbed(bound),
-            run,
-            window,
-            scheme=p.scheme,
-            weights=p.weights,
-            noise=p.noise and p.noise[:1],
-            backend=p.backend,
-        )
-        solution = other.solve(check=False)
-        if not solution.solved:
-            raise SolveError(
-                f"fit_on: the free run over {window[0]:g} to {window[1]:g} s was not found: {solution.message}"
-            )
-        return solution
+        return free_run(self, window, recording)
 
     @cached_property
     def provenance(self) -> dict[str, Any]:

@@ -2,9 +2,9 @@
 
 from symid.model.c_function import CFunction, c_function, c_texts
 from symid.model.conditions import Boundary, Constraint, Objective, Row
+from symid.model.component import Component
 from symid.model.declare import (
     Algebraic,
-    Component,
     Constant,
     Control,
     Delay,

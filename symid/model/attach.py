@@ -11,7 +11,8 @@ import sympy as sm
 
 from symid.errors import ModelError
 from symid.model.conditions import Constraint, Objective
-from symid.model.declare import Component, Constant, Equation, Expression, Input, Output, Port
+from symid.model.component import Component
+from symid.model.declare import Constant, Equation, Expression, Input, Output, Port
 from symid.model.quantity import AlongTime, refuse_calculus, sympified
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from sympy.core.relational import Relational
 
 from symid import checked
 from symid.errors import ModelError
-from symid.model.declare import Component
+from symid.model.component import Component
 from symid.model.prior import Prior
 from symid.model.quantity import initial, refuse_calculus, sympified, terminal
 

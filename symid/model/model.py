@@ -2,42 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any
 
 import sympy as sm
 
 from symid import checked
 from symid.errors import ModelError
-from symid.model import variants
 from symid.model.attach import completed, hint, refuse_wrong_types
-from symid.model.conditions import Boundary, Constraint, Objective
-from symid.model.declare import (
-    Algebraic,
-    Bounds,
-    Component,
-    Constant,
-    Control,
-    Delay,
-    Equation,
-    Expression,
-    Input,
-    Noise,
-    Output,
-    Parameter,
-    Port,
-    Process,
-    State,
-)
+from symid.model.component import Component
+from symid.model.declare import Algebraic, Constant, Control, Delay, Equation, Input, Output, Parameter, State
+from symid.model.derived import Derived
 from symid.model.fingerprint import fingerprint_of
+from symid.model.kinds import Kinds
 from symid.model.made import Copies
-from symid.model.quantity import Operand, free_symbols, refuse_calculus, symbol, sympified
+from symid.model.quantity import Operand, free_symbols, symbol, sympified
 
 if TYPE_CHECKING:
     from symid.model.term import Term
 
-Part = TypeVar("Part", bound=Component)
 TIME = symbol("t")
 
 
@@ -49,12 +31,7 @@ MOST_TOLD = 20
 """Violations in a message; the exception has them all."""
 
 
-def _kind(kind: type[Part]) -> dict[str, Part]:
-    told = f"Its parts of the kind `{kind.__name__}`, by name, in order of declaration."
-    return cast("dict[str, Part]", property(lambda self: self._of(kind), doc=told))
-
-
-class Model:
+class Model(Kinds, Derived):
     """A system of implicit differential equations, declared part by part.
 
     >>> m = Model("falling mass")
@@ -133,55 +110,24 @@ class Model:
             raise ModelError(f"model '{self.name}' has no part '{name}'; {checked.nearest(name, self.components)}")
         return self.components[name]
 
+    def __setitem__(self, name: str, part: Component) -> None:
+        raise ModelError(
+            f"model '{self.name}': a part is attached as an attribute, m.{name} = {type(part).__name__}(...)"
+        )
+
+    def __delattr__(self, name: str) -> None:
+        raise ModelError(
+            f"model '{self.name}': parts are not taken away; declare the model without '{name}', or make a variant: "
+            "fixed, free, controlled, with_term, redefine"
+        )
+
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.components, *self.groups]
-
-    # ---- parts by kind: {name: part}, in order of declaration --------------------------
-    def _of(self, kind: type[Part] | tuple[type[Part], ...]) -> dict[str, Part]:
-        return {k: c for k, c in self.components.items() if isinstance(c, kind)}
-
-    states = _kind(State)
-    algebraics = _kind(Algebraic)
-    controls = _kind(Control)
-    processes = _kind(Process)
-    inputs = _kind(Input)
-    parameters = _kind(Parameter)
-    constants = _kind(Constant)
-    noises = _kind(Noise)
-    expressions = _kind(Expression)
-    equations = _kind(Equation)
-    outputs = _kind(Output)
-    ports = _kind(Port)
-    constraints = _kind(Constraint)
-    boundaries = _kind(Boundary)
-    objectives = _kind(Objective)
-
-    @property
-    def informed(self) -> bool:
-        """Whether something is known beside the data: a prior, or the size of process noise."""
-        return (
-            any(p.prior is not None for p in self.parameters.values())
-            or bool(self.processes)
-            or any(b.penalties(set()) for b in self.boundaries.values())
-        )
-
-    @property
-    def costed(self) -> bool:
-        """Whether something beside the data has a weight of the user's: an objective, a soft constraint, smoothness."""
-        return (
-            bool(self.objectives)
-            or any(c.soft is not None for c in self.constraints.values())
-            or any(u.smooth for u in self.controls.values())
-        )
 
     @property
     def time(self) -> sm.Symbol:
         """Time in seconds, for forces that depend on it explicitly."""
         return TIME
-
-    def find(self, role: str, at: str | None = None) -> list[Any]:
-        """The parts with this role, at this place or (None) anywhere, in order of declaration."""
-        return [c for c in self.components.values() if c.role == role and at in (None, c.at)]
 
     # ---- equations as SymPy ----------------------------------------------------------
     def inline(self, expr: sm.Expr) -> sm.Expr:
@@ -240,7 +186,6 @@ class Model:
             self.delays[table[s]] = delay
         return expr.xreplace(table)
 
-    # ---- new models from old ---------------------------------------------------------
     def copy(self, name: str | None = None) -> Model:
         """An independent copy, which can be declared further."""
         new = Model(name or self.name, self.description)
@@ -249,126 +194,6 @@ class Model:
         new.delays.update(self.delays)
         new.__dict__["terms"] = self.terms
         return new
-
-    def with_term(self, term: Term) -> Model:
-        """A new model that contains `term`; this one stays as it is.
-
-        Parameters
-        ----------
-        term : a law at a place, with its values.
-
-        Raises
-        ------
-        ModelError : it is no Term, or the model has no such place.
-        """
-        if not hasattr(term, "build"):
-            raise ModelError(f"with_term: give a Term, for instance law.at(place), not {checked.shown(term)}")
-        new = self.copy()
-        term.build(new)
-        new.__dict__["terms"] = (*self.terms, term)
-        return new
-
-    def with_constants(self, **values: float) -> Model:
-        """A new model with other values [in the constants' own units]."""
-        return variants.with_constants(self, values)
-
-    def with_bounds(self, **bounds: Bounds) -> Model:
-        """A new model with other bounds on states, controls or parameters [in their own units]."""
-        return variants.with_bounds(self, bounds)
-
-    def fixed(self, **values: float) -> Model:
-        """A new model in which these parameters are known constants.
-
-        Parameters
-        ----------
-        values : by name, each in the parameter's unit.
-
-        Raises
-        ------
-        ModelError : one is no Parameter.
-        """
-        return variants.fixed(self, values)
-
-    def free(self, *names: str, **bounds: Bounds) -> Model:
-        """A new model in which these constants are parameters to be identified, their values as guesses.
-
-        ``model.free("m1", I1=(0.01, 0.2))``; without bounds a constant stays within a factor of ten.
-
-        Parameters
-        ----------
-        names : of constants. bounds : by name, lower and upper.
-
-        Raises
-        ------
-        ModelError
-            If one is not a Constant, or is zero and has no bounds.
-        """
-        return variants.freed(self, names, bounds)
-
-    def controlled(self, *names: str, **bounds: Bounds) -> Model:
-        """A new model in which these inputs are controls, to be chosen by an Optimization.
-
-        ``model.controlled(force=(-20, 20))`` [in its unit]; by name alone without bounds.
-
-        Parameters
-        ----------
-        names : of inputs without bounds. bounds : by name, lower and upper.
-
-        Raises
-        ------
-        ModelError : one is no Input.
-        """
-        return variants.controlled(self, names, bounds)
-
-    def undisturbed(self, bound: bool) -> Model:
-        """A new model whose controls are zero, and without its Boundary parts unless they are `bound` to hold.
-
-        What an identification estimated of a disturbance it knows of its own window alone.
-        """
-        return variants.undisturbed(self, bound)
-
-    def simulated(self, what: str) -> Model:
-        """A new model that can be simulated: algebraic variables solved for, process noise as Noise.
-
-        Raises
-        ------
-        ModelError : a control has no known motion, or an algebraic variable is no expression; `what` begins the words.
-        """
-        return variants.simulated(self, what)
-
-    # ---- for the build function of a Law, which works on a fresh copy -----------------
-    def redefine(self, name: str, expr: Operand) -> None:
-        """Give the Expression or Output `name` another meaning, everywhere it is used.
-
-        Parameters
-        ----------
-        name : of the part. expr : what it is from now on, of symbols of this model.
-
-        Raises
-        ------
-        ModelError : there is no such Expression or Output.
-        """
-        expr = sympified(expr)
-        refuse_calculus(expr)
-        self.components[name] = replace(variants.part_of(self, name, (Expression, Output)), expr=expr)
-
-    def add_effort(self, port: str, force: Operand) -> None:
-        """Let `force` (along the port's rate) act: it enters each equation that the port names."""
-        for equation, coefficient in variants.part_of(self, port, Port).into.items():
-            part = variants.part_of(self, equation, Equation)
-            self.components[equation] = replace(part, expr=part.expr + coefficient * sympified(force))
-
-    def substitute(self, table: Mapping[sm.Symbol, sm.Expr]) -> None:
-        """Put expressions in the place of symbols in every equation, expression and output.
-
-        Parameters
-        ----------
-        table : symbol -> expression of the same unit.
-        """
-        table = {sympified(k): sympified(v) for k, v in table.items()}
-        for name, part in self.components.items():
-            if isinstance(part, (Expression, Equation, Output)):
-                self.components[name] = replace(part, expr=part.expr.xreplace(table))
 
     # ---- identity, checking, showing --------------------------------------------------
     @property

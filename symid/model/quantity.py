@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import sympy as sm
 
 from sympy.core.function import AppliedUndef
+from sympy.logic.boolalg import Boolean
 
 from symid.errors import ModelError
+from symid.model.arrays import of_parts
+from symid.model.comparison import GreaterThan, LessThan, NoSuchUse, StrictGreaterThan, StrictLessThan
 
 Operand = Any
 """What stands beside a quantity in an expression: a number, a part or a SymPy expression."""
@@ -36,6 +39,10 @@ def terminal(s: sm.Symbol) -> sm.Symbol:
     return symbol(f"{s}(end)")
 
 
+class NoSuchAttribute(ModelError, AttributeError):
+    """Python's own, too, so that `hasattr` works."""
+
+
 class Quantity:
     """A part that behaves as a SymPy symbol in arithmetic, in comparisons and in SymPy functions."""
 
@@ -48,42 +55,37 @@ class Quantity:
         return self.symbol
 
     def __add__(self, other: Operand) -> sm.Expr:
-        return self.symbol + sympified(other)
+        return self.symbol + operand(other)
 
     def __radd__(self, other: Operand) -> sm.Expr:
-        return sympified(other) + self.symbol
+        return operand(other) + self.symbol
 
     def __sub__(self, other: Operand) -> sm.Expr:
-        return self.symbol - sympified(other)
+        return self.symbol - operand(other)
 
     def __rsub__(self, other: Operand) -> sm.Expr:
-        return sympified(other) - self.symbol
+        return operand(other) - self.symbol
 
     def __mul__(self, other: Operand) -> sm.Expr:
-        return self.symbol * sympified(other)
+        return self.symbol * operand(other)
 
     def __rmul__(self, other: Operand) -> sm.Expr:
-        return sympified(other) * self.symbol
+        return operand(other) * self.symbol
 
     def __truediv__(self, other: Operand) -> sm.Expr:
-        return self.symbol / sympified(other)
+        return self.symbol / operand(other)
 
     def __rtruediv__(self, other: Operand) -> sm.Expr:
-        return sympified(other) / self.symbol
+        return operand(other) / self.symbol
 
     def __pow__(self, other: Operand) -> sm.Expr:
-        return self.symbol ** sympified(other)
+        return self.symbol ** operand(other)
 
     def __rpow__(self, other: Operand) -> sm.Expr:
-        return sympified(other) ** self.symbol
+        return operand(other) ** self.symbol
 
     def __neg__(self) -> sm.Expr:
         return -self.symbol
-
-    def __float__(self) -> float:
-        raise ModelError(
-            f"'{self.symbol}' has no number before it is solved for: use SymPy's functions, sympy.sin(m.x)"
-        )
 
     def __pos__(self) -> sm.Expr:
         return self.symbol
@@ -92,16 +94,59 @@ class Quantity:
         return sm.Abs(self.symbol)
 
     def __le__(self, other: Operand) -> sm.Expr:
-        return sm.Le(self.symbol, sympified(other))
+        return LessThan(self.symbol, sympified(other))
 
     def __lt__(self, other: Operand) -> sm.Expr:
-        return sm.Lt(self.symbol, sympified(other))
+        return StrictLessThan(self.symbol, sympified(other))
 
     def __ge__(self, other: Operand) -> sm.Expr:
-        return sm.Ge(self.symbol, sympified(other))
+        return GreaterThan(self.symbol, sympified(other))
 
     def __gt__(self, other: Operand) -> sm.Expr:
-        return sm.Gt(self.symbol, sympified(other))
+        return StrictGreaterThan(self.symbol, sympified(other))
+
+    # ---- NumPy, and what a symbol cannot do ------------------------------------------
+    def __array_ufunc__(self, function: Any, method: str, *arguments: Any, **named: Any) -> Any:
+        return of_parts(function, method, arguments, named)
+
+    def __array_function__(self, function: Any, types: Any, arguments: tuple[Any, ...], named: dict[str, Any]) -> Any:
+        return of_parts(function, "__call__", arguments, named)
+
+    def _no_number(self, *_: Any) -> NoReturn:
+        raise NoSuchUse(f"'{self.symbol}' has no number before it is solved for: use SymPy's functions, sympy.sin(m.x)")
+
+    __float__ = __int__ = __complex__ = __round__ = __trunc__ = _no_number
+
+    def __format__(self, form: str) -> str:
+        return str(self) if not form else self._no_number()
+
+    def _no_steps(self, *_: Any) -> NoReturn:
+        raise NoSuchUse(
+            f"'{self.symbol}' cannot stand beside %, //, divmod or @: steps have no derivatives, and vectors and "
+            "matrices are sympy.Matrix"
+        )
+
+    __mod__ = __rmod__ = __floordiv__ = __rfloordiv__ = __divmod__ = __rdivmod__ = _no_steps
+    __matmul__ = __rmatmul__ = _no_steps
+
+    def _no_place(self, *_: Any) -> NoReturn:
+        raise NoSuchUse(
+            f"'{self.symbol}' stands for its value at any time, without an index: m.x.initial and m.x.terminal are its "
+            "values at the ends, m.delayed(m.x, lag) an earlier one, and State(..., index=range(4)) declares several"
+        )
+
+    __getitem__ = __call__ = __iter__ = __len__ = _no_place
+
+    def __getattr__(self, name: str) -> NoReturn:
+        if name.startswith("_"):  # Python and libraries ask for names of their own
+            raise AttributeError(name)
+        rate = " Its rate is m.x.dot, and the rate of that is another State's: 0 = m.x.dot - m.v." * (
+            name in ("diff", "dt", "ddot", "d", "der", "derivative")
+        )
+        raise NoSuchAttribute(
+            f"a {type(self).__name__} has no '{name}'.{rate} It stands in expressions as a SymPy symbol does, which "
+            "sympy.sympify(m.x) gives"
+        )
 
 
 class AlongTime(Quantity):
@@ -134,6 +179,17 @@ def refuse_calculus(expr: sm.Basic) -> None:
             f"{str(expr)[:80]} contains a {type(next(iter(left))).__name__} that is not worked out: "
             "call doit(), or write rates as m.x.dot"
         )
+
+
+def operand(other: Operand) -> sm.Expr:
+    """What stands beside a quantity in arithmetic: anything but a truth."""
+    found = sympified(other)
+    if isinstance(found, Boolean) and not isinstance(found, sm.Expr):  # SymPy's symbols are both
+        raise ModelError(
+            f"{found} is true or false and no number: a choice is sympy.Piecewise((1, m.x > 0), (0, True)), and a "
+            "comparison of parts belongs into a Constraint"
+        )
+    return found
 
 
 def sympified(other: Operand) -> sm.Expr:

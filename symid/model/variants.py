@@ -11,18 +11,8 @@ import sympy as sm
 
 from symid import checked
 from symid.errors import ModelError
-from symid.model.declare import (
-    Algebraic,
-    Bounds,
-    Component,
-    Constant,
-    Control,
-    Expression,
-    Input,
-    Noise,
-    Parameter,
-    State,
-)
+from symid.model.component import Component
+from symid.model.declare import Algebraic, Bounds, Constant, Control, Expression, Input, Noise, Parameter, State
 
 if TYPE_CHECKING:
     from symid.model.model import Model

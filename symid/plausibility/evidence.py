@@ -31,6 +31,8 @@ PLACES, NOTHING = (0.02, 0.1, 0.4), 0.5
 share is left from their first values."""
 WEIGHTINGS, SETTLED = 8, 0.01
 """Times at most that the errors are weighted anew, by their covariance, until the share settles by that."""
+SAME = 1e-6
+"""Relative difference of fitted parameters below which they are the same."""
 FLOOR = 1e-12
 """Least relative spread of errors in any direction, for accelerations that are always alike."""
 LAGS = 5
@@ -95,10 +97,20 @@ class Witness:
         return self._least(self._determinant, change)
 
     def _least(self, measure, change: Change) -> float:
+        """The least measure over first values, of which those that lead to the same parameters count once."""
+        ends, found = [], []
         with np.errstate(all="ignore"):
-            found = [measure(change, p) for p in self._first()]
+            for p in self._first():
+                given, recorded = self._given(change, p)
+                if not (given[3] > 0).all():
+                    return np.inf
+                ends.append(self._fitted(np.eye(len(recorded)), given, p))
+                found.append(measure(given, recorded, *ends[-1]))
             if not any(v <= NOTHING for v in found):
-                found += [measure(change, p) for p in self._other(change)]
+                for p in self._other(given):
+                    end, errors = self._fitted(np.eye(len(recorded)), given, p)
+                    if not np.allclose(end, ends[0][0], rtol=SAME, atol=0.0):
+                        found.append(measure(given, recorded, end, errors))
         return min((float(v) for v in found if np.isfinite(v)), default=np.inf)
 
     def _first(self) -> list[FloatArray]:
@@ -124,9 +136,9 @@ class Witness:
         places = [np.where(within, self.lower + part * reach, first) for part in PLACES]
         return places if within.any() and not lagged and not (self.steady and self._alike("slopes")) else []
 
-    def _other(self, change: Change) -> list[FloatArray]:
+    def _other(self, given) -> list[FloatArray]:
         """The likeliest of these."""
-        left = [float(np.mean(self._errors(self._given(change, p)[0], p) ** 2)) for p in self._places]
+        left = [float(np.mean(self._errors(given, p) ** 2)) for p in self._places]
         return [self._places[int(np.nanargmin(left))]] if np.isfinite(left).any() else []
 
     def _alike(self, which: str) -> bool:
@@ -139,33 +151,28 @@ class Witness:
         return bool(np.allclose(one, other, rtol=1e-9, atol=1e-12 * np.abs(one).max(initial=0.0)))
 
     def _given(self, change: Change, p: FloatArray):
-        """Arguments of the kernel and sizes of the accelerations, and the covariance of these in their sizes."""
+        """Arguments of the kernel and sizes of the accelerations, and the covariance of these in their sizes; they
+        depend on the parameters by lags alone."""
         local, data, constants = self._arguments(change, p)
         accelerations = self._filtered(local[:, : len(self.order)][:, self.explained])
         size = np.std(accelerations, axis=0)
         inverse = self._inverse_mass(local, p, data, constants) if self.steady else None
         return (local, data, constants, size, inverse), _covariance((accelerations - accelerations.mean(axis=0)) / size)
 
-    def _share(self, change: Change, p: FloatArray) -> float:
-        given, recorded = self._given(change, p)
-        if not (given[3] > 0).all():
-            return np.inf
-        return float(np.mean(self._errors(given, self._fitted(np.eye(len(recorded)), given, p)) ** 2))
+    def _share(self, given, recorded: FloatArray, p: FloatArray, errors: FloatArray) -> float:
+        return float(np.mean(errors**2))
 
-    def _determinant(self, change: Change, p: FloatArray) -> float:
-        given, recorded = self._given(change, p)
-        if not (given[3] > 0).all():
-            return np.inf
-        white, least = np.eye(len(recorded)), np.inf
+    def _determinant(self, given, recorded: FloatArray, p: FloatArray, errors: FloatArray) -> float:
+        """p, errors : fitted with all errors alike."""
+        least = np.inf
         for _ in range(WEIGHTINGS):
-            before, p = least, self._fitted(white, given, p)
-            left = _covariance(self._errors(given, p))
+            before, left = least, _covariance(errors)
             if not np.isfinite(left).all():
                 break
             least = min(least, float(np.exp(np.diff(np.linalg.slogdet([recorded, left])[1])[0] / len(left))))
             if not least < (1 - SETTLED) * before:
                 break
-            white = np.linalg.inv(np.linalg.cholesky(left))
+            p, errors = self._fitted(np.linalg.inv(np.linalg.cholesky(left)), given, p)
         return least
 
     def _errors(self, given, p: FloatArray) -> FloatArray:
@@ -193,24 +200,26 @@ class Witness:
         filtered = self._filtered(both)
         return filtered[:, :, 0], filtered[:, :, 1:]
 
-    def _fitted(self, white: FloatArray, given, p: FloatArray) -> FloatArray:
-        """Parameters by Gauss-Newton steps, least squares of the errors times `white`."""
+    def _fitted(self, white: FloatArray, given, p: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Parameters by Gauss-Newton steps, least squares of the errors times `white`; and these errors."""
+        errors = None
         for _ in range(STEPS[self.steady] if p.size else 0):
             errors, slopes = self._linearised(given, p)
             left, slopes = (errors @ white.T).ravel(), (white @ slopes).reshape(errors.size, -1)
             step = _step(slopes, left, self.lower - p, self.upper - p)
             for part in SHORTER:
                 new = np.clip(p + part * step, self.lower, self.upper)
-                later = (self._errors(given, new) @ white.T).ravel()
+                there = self._errors(given, new)
+                later = (there @ white.T).ravel()
                 if np.sum(later**2) < (1 - 1e-3) * np.sum(left**2):
                     break
             else:
                 break
             gone = np.sum((later - left - slopes @ (new - p)) ** 2) < 1e-6 * np.sum(later**2)
-            p = new
+            p, errors = new, there
             if part == 1.0 and gone:
                 break  # gains enter linearly: the first step was the last
-        return p
+        return p, self._errors(given, p) if errors is None else errors
 
     def _arguments(self, change: Change, p: FloatArray):
         """Local values, data and constants of the kernel, with the change made."""

@@ -11,7 +11,7 @@ from symid.errors import SymidError
 from symid.model import Model
 from symid.plausibility.body import is_a_person
 from symid.plausibility.evidence import Change, Witness
-from symid.plausibility.motion import Motion, foretold, motion_of, shown_states
+from symid.plausibility.motion import Motion, foretold, motion_of, shown_states, without_offsets
 from symid.recording import Recording
 from symid.units import STANDARD_GRAVITY
 
@@ -84,6 +84,7 @@ def model_remarks(model: Model, recording: Recording, window: tuple[float, float
     cannot be asked, and give no remark.
     """
     try:
+        model = without_offsets(model)
         motion = motion_of(model, recording, window)
         if motion is None or Witness(model, motion).unexplained() <= EXPLAINED:
             return []

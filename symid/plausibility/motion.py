@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 
 from symid.model import Model
 from symid.recording import Recording, spline_of
@@ -24,6 +25,12 @@ MEMORY, TAPS = 3.0, 40
 FEWEST_LAGS = 4
 RINGS = 3.0
 """Periods of the cutoff frequency over which the ends of a filtered signal are felt: e^-13 is left."""
+RESOLVED = 0.2
+"""Cycles a sample up to which a rate counts as sampled: at five samples to a period the second derivative of a cubic
+spline errs by a seventh, at three by a third."""
+FOLLOWED = 0.8
+"""Share of a channel's variance that the smoothed motion holds at least: sensor noise of a tenth leaves 0.99, a ringing
+of three samples to a period, which smoothing takes for noise, less than 0.7."""
 TOLD = 0.15
 """Share of the power of the rates that the inputs must foretell for that part of the motion to be looked at alone."""
 
@@ -84,13 +91,29 @@ def even_pieces(recording: Recording, names: tuple[str, ...], window: tuple[floa
     return [p for p in pieces if abs(p.step / pieces[0].step - 1) < 0.01]
 
 
+def without_offsets(model: Model) -> Model:
+    """The same system with states counted as their sensors show them: x + b becomes x, and each x in it x - b, where b
+    is made of parameters and constants."""
+    shown, new = shown_states(model), model.copy()
+    fixed = {c.symbol for c in (*model.parameters.values(), *model.constants.values())}
+    for y in model.outputs.values():
+        for state in (model.states[n] for n in map(str, y.expr.free_symbols) if n in model.states and n not in shown):
+            offset = y.expr - state.symbol
+            if offset.free_symbols <= fixed:
+                late = [s for s, delay in model.delays.items() if delay.of == state.symbol]
+                new.substitute({s: s - offset for s in (state.symbol, *late)})
+                shown[state.name] = y.channel
+    return new
+
+
 def shown_states(model: Model) -> dict[str, str]:
     """State -> channel, for each state that a sensor shows as it is."""
     return {str(y.expr): y.channel for y in model.outputs.values() if str(y.expr) in model.states}
 
 
 def motion_of(model: Model, recording: Recording, window: tuple[float, float] | None = None) -> Motion | None:
-    """The recorded motion of all states; None where a state is neither recorded nor the rate of one that is."""
+    """The recorded motion of all states; None where a state is neither recorded nor the rate of one that is, or where
+    the motion is too fast for its samples."""
     shown, rates = shown_states(model), model.rates()
     channels = tuple(dict.fromkeys([*shown.values(), *(u.channel for u in model.inputs.values())]))
     if (
@@ -108,7 +131,10 @@ def motion_of(model: Model, recording: Recording, window: tuple[float, float] | 
     motion = Motion(
         step, tuple(len(p.time) for p in pieces), np.concatenate([p.time for p in pieces]), curves, inputs, 0.0
     )
-    return _thinned(replace(motion, band=_band(motion)))
+    fastest = _fastest(motion)
+    if fastest * step > RESOLVED or any(_lost(x[0], [p[c] for p in pieces]) > 1 - FOLLOWED for c, x in curves.items()):
+        return None
+    return _thinned(replace(motion, band=float(np.clip(2 * fastest, 4 / (step * max(motion.lengths)), 0.4 / step))))
 
 
 def _thinned(motion: Motion) -> Motion:
@@ -127,15 +153,21 @@ def _thinned(motion: Motion) -> Motion:
     )
 
 
-def _band(motion: Motion) -> float:
-    """Twice the frequency below which `POWER` of the power of the fastest rate lies [Hz]."""
+def _lost(smooth: FloatArray, recorded: list[FloatArray]) -> float:
+    """Share of the variance of a channel that smoothing takes away."""
+    values = np.concatenate(recorded)
+    return float(np.var(values - smooth) / max(np.var(values), 1e-300))
+
+
+def _fastest(motion: Motion) -> float:
+    """Frequency below which `POWER` of the power of the fastest rate lies [Hz]."""
     longest = max(motion.pieces, key=lambda p: p.stop - p.start)
     frequency = np.fft.rfftfreq(longest.stop - longest.start, motion.step)
     highest = 0.0
     for _, rate, _ in motion.curves.values():
         power = np.cumsum(np.abs(np.fft.rfft(rate[longest] - rate[longest].mean())) ** 2)
         highest = max(highest, float(frequency[np.searchsorted(power, POWER * power[-1])]))
-    return float(np.clip(2 * highest, 4 * frequency[1], 0.4 / motion.step))
+    return highest
 
 
 def foretold(motion: Motion) -> Motion | None:
@@ -180,15 +212,17 @@ def low_pass(x: FloatArray, cutoff: float, step: float) -> FloatArray:
     frequency and above.
 
     Its gain is 1 / (1 + w^4) with the warped frequency over the cutoff (Oppenheim & Schafer 2010, 7.3), applied in
-    the frequency domain to the columns continued by odd reflection: scipy.signal would do the same, and takes half a
-    second to import.
+    the frequency domain to the columns continued by odd reflection, as far as makes the transforms fast: scipy.signal
+    would do the same, and takes half a second to import.
     """
     if cutoff >= 0.45 / step:
         return x
     beyond = min(len(x) - 1, int(RINGS / (cutoff * step)) + 1)
-    before, after = 2 * x[0] - x[beyond:0:-1], 2 * x[-1] - x[-2 : -beyond - 2 : -1]
+    later = min(len(x) - 1, scipy.fft.next_fast_len(len(x) + 2 * beyond, real=True) - len(x) - beyond)
+    before, after = 2 * x[0] - x[beyond:0:-1], 2 * x[-1] - x[-2 : -later - 2 : -1]
+    total = len(x) + beyond + later
     spectrum = np.fft.rfft(np.concatenate([before, x, after]), axis=0)
-    warped = np.tan(np.pi * np.minimum(np.fft.rfftfreq(len(x) + 2 * beyond), 0.499)) / np.tan(np.pi * cutoff * step)
+    warped = np.tan(np.pi * np.minimum(np.fft.rfftfreq(total), 0.499)) / np.tan(np.pi * cutoff * step)
     gain = 1 / (1 + warped**4)
-    smooth = np.fft.irfft(spectrum * gain.reshape(-1, *[1] * (x.ndim - 1)), len(x) + 2 * beyond, axis=0)
+    smooth = np.fft.irfft(spectrum * gain.reshape(-1, *[1] * (x.ndim - 1)), total, axis=0)
     return smooth[beyond : beyond + len(x)]

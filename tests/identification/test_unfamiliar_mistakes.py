@@ -4,10 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from small_systems import cart_pole, duffing, mass_spring_damper
+import sympy as sm
+from small_systems import System, cart_pole, duffing, mass_spring_damper, smooth, system
 from unfamiliar_systems import food_chain, measured
 
+import symid as si
 from symid.plausibility import remarks
+from symid.plausibility.motion import without_offsets
 
 
 def test_equations_that_explain_the_motion_from_other_first_values_are_not_questioned():
@@ -33,3 +36,65 @@ def test_a_constant_in_kilograms_is_a_mass_whether_its_model_says_so_or_not():
     assert remarks(drawn.model, drawn.recordings[0]) == []
     heavy = drawn.model.with_constants(mass=10.0)
     assert any("mass is 10 times too large" in text for text in remarks(heavy, drawn.recordings[0]))
+
+
+def pendulum(offset: float, seed: int) -> System:
+    """A driven pendulum, whose sensor shows a little more."""
+    rng = np.random.default_rng([seed, 29])
+    m = si.Model("pendulum with an offset")
+    m.angle, m.rate, m.torque = si.State(unit="rad"), si.State(unit="rad/s"), si.Input(unit="N*m")
+    m.inertia, m.weight = si.Constant(0.5, unit="kg*m^2"), si.Constant(4.905, unit="N*m")
+    m.c, m.offset = si.Parameter(unit="N*m*s", bounds=(0, 2)), si.Parameter(unit="rad", bounds=(-0.3, 0.3))
+    m.moves = si.Equation(m.angle.dot - m.rate)
+    m.turns = si.Equation(m.inertia * m.rate.dot + m.c * m.rate + m.weight * sm.sin(m.angle) - m.torque)
+    m.seen = si.Output(m.angle + m.offset, unit="rad", channel="angle")
+    t = np.arange(0, 20, 0.02)
+    run = ([0.3, 0.0], t, {"torque": smooth(rng, t, 1.0, 0.8)})
+    return system(m, {"c": 0.2, "offset": offset}, [run], 0.01, rng)
+
+
+@pytest.mark.parametrize("offset", [-0.1, 0.05])
+def test_mistakes_beside_an_unknown_offset_of_the_sensor_are_named(offset):
+    drawn = pendulum(offset, 0)
+    (recording,) = drawn.recordings
+    assert remarks(drawn.model, recording) == []
+    changes = {
+        "torque has the opposite sign": {"torque": -recording["torque"]},
+        "angle has the opposite sign": {"angle": -recording["angle"]},
+        "angle holds degrees": {"angle": np.degrees(recording["angle"])},
+        "torque is a thousand times too large": {"torque": 1e3 * recording["torque"]},
+    }
+    for words, channels in changes.items():
+        found = remarks(drawn.model, replace(recording, channels=dict(recording.channels) | channels))
+        assert any(words in text for text in found), (words, found)
+    found = remarks(drawn.model.with_constants(inertia=5.0), recording)
+    assert any("inertia is 10 times too large" in text for text in found), found
+
+
+def test_offsets_that_move_with_the_motion_are_none():
+    drawn = pendulum(0.05, 1)
+    model = without_offsets(drawn.model)
+    angle, offset = (sm.sympify(drawn.model[n]) for n in ("angle", "offset"))
+    assert model["seen"].expr == angle and model["turns"].expr.has(sm.sin(angle - offset))
+    assert without_offsets(model).fingerprint == model.fingerprint
+    slope = drawn.model.copy()
+    slope.redefine("seen", angle + offset * slope.rate)
+    assert without_offsets(slope)["seen"].expr == slope["seen"].expr
+
+
+@pytest.mark.parametrize(("damping", "per_period", "periods"), [(0.006, 2.5, 11.0), (0.006, 3.0, 4.0), (1.0, 2.5, 1.5)])
+def test_an_actuator_that_a_square_wave_lets_ring_between_the_samples_is_not_blamed(damping, per_period, periods):
+    """A piezo, in metres, a few samples to a period: smoothing takes the ringing for noise, and nothing fits."""
+    rng = np.random.default_rng(31)
+    m = si.Model("piezo")
+    m.x, m.v, m.volts = si.State(unit="m"), si.State(unit="m/s"), si.Input(unit="V", hold="zero")
+    w, gain = 2 * np.pi * 900, 80e-9
+    m.w2 = si.Parameter(unit="1/s^2", bounds=(0, 10 * w**2))
+    m.c, m.gain = si.Constant(2 * damping * w, unit="1/s"), si.Constant(gain, unit="m/V")
+    m.moves = si.Equation(m.x.dot - m.v)
+    m.rings = si.Equation(m.v.dot + m.c * m.v + m.w2 * (m.x - m.gain * m.volts))
+    m.y = si.Output(m.x)
+    t = np.arange(0, 200) / (per_period * 900)
+    volts = 10 * np.sign(np.sin(np.pi * t * 900 / periods) + 1e-9)
+    drawn = system(m, {"w2": w**2}, [([0.0, 0.0], t, {"volts": volts})], 0.01, rng)
+    assert remarks(m, drawn.recordings[0]) == []

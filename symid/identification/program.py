@@ -1,0 +1,40 @@
+"""What Ipopt solves for an Identification: the collocation, with parameters that are kept, and the ridge."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symid.nlp import NonlinearProgram, with_ridge
+
+if TYPE_CHECKING:
+    from symid.identification.problem import Identification
+
+TRACE = 1e-11
+"""Share of a size by which a start keeps off a bound."""
+
+
+def program_of(problem: Identification, start: np.ndarray, kept: Mapping[str, float] | None = None) -> NonlinearProgram:
+    """See `Identification.nonlinear_program`."""
+    nlp, layout = problem.transcription.nonlinear_program(start), problem.transcription.layout
+    if kept:
+        columns = layout.offsets[-1] + np.array([layout.parameter_names.index(name) for name in kept])
+        z, lower, upper = nlp.start.copy(), nlp.lower.copy(), nlp.upper.copy()
+        scaled = np.array(list(kept.values())) / layout.parameter_scale[columns - layout.offsets[-1]]
+        z[columns] = lower[columns] = upper[columns] = scaled
+        nlp = replace(nlp, start=z, lower=lower, upper=upper)
+    if not problem.ridge:
+        return nlp
+    columns = np.arange(layout.offsets[-1], layout.size)
+    centre = start[columns] if problem.ridge_about == "start" else 0.0
+    return with_ridge(nlp, columns, problem.ridge * len(layout.intervals), centre)
+
+
+def off_its_bounds(nlp: NonlinearProgram) -> NonlinearProgram:
+    """`nlp` with its start a trace inside of the bounds, where a square root or logarithm has derivatives."""
+    trace = TRACE * np.maximum(1.0, np.abs(nlp.start))
+    free = nlp.upper - nlp.lower > 2 * trace
+    return replace(nlp, start=np.where(free, np.clip(nlp.start, nlp.lower + trace, nlp.upper - trace), nlp.start))

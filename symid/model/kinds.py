@@ -1,0 +1,76 @@
+"""The parts of a model by their kinds: {name: part}, in order of declaration."""
+
+from __future__ import annotations
+
+from typing import Any, TypeVar, cast
+
+from symid.model.conditions import Boundary, Constraint, Objective
+from symid.model.component import Component
+from symid.model.declare import (
+    Algebraic,
+    Constant,
+    Control,
+    Equation,
+    Expression,
+    Input,
+    Noise,
+    Output,
+    Parameter,
+    Port,
+    Process,
+    State,
+)
+
+Part = TypeVar("Part", bound=Component)
+
+
+def _kind(kind: type[Part]) -> dict[str, Part]:
+    told = f"Its parts of the kind `{kind.__name__}`, by name, in order of declaration."
+    return cast("dict[str, Part]", property(lambda self: self._of(kind), doc=told))
+
+
+class Kinds:
+    """What a Model is made of, by kind."""
+
+    components: dict[str, Component]
+
+    def _of(self, kind: type[Part] | tuple[type[Part], ...]) -> dict[str, Part]:
+        return {k: c for k, c in self.components.items() if isinstance(c, kind)}
+
+    states = _kind(State)
+    algebraics = _kind(Algebraic)
+    controls = _kind(Control)
+    processes = _kind(Process)
+    inputs = _kind(Input)
+    parameters = _kind(Parameter)
+    constants = _kind(Constant)
+    noises = _kind(Noise)
+    expressions = _kind(Expression)
+    equations = _kind(Equation)
+    outputs = _kind(Output)
+    ports = _kind(Port)
+    constraints = _kind(Constraint)
+    boundaries = _kind(Boundary)
+    objectives = _kind(Objective)
+
+    @property
+    def informed(self) -> bool:
+        """Whether something is known beside the data: a prior, or the size of process noise."""
+        return (
+            any(p.prior is not None for p in self.parameters.values())
+            or bool(self.processes)
+            or any(b.penalties(set()) for b in self.boundaries.values())
+        )
+
+    @property
+    def costed(self) -> bool:
+        """Whether something beside the data has a weight of the user's: an objective, a soft constraint, smoothness."""
+        return (
+            bool(self.objectives)
+            or any(c.soft is not None for c in self.constraints.values())
+            or any(u.smooth for u in self.controls.values())
+        )
+
+    def find(self, role: str, at: str | None = None) -> list[Any]:
+        """The parts with this role, at this place or (None) anywhere, in order of declaration."""
+        return [c for c in self.components.values() if c.role == role and at in (None, c.at)]
