@@ -106,8 +106,8 @@ class CollocationProgram:
         )
 
     def _error_block(self, e: int) -> Block:
-        node = self.data[e].node
-        data = np.ascontiguousarray(np.hstack([node, self.data[e].loss]))
+        node, loss = self.data[e].node, self.data[e].loss
+        data = np.ascontiguousarray(np.hstack([node, loss]) if loss.size else node)
         return Block(
             self.error,
             lambda z: self.layout.sample_view(z, e),
@@ -119,10 +119,10 @@ class CollocationProgram:
         )
 
     def _constraint_bounds(self) -> tuple[np.ndarray, np.ndarray]:
-        pairs = [b.bounds() for b in self.demanded]
-        return tuple(
-            np.concatenate([np.zeros(int(self.demand_starts[0])), *(p[side] for p in pairs)]) for side in (0, 1)
-        )
+        equal, pairs = np.zeros(int(self.demand_starts[0])), [b.bounds() for b in self.demanded]
+        if not pairs:
+            return equal, equal
+        return tuple(np.concatenate([equal, *(p[side] for p in pairs)]) for side in (0, 1))
 
     def _jacobian_rows(self) -> np.ndarray:
         rows = [b.jacobian_rows(int(first)) for b, first in zip(self.intervals, self.row_starts, strict=False)]
@@ -148,9 +148,9 @@ class CollocationProgram:
             for i, k in zip(np.split(index, ends[:-1]), keys, strict=True)
         ]
         rows, columns = np.divmod(merged, self.layout.size)
-        numbers, counts = np.arange(self.layout.size, dtype=np.intc), np.bincount(rows, minlength=self.layout.size)
-        counts = counts.astype(np.intc)
-        return Places(len(rows), lambda: np.repeat(numbers, counts)), columns.astype(np.intc)
+        size = self.layout.size
+        counts = np.bincount(rows, minlength=size).astype(np.intc)
+        return Places(len(rows), lambda: np.repeat(np.arange(size, dtype=np.intc), counts)), columns.astype(np.intc)
 
     # ---- values ----------------------------------------------------------------------
     def interval_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
