@@ -49,6 +49,8 @@ def put_together(values: dict | None, arrays: bytes) -> SolverResult | None:
     unknowns = sizes["z"], sizes["bound_multipliers_lower"], sizes["bound_multipliers_upper"]
     if len(set(unknowns)) > 1 or sizes["constraints"] != sizes["multipliers"] or not np.isfinite(found["z"]).all():
         raise ValueError("the arrays of a result do not belong together")
+    if not {"functions", "solver", "total"} <= values["seconds"].keys():
+        raise ValueError("the times of a result are incomplete")
     return SolverResult(**as_declared(values | parts, SolverResult), **{name: found[name] for name in ARRAYS})
 
 

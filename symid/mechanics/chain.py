@@ -60,7 +60,7 @@ class ChainLink:
         symbols = {}
         for quantity, (role, unit, sign, meaning) in _QUANTITIES.items():
             value = getattr(self, quantity)
-            if value is not None:
+            if value is not None or quantity != "length":  # only a length may be absent
                 name = dict(self.constants).get(quantity, f"{self.name}_{quantity}")
                 setattr(
                     model,

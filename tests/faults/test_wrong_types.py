@@ -11,6 +11,7 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.errors import ModelError, SymidError, TranscriptionError
+from symid.mechanics.chain import Chain, ChainLink
 
 RECORDING = pendulum_recording(duration=1)
 
@@ -179,6 +180,7 @@ def test_parts_with_a_wrong_value_are_named_by_check(part, words):
         (lambda: si.read_recording(None), "read_recording: give the path of a file or a directory, not None"),
         (lambda: si.Recording("a", [0, 1], {"x": ["u", "v"]}, {"x": "m"}), "holds numbers"),
         (lambda: si.Episodes(2, torque="a"), "torque='a': give a number"),
+        (lambda: Chain((ChainLink("leg", 1.0, 0.5, None),)).plant(), "'leg_inertia' is None; give a number"),
     ],
 )
 def test_arguments_of_a_wrong_type_are_refused(call, words):

@@ -13,6 +13,7 @@ from nlp_problems import hs071, one_variable, tracking
 from symid.errors import MachineError, SolveError
 from symid.ipopt_solver import solve as ipopt_solver
 from symid.ipopt_solver import solve_nlp
+from symid.ipopt_solver.kept import put_together, taken_apart
 from symid.ipopt_solver.status import STATUS, explain
 
 
@@ -116,3 +117,12 @@ def test_absent_cyipopt_is_one_sentence_with_the_command_that_helps():
     folder = os.path.dirname(__file__)
     run = subprocess.run([sys.executable, "-c", code, folder], capture_output=True, text=True, check=True)
     assert "python -m symid.setup_ipopt" in run.stdout
+
+
+@pytest.mark.parametrize("time", ["functions", "solver", "total"])
+def test_a_kept_result_without_one_of_its_times_is_refused(time):
+    content, arrays = taken_apart(solve_nlp(hs071()))
+    assert put_together(content, arrays).seconds == content["seconds"]
+    del content["seconds"][time]
+    with pytest.raises(ValueError, match="times"):
+        put_together(content, arrays)
