@@ -9,6 +9,7 @@ from pathlib import Path
 from symid.cli.options import build_model, refuse_missing_folders, show_iteration
 from symid.errors import RecordingError
 from symid.progress import say
+from symid.units import unit_symbol, with_error
 
 SUMMARY = "identify the synthetic recording in data/ and compare with what it was made with"
 FIT, HELD_OUT = (0.0, 100.0), (100.0, 120.0)
@@ -26,8 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from symid.identification import Identification
-    from symid.identification.fit import fit_text
-    from symid.identification.show import headline
+    from symid.identification.show import errors_of_outputs, headline
     from symid.recording import read_recording
     from symid.report import write_report
 
@@ -44,8 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     report = write_report(solution, arguments.report, held_out, truth)
     print(headline(solution), solution.message, sep="\n", end="\n\n")
     print(_beside_truth(solution, truth), end="\n\n")
-    units = {name: y.unit for name, y in solution.model.outputs.items()}
-    print(f"Held-out {HELD_OUT[0]:g} to {HELD_OUT[1]:g} s, free run: RMS error: {fit_text(held_out.fit['rms'], units)}")
+    print(f"Held-out {HELD_OUT[0]:g} to {HELD_OUT[1]:g} s, free run: RMS error: {errors_of_outputs(held_out)}")
     print(f"Report with figures: {report}")
     return 0
 
@@ -66,11 +65,11 @@ def data_folder() -> Path:
 
 
 def _beside_truth(solution, truth: dict[str, float]) -> str:
-    lines = [f"{'parameter':<12}{'found':>12}{'std. error':>12}{'truth':>12}   {'unit':<12}{'off by'}"]
+    lines = [f"{'parameter':<12}{'found ± std. error':<24}{'truth':>8}   {'unit':<12}off by"]
     for name, row in solution.parameters.iterrows():
         off = (row.value - truth[name]) / row.std_error
         lines.append(
-            f"{name:<12}{row.value:>12.5g}{row.std_error:>12.2g}{truth[name]:>12.5g}   {row.unit:<12}"
+            f"{name:<12}{with_error(row.value, row.std_error):<24}{truth[name]:>8.5g}   {unit_symbol(row.unit):<12}"
             f"{off:+.1f} std. errors"
         )
     return "\n".join(lines)

@@ -71,7 +71,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from symid.files import write_json
     from symid.identification import Identification
-    from symid.identification.fit import fit_text
+    from symid.identification.show import errors_of_outputs
     from symid.recording import read_recording
     from symid.transcription import Episodes, measure, scheme_by_name
 
@@ -107,7 +107,7 @@ def run(arguments: argparse.Namespace) -> int:
         document["fit"]["held_out"] = held_out.fit
         lines.append(
             f"Held-out {arguments.held_out[0]:g} to {arguments.held_out[1]:g} s, free run: RMS error: "
-            + fit_text(document["fit"]["held_out"]["rms"], {name: y.unit for name, y in model.outputs.items()})
+            + errors_of_outputs(held_out)
         )
     if arguments.json:
         write_json(arguments.json, document)

@@ -59,6 +59,14 @@ def headline(solution: Solution) -> str:
     word = "Solved" if solution.solved else "NOT SOLVED"
     if solution.solved and solution.result.status != 0:
         word = "ACCEPTABLE, not solved to the tolerance,"
+    return (
+        f"{word} in {solution.result.iterations} iterations and {solution.seconds['total']:.2f} s. RMS error: "
+        f"{errors_of_outputs(solution)}"
+    )
+
+
+def errors_of_outputs(solution: Solution) -> str:
+    """RMS error of each output by its channel, of many outputs the least and the largest."""
     outputs, rms = solution.model.outputs, solution.fit["rms"]
     said = {y.channel.replace("_", " "): rms[name] for name, y in outputs.items()} | {"all": rms["all"]}
     units = {y.channel.replace("_", " "): y.unit for y in outputs.values()}
@@ -67,9 +75,7 @@ def headline(solution: Solution) -> str:
         each = sorted(rms[name] for name in outputs)
         ends = " to ".join(rms_text(x, together) for x in (each[0], each[-1]))
         error = f"{rms_text(rms['all'], together)} over {len(outputs)} outputs ({ends})"
-    return (
-        f"{word} in {solution.result.iterations} iterations and {solution.seconds['total']:.2f} s. RMS error: {error}"
-    )
+    return error
 
 
 def warnings(solution: Solution) -> list[str]:

@@ -155,7 +155,7 @@ def test_demo_compares_with_the_truth(tmp_path, monkeypatch, capsys):
     assert main(["demo"]) == SOLVED
     printed = capsys.readouterr().out
     assert "truth" in printed and "Held-out" in printed and "symid_demo.html" in printed
-    assert printed.count("std. errors") == len(TRUTH)
+    assert printed.count(" std. errors") == len(TRUTH)
     assert [p.name for p in tmp_path.iterdir()] == ["symid_demo.html"]
 
 
