@@ -79,6 +79,9 @@ def refuse_wrong_types(problem: Identification) -> None:
             raise TranscriptionError(f"{name}={checked.shown(table)}: give a dictionary of output name -> number")
         for of, value in (table or {}).items():
             checked.number(value, f"{name} of '{of}'", TranscriptionError)
+    checked.kind(problem.tilt, Mapping, "tilt", TranscriptionError)
+    for of, value in problem.tilt.items():
+        checked.number(value, f"tilt of '{of}'", TranscriptionError)
     refine = "collocation intervals of a sample interval, refine"
     checked.whole(problem.refine, refine, TranscriptionError, least=1, most=FINEST)
     checked.number(problem.ridge, "ridge", TranscriptionError)

@@ -92,7 +92,7 @@ def parameter_errors(
     at_bound = bound_active(t, result)
     s = Sensitivity(t, result.z, result.multipliers, at_bound, penalty, loss or {})
     white = s.gauss_newton
-    inverse, null, shared = _determined(white)
+    inverse, null, shared = determined(white)
     errors = _errors(white, shared, known)
     model = choose(errors, choice, t.episodes.count)
     reduced, inverse = (white, inverse) if model.name == "white" else _exact(s, white, inverse)
@@ -123,7 +123,7 @@ def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:
         )
 
 
-def _determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Inverse information (q, q) on the determined subspace, null space (q, k), orthonormal slopes (rows, q - k)."""
     s = reduced.s
     rooted = np.sqrt(s.curvatures)[:, None] * reduced.slopes

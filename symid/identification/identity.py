@@ -65,6 +65,7 @@ def problem_identity(problem: Identification) -> dict[str, str]:
         "noise": digest(problem.noise),
         "per_recording": digest(tuple(problem.per_recording)),
         "ridge": digest(problem.ridge if problem.ridge_about == "zero" else (problem.ridge, problem.ridge_about)),
+        **({"tilt": digest(problem.tilt)} if problem.tilt else {}),  # as in no earlier version
         "backend": problem.backend,
         "refine": str(problem.refine),
         VERSION: version("symid"),

@@ -17,6 +17,7 @@ from symid import checked
 from symid.errors import RecordingWarning, SolveError, TranscriptionError
 from symid.identification.arguments import Recordings, refuse_wrong_options, refuse_wrong_types
 from symid.identification.identity import problem_identity
+from symid.identification.marginal import to_marginal
 from symid.identification.process_size import to_sized, unsized
 from symid.identification.program import TRACE, off_its_bounds, program_of
 from symid.identification.show import problem_html, problem_text
@@ -72,6 +73,8 @@ class Identification:
         bound, added to the objective; for parameters that the data do not determine alone, such
         as the weights of a neural network.
     ridge_about : "zero", or "start": the ridge pulls towards the parameters that a solve begins with.
+    tilt : parameter -> slope that the objective gets by it [/ SI]; `solve` finds it beside process noise, where the
+        likelihood of the recordings alone has it (`identification.marginal`).
 
     Raises
     ------
@@ -99,6 +102,7 @@ class Identification:
     refine: int = 1
     ridge: float = 0.0
     ridge_about: str = "zero"
+    tilt: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         refuse_wrong_types(self)
@@ -304,4 +308,4 @@ class Identification:
         )
         best = ended.best()
         settle = to_sized if unsized(self.model) else to_likelihood
-        return settle(best, on_iteration=on_iteration, **solver)
+        return to_marginal(settle(best, on_iteration=on_iteration, **solver), on_iteration=on_iteration, **solver)

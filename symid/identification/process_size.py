@@ -16,6 +16,7 @@ import numpy as np
 
 from symid.identification.covariance import bound_active
 from symid.errors import SolveError
+from symid.identification.marginal import slopes_of
 from symid.identification.sensitivity import Sensitivity, sample_counts
 from symid.identification.weighting import LEAST, RESOLUTION, TIGHT, estimated, noise_levels
 from symid.model import Model
@@ -76,6 +77,7 @@ def to_sized(solution: Solution, **solver) -> Solution:
         solution = _solved_with(solution, p, sizes, noise, **solver)
         if not solution.solved:
             return solution
+        p = replace(p, tilt=slopes_of(solution)[0])
         new, seen, outputs = _updated(solution, names)
         step = {n: np.clip(new[n] / sizes[n], 1 / FASTEST, FASTEST) for n in names}
         sizes = {n: sizes[n] * step[n] for n in names}

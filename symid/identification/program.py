@@ -1,14 +1,16 @@
-"""What Ipopt solves for an Identification: the collocation, with parameters that are kept, and the ridge."""
+"""What Ipopt solves for an Identification: the collocation, with parameters that are kept, the tilt and the ridge."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symid.nlp import NonlinearProgram, with_ridge
+from symid.checked import nearest
+from symid.errors import TranscriptionError
+from symid.nlp import NonlinearProgram, with_ridge, with_tilt
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
@@ -26,11 +28,21 @@ def program_of(problem: Identification, start: np.ndarray, kept: Mapping[str, fl
         scaled = np.array(list(kept.values())) / layout.parameter_scale[columns - layout.offsets[-1]]
         z[columns] = lower[columns] = upper[columns] = scaled
         nlp = replace(nlp, start=z, lower=lower, upper=upper)
+    if problem.tilt:
+        columns = np.array([_place(layout.parameter_names, name) for name in problem.tilt])
+        slopes = np.array(list(problem.tilt.values())) * layout.parameter_scale[columns]
+        nlp = with_tilt(nlp, layout.offsets[-1] + columns, slopes)
     if not problem.ridge:
         return nlp
     columns = np.arange(layout.offsets[-1], layout.size)
     centre = start[columns] if problem.ridge_about == "start" else 0.0
     return with_ridge(nlp, columns, problem.ridge * len(layout.intervals), centre)
+
+
+def _place(names: Sequence[str], name: str) -> int:
+    if name not in names:
+        raise TranscriptionError(f"tilt: there is no parameter '{name}'; {nearest(name, names)}")
+    return names.index(name)
 
 
 def off_its_bounds(nlp: NonlinearProgram) -> NonlinearProgram:

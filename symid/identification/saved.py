@@ -35,7 +35,8 @@ def save(solution: Solution, path: str | Path) -> None:
     """Write the best start's result to the directory `path`, and ``summary.json`` for people."""
     _directory(path, solution.problem)[KEY] = Outcome(solution.starts[solution.best], solution.result)
     sizes = {name: p.size for name, p in solution.model.processes.items()}
-    write_json(Path(path) / SUMMARY, solution.to_dict() | {"noise": solution.problem.noise, "process_sizes": sizes})
+    found = {"noise": solution.problem.noise, "process_sizes": sizes, "tilt": solution.problem.tilt}
+    write_json(Path(path) / SUMMARY, solution.to_dict() | found)
 
 
 def load(path: str | Path, problem: Identification) -> Solution:
@@ -56,7 +57,8 @@ def load(path: str | Path, problem: Identification) -> Solution:
         ) from None
     # What the solve estimated belongs to its problem.
     model = with_sizes(problem.model, sizes) if sizes else problem.model
-    problem = replace(problem, model=model, noise=noise if sizes else problem.noise or noise)
+    tilt = summary.get("tilt", {}) or problem.tilt
+    problem = replace(problem, model=model, noise=noise if sizes else problem.noise or noise, tilt=tilt)
     outcome = _directory(path, problem)[KEY]
     if outcome.result is None:
         raise SolveError(

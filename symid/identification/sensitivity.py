@@ -207,8 +207,8 @@ class Reduced:
             [hessian[self.states][:, self.parameters], s.constraints[:, self.parameters]]
         ).toarray()
         solved = self.factor.solve(border)
-        follow = -solved[: len(self.states)]
-        self.beside, self.prior = (self._reduced(m, follow) for m in (s.beside, s.prior))
+        self.follow = -solved[: len(self.states)]
+        self.beside, self.prior = (self._reduced(m, self.follow) for m in (s.beside, s.prior))
         self.slopes = s.outputs[:, self.parameters].toarray() - s.outputs[:, self.states] @ solved[: len(self.states)]
         self.curvature = hessian[self.parameters][:, self.parameters].toarray() - border.T @ solved
         self.curvature = 0.5 * unit * (self.curvature + self.curvature.T) + s.penalty * np.eye(len(self.parameters))

@@ -86,9 +86,8 @@ class Process(Control):
 
     >>> m.gust = Process(unit="N", size=0.3)            # or Process(unit="N"), whose size is estimated, too
 
-    Motion and parameters are those of the largest joint density. Where the noise moves a system as much as its other
-    forces do, that takes damping for too small, by several standard errors where the motion is far from linear: compare
-    with an identification without it, whose standard errors are those of noise with a memory.
+    The parameters are those of the likelihood of the recordings alone, over all motions (`identification.marginal`), to
+    first order where the system is not linear, and the motion is the likeliest beside them.
 
     Parameters
     ----------

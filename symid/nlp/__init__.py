@@ -10,7 +10,7 @@ from symid.nlp.optimality import OptimalityReport, check_optimality
 from symid.nlp.places import Places
 from symid.nlp.program import NonlinearProgram
 from symid.nlp.objective import with_unit_objective
-from symid.nlp.ridge import with_ridge
+from symid.nlp.ridge import with_ridge, with_tilt
 from symid.nlp.soften import soften
 
 __all__ = [
@@ -24,5 +24,6 @@ __all__ = [
     "soften",
     "with_hurwitz",
     "with_ridge",
+    "with_tilt",
     "with_unit_objective",
 ]

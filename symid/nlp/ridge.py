@@ -1,4 +1,4 @@
-"""A quadratic pull towards a point on some variables of a nonlinear program."""
+"""A pull on some variables of a nonlinear program: towards a point, or one way."""
 
 from __future__ import annotations
 
@@ -57,3 +57,14 @@ def _with_diagonal(nlp: NonlinearProgram, columns: np.ndarray) -> tuple[np.ndarr
     known |= {c: len(nlp.hessian_rows) + i for i, c in enumerate(missing)}
     places = np.array([known[c] for c in columns], dtype=int)
     return np.append(nlp.hessian_rows, missing), np.append(nlp.hessian_cols, missing), places
+
+
+def with_tilt(nlp: NonlinearProgram, columns: np.ndarray, slopes: np.ndarray) -> NonlinearProgram:
+    """`nlp` with sum of slopes * z[columns] added to its objective."""
+
+    def gradient(z):
+        slope = nlp.gradient(z).copy()
+        slope[columns] += slopes
+        return slope
+
+    return replace(nlp, objective=lambda z: nlp.objective(z) + float(slopes @ z[columns]), gradient=gradient)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import expm
 from scipy.optimize import minimize
 
 import symid as si
@@ -65,3 +66,102 @@ def test_where_it_cannot_be_estimated_is_said():
         problem(walk(0.5), si.Process(unit="m/s"), weights={"seen": 1.0}).solve(check=False)
     with pytest.raises(TranscriptionError, match="'w' .* has no size"):
         si.Optimization(problem(walk(0.5), si.Process(unit="m/s")).model, duration=1)
+
+
+def driven(rates: np.ndarray, seed: int, noise: float = 0.05, count: int = 400) -> np.ndarray:
+    """The first state of x' = rates x, the last of which white noise of size one drives; sampled every STEP."""
+    rng, step = np.random.default_rng(seed), expm(rates * STEP / 10)
+    x, seen = np.zeros(len(rates)), []
+    for k in range(10 * (count + 100)):
+        x = step @ x
+        x[-1] += np.sqrt(STEP / 10) * rng.standard_normal()
+        seen += [x[0]] * (k % 10 == 0)
+    return np.array(seen[100:]) + noise * rng.standard_normal(count)
+
+
+def deviance(rates: np.ndarray, size: float, noise: float, y: np.ndarray) -> float:
+    """-2 log likelihood by the Kalman filter, sampled exactly (Van Loan 1978)."""
+    n = len(rates)
+    both = np.block([[-rates, np.diag([0.0] * (n - 1) + [size**2])], [np.zeros((n, n)), rates.T]])
+    both = expm(both * STEP)
+    step, x, p, total = both[n:, n:].T, np.zeros(n), 100 * np.eye(n), 0.0
+    added = step @ both[:n, n:]
+    for value in y:
+        spread, error = p[0, 0] + noise**2, value - x[0]
+        total += np.log(spread) + error**2 / spread
+        x, p = x + p[0] * error / spread, p - np.outer(p[0], p[0]) / spread
+        x, p = step @ x, step @ p @ step.T + added
+    return total
+
+
+def strung(y: np.ndarray, order: int, size: float | None, **more) -> si.Identification:
+    """A mass that noise drives, of first order (a drifting speed) or second (on a spring)."""
+    m = si.Model("driven by noise")
+    m.x, m.c = si.State(unit="m"), si.Parameter(unit="1/s", bounds=(-5, 10))
+    if order == 1:
+        m.gust = si.Process(unit="m/s", size=size)
+        m.motion = si.Equation(m.x.dot + m.c * m.x - m.gust)
+    else:
+        m.v, m.k = si.State(unit="m/s"), si.Parameter(unit="1/s^2", bounds=(0, 50))
+        m.gust = si.Process(unit="m/s^2", size=size)
+        m.moves, m.motion = si.Equation(m.x.dot - m.v), si.Equation(m.v.dot + m.c * m.v + m.k * m.x - m.gust)
+    m.seen = si.Output(m.x)
+    time = np.arange(len(y)) * STEP
+    return si.Identification(m, si.Recording("driven", time, {"x": y}, {"x": "m"}), **more)
+
+
+@pytest.mark.parametrize(("known", "seed"), [(True, 0), (True, 1), (False, 1)])
+def test_damping_beside_process_noise_is_that_of_the_kalman_filter(known, seed):
+    """The largest joint density has no damping at all here: what noise drives has the rate that it likes."""
+    y = driven(np.array([[-1.0]]), seed, count=200)
+    given = {"noise": [{"seen": 0.05}]} if known else {}
+    solution = strung(y, 1, 1.0 if known else None, **given).solve(check=False)
+    wanted = minimize(
+        lambda p: deviance(np.array([[-p[0]]]), *([1.0, 0.05] if known else np.exp(p[1:])), y),
+        [1.0] if known else [1.0, 0.0, -3.0],
+        method="Nelder-Mead",
+    ).x
+    assert solution.solved and solution.values["c"] == pytest.approx(
+        wanted[0], abs=0.25 * solution.parameters["std_error"]["c"]
+    )
+
+
+def test_an_oscillation_that_noise_drives_has_the_damping_of_the_kalman_filter():
+    y = driven(np.array([[0.0, 1.0], [-9.0, -0.6]]), 3)
+    p = strung(y, 2, 1.0, noise=[{"seen": 0.05}], scheme=si.HermiteSimpson())
+    solution = p.solve(check=False)
+    wanted = minimize(
+        lambda q: deviance(np.array([[0.0, 1.0], [-q[0], -q[1]]]), 1.0, 0.05, y), [9.0, 0.6], method="Nelder-Mead"
+    ).x
+    std = solution.parameters["std_error"]
+    assert abs(solution.values["c"] - wanted[1]) < 0.25 * std["c"]
+    assert abs(solution.values["k"] - wanted[0]) < 0.25 * std["k"]
+    assert abs(solution.values["c"] - 0.6) < 3 * std["c"] and solution.problem.tilt["c"] < 0
+
+
+def test_conditions_on_the_motion_are_counted_or_leave_the_joint_density():
+    y = driven(np.array([[-1.0]]), 4, count=200)
+    free, given, tied = (strung(y, 1, 1.0, noise=[{"seen": 0.05}]) for _ in range(3))
+    given.model.begin = si.Boundary(initial={given.model.x: float(y[0])})
+    tied.model.again = si.Boundary(periodic=[tied.model.x])
+    one, two, three = (p.solve(check=False).values["c"] for p in (free, given, tied))
+    assert two == pytest.approx(one, abs=0.1) and three == pytest.approx(one, abs=0.1) and one > 0.5
+    half = strung(y, 2, 1.0, noise=[{"seen": 0.05}])
+    half.model.end = si.Boundary(terminal={half.model.x + half.model.v: 0.1})
+    solution = half.solve(check=False)
+    assert solution.solved and solution.problem.tilt == {}
+
+
+def test_the_tilt_is_saved_and_refused_where_it_is_none(tmp_path):
+    p = strung(driven(np.array([[-1.0]]), 0, count=100), 1, 1.0, noise=[{"seen": 0.05}])
+    solution = p.solve(check=False)
+    solution.save(tmp_path / "driven")
+    again = p.load(tmp_path / "driven")
+    assert again.values == solution.values and again.problem.tilt == solution.problem.tilt
+    assert solution.verification.optimality.ok
+    with pytest.raises(TranscriptionError, match="tilt"):
+        strung(np.zeros(9), 1, 1.0, tilt={"c": "much"})
+    with pytest.raises(SolveError, match="no parameter 'd'"):
+        strung(driven(np.array([[-1.0]]), 0, count=50), 1, 1.0, tilt={"d": 1.0}, noise=[{"seen": 1.0}]).solve(
+            check=False
+        )
