@@ -1,15 +1,16 @@
 """The error model of a recording: filters are undone, memory is whitened, and neither is taken for physics."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from driven_cart import TRUE, cart, data_of, finding, recorded
+from driven_cart import SENSOR, TRUE, cart, data_of, few, finding, recorded
 from scipy.signal import butter, filtfilt, lfilter
 
 from symid.estimation.cold_start import fit_model
 from symid.estimation.cutoff import estimated_filter
-from symid.estimation.measurement import fits_of, with_memory
+from symid.estimation.measurement import _is_broad, fits_of, with_memory
 from symid.estimation.whitening import remembered, whitening_of
 from symid.estimation.zero_phase import ZeroPhase
 from symid.simulation import simulator
@@ -72,6 +73,17 @@ def test_undoing_restores_what_the_filter_left():
     np.testing.assert_allclose(sharper[inside], (restored + 0.3 * added)[inside], atol=1e-6 * x.std())
 
 
+def test_white_noise_stays_white_where_the_band_fades():
+    """The bins beside the edge of the band keep the power of their aliases, so that no sample foretells another."""
+    rng, f = np.random.default_rng(1), ZeroPhase(2, 6.0, 1 / STEP)
+    ratio = f.ratio(STEP)
+    noise = filtfilt(*butter(2, 12.0 * STEP), rng.standard_normal(100_000))
+    left = f.undone(noise, STEP, ratio)[0][500:-500:ratio]
+    assert left.std() == pytest.approx(ratio**-0.5, rel=0.02)
+    lags = [abs(np.corrcoef(left[k:], left[:-k])[0, 1]) for k in (1, 2, 3, 4)]
+    assert max(lags) < 4 / np.sqrt(len(left))
+
+
 def test_undoing_meets_no_kink_at_the_ends_of_a_large_swing():
     time = np.arange(0, 24, STEP)
     x = 0.8 * np.cos(7 * time + 1) * np.exp(-0.02 * time)
@@ -111,6 +123,29 @@ def test_the_fit_finds_the_truth_and_the_cutoff_under_a_filter():
         assert remembered(fit.innovations) <= 1
         z += [(fit.values[k] - TRUE[k]) / fit.errors[k] for k in TRUE]
     assert np.abs(z).max() < 4
+
+
+@pytest.mark.parametrize("start", [2.3, 7.5])
+def test_a_cutoff_settles_from_far_away_and_with_it_the_noise_of_the_sensor(start):
+    recording = filtered(recorded(2))
+    plain = data_of(recording)
+    wrong = replace(plain, sensor_noise=np.array([1e-2]))
+    ((data, fit),) = fits_of(
+        cart(), recording, (0.0, 40.0), None, wrong, ZeroPhase(2, start, 50.0), False, {}, stated=np.array([False])
+    )
+    assert data.filter.sharpened(fit.process[-1]).cutoff == pytest.approx(4.0, rel=0.05)
+    # The noise of one sample in `ratio`, whose band holds no more of it.
+    assert data.sensor_noise[0] == pytest.approx(plain.sensor_noise[0] / np.sqrt(data.segments[0].ratio), rel=0.5)
+    assert fit.values["stiffness"] == pytest.approx(TRUE["stiffness"], abs=4 * fit.errors["stiffness"])
+
+
+def test_a_filter_is_not_believed_where_a_run_ends():
+    recording = filtered(recorded(0, duration=40))
+    ((data, _),) = fits_of(
+        cart(), recording, (0.0, 40.0), None, data_of(recording), ZeroPhase(2, 4.0, 50.0), False, {}, known=True
+    )
+    (segment,) = data.segments
+    assert segment.time[0] == pytest.approx(0.5, abs=0.1) and segment.time[-1] == pytest.approx(39.5, abs=0.1)
 
 
 def test_fits_of_a_recording_as_it_is_where_nothing_was_filtered():
@@ -169,6 +204,31 @@ def test_nothing_is_found_in_a_filtered_recording_that_lacks_nothing():
     finding_of = finding(filtered(recorded(5)))
     assert finding_of.verdict == "adequate"
     assert "low-pass filtered" in finding_of.words and "undone" in finding_of.words
+
+
+def coloured(recording, size, seed=4):
+    """The recorded position with noise more that remembers 50 ms."""
+    noise = size * np.sqrt(1 - 0.67**2) * autoregressive(np.random.default_rng(seed), len(recording), 0.67, 1)[:, 0]
+    return replace(recording, channels=dict(recording.channels) | {"position": recording["position"] + noise})
+
+
+def test_noise_that_remembers_is_not_taken_for_physics_and_physics_not_for_noise():
+    finding_of = finding(coloured(recorded(6), 8 * SENSOR))
+    assert finding_of.verdict == "adequate" and "not white" in finding_of.words
+    term = next(s.term for s in few() if s.term.name == "cubic_stiffness")
+    finding_of = finding(coloured(recorded(6, term, {"k3_Nm_rad3": 3e4}), 8 * SENSOR))
+    assert [e.name for e in finding_of.effects] == ["cubic_stiffness"]
+
+
+@pytest.mark.parametrize("size", [0.5, 1.5])
+def test_free_motion_takes_noise_that_remembers_for_noise_and_a_motion_that_is_not_met_for_none(size):
+    rng, time = np.random.default_rng(0), np.arange(0, 20, 0.01)
+    swing = 0.1 * np.exp(-0.1 * time) * np.cos(7 * time)
+    noise = 1e-3 * (rng.standard_normal(2000) + size * np.sqrt(1 - 0.82**2) * autoregressive(rng, 2000, 0.82, 1)[:, 0])
+    errors = SimpleNamespace(kalman_gain=None, process=np.zeros(0), innovations=(noise[:, None],))
+    assert _is_broad(errors, remembered(errors.innovations))
+    missed = SimpleNamespace(kalman_gain=None, process=np.zeros(0), innovations=((noise + 0.1 * swing)[:, None],))
+    assert not _is_broad(missed, remembered(missed.innovations))
 
 
 def test_a_stated_filter_keeps_its_cutoff():

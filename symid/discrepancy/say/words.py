@@ -340,6 +340,11 @@ def _caveats(s: Story) -> list[str]:
             "The sensors' noise was not stated; the highest frequencies of the recording show "
             f"{s.channels(s.audit.noise)}."
         )
+    if s.data.memory:
+        out.append(
+            f"The noise is not white: each sample follows in part from the {s.data.memory} before it "
+            f"({s.data.memory * s.data.segments[0].step:.2g} s), which was fitted with the model."
+        )
     if not s.white and any(e.parameters for e in s.effects):
         out.append("What is left is not random, so the standard errors are taken from blocks of the recording.")
     return out
