@@ -156,6 +156,8 @@ class Data:
     rounding : (m,) step of each output's encoder, 0 for none, SI.
     memory : samples that the noise remembers: the order of the autoregression that whitens the innovations.
     filter : what the recording was filtered with and is undone.
+    ratios_free : whether the ratios of the sensors' noises are estimated with the model: where little is left above the
+        motion, no spectrum tells them.
     pace : of the motion [s], whatever is stated in seconds is so many times longer; `pace_of` the segments if left out.
     """
 
@@ -165,6 +167,7 @@ class Data:
     rounding: np.ndarray | float = 0.0
     memory: int = 0
     filter: ZeroPhase | None = None
+    ratios_free: bool = False
     pace: float = 0.0
 
     def __post_init__(self) -> None:

@@ -35,6 +35,8 @@ PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
 SHARPEST = 4.0
 """A filter is sharp within this factor of what the spectra show: its cutoff of order 2 within a factor of 1.4."""
+FARTHEST = 10.0
+"""The noise of a sensor is within this factor of what the highest frequencies show."""
 REACH = 0.03
 """The motion at the start of a segment is continued backwards for so long [s], for signals that are late."""
 
@@ -47,8 +49,9 @@ class Fit:
     ----------
     model : what was fitted. values : parameter -> SI.
     initial : (E, n) state at the start of each segment.
-    process : (w,) standard deviations of the model's noises that the gain was made for; one more where a filter's
-        cutoff was estimated, the sharpness of `Data.sharpened`.
+    process : (w,) standard deviations of the model's noises that the gain was made for; then, where a filter's
+        cutoff was estimated, the sharpness of `Data.sharpened`, and, where `Data.ratios_free`, by what factor the noise
+        of each sensor but the first is larger than `Data.sensor_noise`.
     kalman_gain : (n, m) or None. innovations : per segment (N, m), recorded minus predicted.
     whitening : makes the innovations white. loglik2 : twice the log-likelihood.
     errors : parameter -> standard error, zero for what was held; empty where not asked for.
@@ -113,8 +116,12 @@ class Fitter:
         self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
         self.driven = data.driven and bool(model.noises)
         self.noises = len(model.noises)
+        self.sharpness_at = self.noises if data.cutoff_free else None
+        self.ratios_at = slice(self.noises + data.cutoff_free, None)
+        ratios = len(data.sensor_noise) - 1 if self.driven and data.ratios_free else 0
         self.tuned = [*range(self.noises)] if self.driven else []
-        self.tuned += [self.noises] if data.cutoff_free else []
+        self.tuned += range(self.noises, self.noises + data.cutoff_free + ratios)
+        self.own = np.ones(data.cutoff_free + ratios)
         self.near, self.bounded = near, False
         self.step = data.segments[0].step
         longest = LONGEST_STEP * data.pace
@@ -158,7 +165,12 @@ class Fitter:
         return self.data.segments if sharpness == 1.0 else tuple(e.sharpened(sharpness) for e in self.data.segments)
 
     def sharpness(self, process) -> float:
-        return float(process[self.noises]) if len(process) > self.noises else 1.0
+        return float(process[self.sharpness_at]) if self.sharpness_at is not None and len(process) else 1.0
+
+    def sensors(self, process) -> np.ndarray:
+        """(m,) standard deviations of the sensors' noise."""
+        ratios = process[self.ratios_at]
+        return self.data.sensor_noise * np.append(1.0, ratios) if len(ratios) else self.data.sensor_noise
 
     def innovations(self, runs, process=()) -> list[np.ndarray]:
         return [e.recorded - t.y for e, t in zip(self.segments(process), runs, strict=True)]
@@ -187,7 +199,7 @@ class Fitter:
         if not self.driven:
             return None
         return kalman_gain(
-            linearised_along(self.sim, p, path), self.step, process[: self.noises], self.data.sensor_noise
+            linearised_along(self.sim, p, path), self.step, process[: self.noises], self.sensors(process)
         )
 
     def path(self, p, x0, gain) -> np.ndarray:
@@ -284,12 +296,8 @@ class Fitter:
     def _begin(self, start, initial, process, known) -> _Point:
         p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
         x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
-        process = np.append(
-            process[: self.noises],
-            process[self.noises :]
-            if self.data.cutoff_free and len(process) > self.noises
-            else [1.0] * self.data.cutoff_free,
-        )
+        if len(process) != self.noises + len(self.own):  # of a fit with another error model
+            process = np.append(process[: self.noises], self.own)
         path = self.path(p, x0, self.kalman_gain(p, process, x0) if known is None else known)
         gain = self.kalman_gain(p, process, path)
         value = self.evaluate(p, x0, gain, process)
@@ -331,7 +339,9 @@ class Fitter:
         p1 = np.clip(p1, *self.bounds.T)
         process1 = process.copy()
         process1[self.tuned] *= np.exp(np.clip(step[q : q + len(self.tuned)], -1.5, 1.5))
-        process1[self.noises :] = np.clip(process1[self.noises :], 1 / SHARPEST, SHARPEST)
+        if self.sharpness_at is not None:
+            process1[self.sharpness_at] = np.clip(process1[self.sharpness_at], 1 / SHARPEST, SHARPEST)
+        process1[self.ratios_at] = np.clip(process1[self.ratios_at], 1 / FARTHEST, FARTHEST)
         return p1, x0 + step[-E * n :].reshape(E, n), process1
 
     def normal(self, p, x0, gain, process, path, tuned: bool = True):
@@ -358,9 +368,9 @@ class Fitter:
                 g[where] += J.T @ r
             if self.data.cutoff_free and tuned:
                 _, slope, bend = self.data.filter.log_volume(self.step, self.sharpness(process))
-                samples = sum(s.size for s in innovations)
-                H[q + w - 1, q + w - 1] += samples * (slope - bend)
-                g[q + w - 1] += samples * slope
+                samples, at = sum(s.size for s in innovations), q + self.tuned.index(self.noises)
+                H[at, at] += samples * (slope - bend)
+                g[at] += samples * slope
             if self.bounded:
                 own, pull = growth_normal(self, p, path)
                 H[:q, :q] += own
@@ -376,8 +386,8 @@ class Fitter:
             more[j] *= np.exp(0.1)
             moved = (
                 gain
-                if j == self.noises
-                else kalman_gain(linear, self.step, more[: self.noises], self.data.sensor_noise)
+                if j == self.sharpness_at
+                else kalman_gain(linear, self.step, more[: self.noises], self.sensors(more))
             )
             other = self.run(p, x0, moved, False, process=more)
             columns.append(

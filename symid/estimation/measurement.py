@@ -63,10 +63,11 @@ def fits_of(
     """
     if filter is None:
         return [(plain, fit_model(model, plain, dict(start)))]
+    plain = replace(plain, ratios_free=not np.any(stated))
     data = _undone(model, recording, part, length, plain, filter, inputs=False, known=known)
     fit, sharper = fit_model(model, data, dict(start)), filter
     for _ in range(MOST_ROUNDS if data.cutoff_free else 0):
-        sharpness = float(fit.process[-1])
+        sharpness = float(fit.process[len(model.noises)])
         if abs(log(sharpness)) < log(SETTLED):
             break
         sharper = sharper.sharpened(sharpness)
@@ -90,10 +91,11 @@ def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
     memory = remembered(fit.innovations)
     if memory <= data.memory or fit.kalman_gain is None and not _is_broad(fit, memory):
         return data, fit
-    sharpness = float(fit.process[-1]) if data.cutoff_free else 1.0
-    more = data.sharpened(sharpness).remembering(memory)
+    fitter = Fitter.of(fit, data)
+    more = replace(data.sharpened(fitter.sharpness(fit.process)), sensor_noise=fitter.sensors(fit.process))
+    more = more.remembering(memory)
     # The fit that took its innovations for white leaves the model something to correct, and then more to remember.
-    process = fit.process * (1.0 if data.memory else QUIETER)
+    process = fit.process[: fitter.noises] * (1.0 if data.memory else QUIETER)
     return with_memory(Fitter.of(fit, more).fit(fit.values, fit.initial, process), more)
 
 
