@@ -1,0 +1,23 @@
+"""Some of the recordings on which the diagnosis is examined; `examine.py` does hundreds."""
+
+import pytest
+from examine import judged, row
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.mark.parametrize(
+    ("draw", "seed"),
+    [
+        pytest.param("null", 1, id="a person, filtered"),
+        pytest.param("null", 3, id="a person, noise that remembers"),
+        pytest.param("null", 9, id="a rig, filtered"),
+        pytest.param("null", 11, id="a rig, noise that remembers"),
+        pytest.param("spoilt", 12, id="one effect, filtered"),
+        pytest.param("spoilt", 15, id="one effect, short"),
+        pytest.param("weak", 7, id="a weak effect"),
+    ],
+)
+def test_what_is_concealed_is_named_and_nothing_else(draw, seed):
+    found = row(draw, seed)
+    assert judged(found) == "right", found
