@@ -196,7 +196,7 @@ def _callbacks(nlp: NonlinearProgram, evaluation: Evaluation) -> list:
             _view(rows, size, c_int)[:] = nlp.hessian_rows
             _view(cols, size, c_int)[:] = nlp.hessian_cols
         else:
-            multipliers = _view(lam, m).copy() if m else np.zeros(0)
+            multipliers = _view(lam, m) if m else np.zeros(0)
             evaluation.hessian(current(n, z, new), multipliers, factor, _view(out, size))
 
     kinds = ((_F, f), (_G, g), (_GRAD, gradient), (_JAC, jacobian), (_HESS, hessian))

@@ -27,7 +27,7 @@ typedef struct {
     Mark *mark;  /* (fronts + 1,) of `handed`, before each front's */
     Work *work;  /* (tasks + 2,) tasks, top, border */
     double *x;   /* (n,) of a solve, by position; room for finding scales */
-    double *scale;            /* (n,) of the rows, in the matrix's order */
+    int8_t *scale;            /* (n,) exponents of the rows' scales, in the matrix's order */
     int8_t *product;          /* (nz,) exponent of the product of every entry's two scales */
     int scaled;               /* whether there are scales of an earlier factorisation */
     const double *values;     /* the matrix at hand */

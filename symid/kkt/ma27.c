@@ -82,7 +82,7 @@ void ma27ad_(const int *n, const int *nz, const int *irn, const int *jcn, int *i
             free_factor(&s->factor);
         }
     }
-    for (int i = 0; s->factor.scale && i < *n; i++) s->factor.scale[i] = 1;
+    if (s->factor.scale) memset(s->factor.scale, 0, *n);
     s->factor.scaled = 0; /* a new solve depends on none before it */
     s->used = 1, s->last = ++clock_of_slots, s->factor.threads = threads;
     ikeep[0] = (int)(s - slots);

@@ -60,14 +60,14 @@ static int solve(Factor *s, double *b) {
     const Tree *t = &s->tree;
     double *y = vector_of(&s->work[t->tasks + 1], &s->part[t->fronts]);
     if (!y) return 0;
-    for (int i = 0; i < t->n; i++) s->x[t->position[i]] = b[i] * s->scale[i];
+    for (int i = 0; i < t->n; i++) s->x[t->position[i]] = b[i] * power_of_two(s->scale[i]);
     if (!all_tasks(s, FORWARD)) return 0;
     for (int a = 0; a < t->tasks; a++) add_vector(s->x + t->inner, s->work[a].outside, t->n - t->inner);
     if (!forward_task(s, t->tasks, s->x + t->inner)) return 0;
     forward_front(s, t->fronts, s->x, s->x + t->inner, y);
     backward_front(s, t->fronts, s->x, y);
     if (!backward_task(s, t->tasks) || !all_tasks(s, BACKWARD)) return 0;
-    for (int i = 0; i < t->n; i++) b[i] = s->x[t->position[i]] * s->scale[i];
+    for (int i = 0; i < t->n; i++) b[i] = s->x[t->position[i]] * power_of_two(s->scale[i]);
     return 1;
 }
 
@@ -99,7 +99,7 @@ static int make_factor(Factor *s, int n, int64_t nz, const int *irn, const int *
     const Tree *t = &s->tree;
     s->part = zeros(t->fronts + 1, sizeof(Part)), s->mark = zeros(t->fronts + 1, sizeof(Mark));
     s->work = zeros(t->tasks + 2, sizeof(Work)), s->x = zeros(n, sizeof(double));
-    s->scale = zeros(n, sizeof(double)), s->product = zeros(nz, sizeof *s->product);
+    s->scale = zeros(n, sizeof *s->scale), s->product = zeros(nz, sizeof *s->product);
     for (int a = 0; a < t->tasks + 2; a++) {
         Work *w = &s->work[a];
         int border = a <= t->tasks ? t->plan[a].border : 0;

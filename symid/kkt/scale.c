@@ -35,14 +35,14 @@ static double largest_scaled(int64_t nz, const double *a, const int8_t *product)
     return out;
 }
 
-/* Improve scale (n,) for the entries a; `most` (n,) is room. */
-static void equilibrate(int n, int64_t nz, const int *irn, const int *jcn, const double *a, double *scale,
+/* Improve the exponents scale (n,) for the entries a; `most` (n,) is room. */
+static void equilibrate(int n, int64_t nz, const int *irn, const int *jcn, const double *a, int8_t *scale,
                         double *most) {
     for (int pass = 0, far = 1; far && pass < PASSES; pass++) {
         memset(most, 0, sizeof(double) * n);
         for (int64_t k = 0; k < nz; k++) {
             int i = irn[k] - 1, j = jcn[k] - 1;
-            double x = fabs(a[k]) * scale[i] * scale[j];
+            double x = fabs(a[k]) * power_of_two(scale[i]) * power_of_two(scale[j]);
             if (x > most[i]) most[i] = x;
             if (x > most[j]) most[j] = x;
         }
@@ -51,18 +51,17 @@ static void equilibrate(int n, int64_t nz, const int *irn, const int *jcn, const
             int e = most[i] > 0 ? binary_exponent(most[i]) : 0;
             if (e >= -NEAR && e <= NEAR) continue;
             far = 1;
-            e = binary_exponent(scale[i]) - 1 - e / 2;
-            scale[i] = power_of_two(e < -LIMIT ? -LIMIT : e > LIMIT ? LIMIT : e);
+            e = scale[i] - e / 2;
+            scale[i] = (int8_t)(e < -LIMIT ? -LIMIT : e > LIMIT ? LIMIT : e);
         }
     }
 }
 
 /* Scales that serve: where `known`, the last ones as long as no entry has outgrown them. */
-static void find_scales(int n, int64_t nz, const int *irn, const int *jcn, const double *a, double *scale, double *most,
+static void find_scales(int n, int64_t nz, const int *irn, const int *jcn, const double *a, int8_t *scale, double *most,
                         int8_t *product, int known) {
     double size = known ? largest_scaled(nz, a, product) : INFINITY;
     if (size <= power_of_two(NEAR) && size >= power_of_two(-NEAR)) return;
     equilibrate(n, nz, irn, jcn, a, scale, most);
-    for (int64_t k = 0; k < nz; k++)
-        product[k] = (int8_t)(binary_exponent(scale[irn[k] - 1]) + binary_exponent(scale[jcn[k] - 1]) - 2);
+    for (int64_t k = 0; k < nz; k++) product[k] = (int8_t)(scale[irn[k] - 1] + scale[jcn[k] - 1]);
 }

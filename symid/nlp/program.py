@@ -61,8 +61,8 @@ class NonlinearProgram:
 
     Notes
     -----
-    The functions must not change `z`, and must return float64 arrays that later calls leave alone
-    for as long as the next call has not been made.
+    The functions must not change `z`, nor change or keep `multipliers`, and must return float64 arrays that later
+    calls leave alone for as long as the next call has not been made.
     """
 
     lower: Vector
