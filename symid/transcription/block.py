@@ -87,11 +87,10 @@ class Block:
         return (self.weights[:, self.kernel.jacobian_rows] * self.kernel.jacobian(*self.arguments(z))).ravel()
 
     # ---- both ----------------------------------------------------------------------------
-    def hessian_keys(self) -> np.ndarray:
-        """(N, nnz_h) row * size + column in the lower triangle."""
+    def hessian_structure(self) -> tuple[np.ndarray, np.ndarray]:
+        """Two (N, nnz_h): columns of z by which is differentiated."""
         columns = self.columns()
-        a, b = columns[:, self.kernel.hessian_rows], columns[:, self.kernel.hessian_cols]
-        return np.maximum(a, b).astype(np.int64) * self.size + np.minimum(a, b)
+        return columns[:, self.kernel.hessian_rows], columns[:, self.kernel.hessian_cols]
 
     def add_hessian(self, out: np.ndarray, index: np.ndarray, z: np.ndarray, multipliers: np.ndarray) -> None:
         """multipliers : (N, m) of the rows, or weights times the objective's factor."""

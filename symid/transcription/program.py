@@ -79,16 +79,17 @@ class CollocationProgram:
         entries += 2 * len(self.ties) + sum(len(s.jacobian_structure()[0]) for s in late)
         self.jacobian_rows = Places(entries, self._jacobian_rows)
         self.jacobian_cols = Places(entries, self._jacobian_columns)
-        self.hessian_rows, self.hessian_cols = self._hessian_structure()
+        curved = self._merge_hessian()
+        self.hessian_rows = Places(curved, lambda: self._hessian_places(np.maximum))
+        self.hessian_cols = Places(curved, lambda: self._hessian_places(np.minimum))
         self.jacobian = Filling(entries, self._fill_jacobian)
-        self.hessian = Filling(len(self.hessian_rows), self._fill_hessian)
+        self.hessian = Filling(curved, self._fill_hessian)
         self._share()
         self._slope_places = np.concatenate([np.zeros(0, int), *(b.gradient_places() for b in self.wanted)])
 
     def _share(self) -> None:
         """Nobody can change what every nonlinear program made from this one holds, too."""
-        bounds = (self.lower, self.upper, self.constraint_lower, self.constraint_upper)
-        for array in (self.hessian_cols, *bounds):
+        for array in (self.lower, self.upper, self.constraint_lower, self.constraint_upper):
             array.setflags(write=False)
 
     # ---- structure -------------------------------------------------------------------
@@ -137,20 +138,27 @@ class CollocationProgram:
         columns += [self.ties.ravel(), *(b.jacobian_columns() for b in self.demanded)]
         return np.concatenate([c.astype(np.intc, copy=False) for c in columns])
 
-    def _hessian_structure(self) -> tuple[Places, np.ndarray]:
-        """Merged lower triangle; `_scatter` keeps where each block's values go: intervals, wanted, demanded, late."""
-        keys = [b.hessian_keys() for b in (*self.intervals, *self.wanted, *self.demanded)]
-        keys += [_keys(*signal.hessian_structure(), self.layout.size) for signal in self.late]
+    def _curved(self) -> list[Block | LateSignal]:
+        """What second derivatives come from, in the order of `_scatter`."""
+        return [*self.intervals, *self.wanted, *self.demanded, *self.late]
+
+    def _merge_hessian(self) -> int:
+        """Entries of the merged lower triangle; `_scatter` keeps where each part's values go."""
+        keys = [_keys(*part.hessian_structure(), self.layout.size) for part in self._curved()]
         merged, index = np.unique(np.concatenate([k.ravel() for k in keys]), return_inverse=True)
         ends = np.cumsum([k.size for k in keys])
         self._scatter = [
             np.ascontiguousarray(i.reshape(k.shape), dtype=np.int32)
             for i, k in zip(np.split(index, ends[:-1]), keys, strict=True)
         ]
-        rows, columns = np.divmod(merged, self.layout.size)
-        size = self.layout.size
-        counts = np.bincount(rows, minlength=size).astype(np.intc)
-        return Places(len(rows), lambda: np.repeat(np.arange(size, dtype=np.intc), counts)), columns.astype(np.intc)
+        return len(merged)
+
+    def _hessian_places(self, side: np.ufunc) -> np.ndarray:
+        """Rows (the larger) or columns (the smaller) of the merged lower triangle."""
+        out = np.empty(len(self.hessian_rows), dtype=np.intc)
+        for part, index in zip(self._curved(), self._scatter, strict=True):
+            out[index] = side(*part.hessian_structure())
+        return out
 
     # ---- values ----------------------------------------------------------------------
     def interval_arguments(self, z: np.ndarray, e: int) -> tuple[np.ndarray, ...]:
