@@ -137,6 +137,10 @@ class Quantity:
 
     __getitem__ = __call__ = __iter__ = __len__ = _no_place
 
+    def __bool__(self) -> bool:
+        """A part is there, whatever its value; Python would ask for its length."""
+        return True
+
     def __getattr__(self, name: str) -> NoReturn:
         if name.startswith("_"):  # Python and libraries ask for names of their own
             raise AttributeError(name)

@@ -113,3 +113,9 @@ def test_a_choice_by_a_comparison_of_parts_becomes_code(m):
     m.two, m.y = si.Equation(m.mass * m.v.dot + force - m.u), si.Output(m.x)
     run = simulator(m).simulate({"k": 1.0}, [-1.0, 0.0], np.linspace(0, 1, 11), {"u": np.zeros(11)})
     np.testing.assert_allclose(run.y[:, 0], -1.0)  # no force on this side
+
+
+def test_a_part_counts_as_there_whatever_its_value():
+    m = si.Model("m")
+    m.u = si.Input(channel="u")
+    assert (m.inputs.get("u") or m.inputs.get("v")) is m.u
