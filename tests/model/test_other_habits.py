@@ -117,5 +117,5 @@ def test_a_choice_by_a_comparison_of_parts_becomes_code(m):
 
 def test_a_part_counts_as_there_whatever_its_value():
     m = si.Model("m")
-    m.u = si.Input(channel="u")
+    m.u = si.Input(channel="u", unit="N")
     assert (m.inputs.get("u") or m.inputs.get("v")) is m.u
