@@ -1,8 +1,8 @@
 """Every number that decides something in a diagnosis, with its reason.
 
 Evidence is counted in units of twice the log-likelihood. Where no source is named a number is a judgement, looked
-at on the practice cases and on real machines: no study has set it yet. `symid conceal` makes recordings with known
-answers on which these numbers can be measured.
+at on the practice cases and on real machines. What all of them together do is measured by
+`tests/examination/examine.py`, on recordings with known answers.
 """
 
 from __future__ import annotations
