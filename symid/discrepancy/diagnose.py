@@ -24,7 +24,7 @@ from symid.discrepancy.say.words import Story, words
 from symid.discrepancy.task import Part, Task, listed_suspects, check_options, task_of
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
-from symid.estimation.measurement import fits_of
+from symid.estimation.measurement import fits_of, settled, sharpened_filter
 from symid.estimation.pieces import free_pieces
 from symid.estimation.zero_phase import ZeroPhase
 from symid.identification import Solution
@@ -116,6 +116,10 @@ def diagnose(
         window, c = (task.fit_window, task.segment_length), checked
         return fits_of(task.model, task.recording, *window, plain, c.filter, c.inputs, start, c.known, c.stated)
 
+    def settle(fit: Fit, data: Data) -> tuple[Data, Fit]:
+        window, sharper = (task.fit_window, task.segment_length), sharpened_filter(fit, data)
+        return settled(fit.model, task.recording, *window, plain, sharper, fit.values, checked.stated)
+
     task, plain, possible = fitted_as_given(task, plain, fits)
     piece_seconds = task.segment_length if task.segment_length != segment_length else None
     possible = [(data, with_likeliest_jumps(given, fit, data)) for data, fit in possible]
@@ -124,7 +128,7 @@ def diagnose(
     progress(f"the model as given is fitted ({fit.iterations} iterations)")
 
     # Name: the laws that explain it.
-    search, found, ranking = with_error_model(possible, searched, progress)
+    search, found, ranking = with_error_model(possible, searched, settle, progress)
 
     # Prove: what stands every test.
     evidence = tested(search.settled(found), search, ranking, task, plain)

@@ -18,7 +18,7 @@ from symid.estimation.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
 
-SETTLED, MOST_ROUNDS = 1.2, 3
+SETTLED, MOST_ROUNDS = 1.2, 4
 """A cutoff has settled when the sharpness changes by less than this factor: the cutoff of order 2 by 5 %. In a round
 it moves by a factor of 1.4 at most."""
 ENDS = 2.0
@@ -64,16 +64,10 @@ def fits_of(
     if filter is None:
         return [(plain, fit_model(model, plain, dict(start)))]
     plain = replace(plain, ratios_free=not np.any(stated))
-    data = _undone(model, recording, part, length, plain, filter, inputs=False, known=known)
-    fit, sharper = fit_model(model, data, dict(start)), filter
-    for _ in range(MOST_ROUNDS if data.cutoff_free else 0):
-        sharpness = float(fit.process[len(model.noises)])
-        if abs(log(sharpness)) < log(SETTLED):
-            break
-        sharper = sharper.sharpened(sharpness)
-        again = replace(plain, sensor_noise=np.where(stated, plain.sensor_noise, _noise(plain, sharper)))
-        data = _undone(model, recording, part, length, again, sharper, inputs=False)
-        fit = fit_model(model, data, fit.values)
+    if known:
+        data = _undone(model, recording, part, length, plain, filter, inputs=False, known=True)
+        return [(data, fit_model(model, data, dict(start)))]
+    data, fit = settled(model, recording, part, length, plain, filter, start, stated)
     found = [(data, fit)]
     if inputs:
         # The log-likelihoods of the two compare where both hold the same frequencies.
@@ -81,6 +75,50 @@ def fits_of(
         both = _undone(model, recording, part, length, plain, filter, inputs=True, ratio=ratio)
         found.append((both, fit_model(model, both, fit.values)))
     return found
+
+
+def settled(
+    model: Model,
+    recording: Recording,
+    part,
+    length: float | None,
+    plain: Data,
+    filter: ZeroPhase,
+    start: Mapping[str, float],
+    stated: np.ndarray | bool = True,
+) -> tuple[Data, Fit]:
+    """The data with a filter undone and the fit of `model` to them, found anew until the cutoff has settled.
+
+    Parameters
+    ----------
+    filter : where the cutoff begins. The others are as for `fits_of`.
+    """
+    for rounds_left in reversed(range(MOST_ROUNDS)):
+        noise = np.where(stated, plain.sensor_noise, _noise(plain, filter))
+        own = replace(plain, sensor_noise=noise, ratios_free=not np.any(stated))
+        data = _undone(model, recording, part, length, own, filter, inputs=False)
+        fit = fit_model(model, data, dict(start))
+        if has_settled(fit, data) or not rounds_left:
+            break
+        filter, start = sharpened_filter(fit, data), fit.values
+    return data, fit
+
+
+def sharpened_filter(fit: Fit, data: Data) -> ZeroPhase:
+    """The filter that was undone, with the cutoff that a fit likes.
+
+    Raises
+    ------
+    ValueError : none was undone.
+    """
+    if data.filter is None:
+        raise ValueError("these data were not filtered")
+    return data.filter.sharpened(Fitter.of(fit, data).sharpness(fit.process))
+
+
+def has_settled(fit: Fit, data: Data) -> bool:
+    """Whether the cutoff that a fit likes is the one with which the filter was undone."""
+    return not data.cutoff_free or abs(log(fit.process[len(fit.model.noises)])) < log(SETTLED)
 
 
 def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:

@@ -17,18 +17,21 @@ from symid.discrepancy.name.search import Search
 from symid.errors import SymidError
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
-from symid.estimation.measurement import with_memory
+from symid.estimation.measurement import has_settled, with_memory
 
 
 def with_error_model(
-    possible: list[tuple[Data, Fit]], searched: Callable[[Fit, Data], Search], progress: Callable[[str], None]
+    possible: list[tuple[Data, Fit]],
+    searched: Callable[[Fit, Data], Search],
+    settle: Callable[[Fit, Data], tuple[Data, Fit]],
+    progress: Callable[[str], None],
 ) -> tuple[Search, Hypothesis, list[Hypothesis]]:
     """The search under the error model that belongs to the recording, what it found, and each suspect alone.
 
     Parameters
     ----------
     possible : what may have been measured, and the fit of the model as given to it.
-    searched : makes a search.
+    searched : makes a search. settle : undoes a filter anew with the cutoff that a fit likes, and refits its model.
     """
     search = _likeliest([searched(base, data) for data, base in possible])
     most = search.most_of_one()
@@ -37,16 +40,27 @@ def with_error_model(
         progress(f"the noise remembers {data.memory} samples; looking again")
         search = searched(base, data)
     found, ranking = search.run()
+    if not has_settled(found.fit, search.data):
+        progress("with what was found the cutoff of the filter moves; looking again")
+        search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched)
     data, explained = with_memory(found.fit, search.data)
     more = _gain(data, explained, search.data, found.fit)
     if data is search.data or found.evidence(1.0) + more < search.flexible().evidence(1.0):
         return search, found, ranking
     progress(f"the noise remembers {data.memory} samples; looking again")
+    return _again(search, found, data, explained, searched)
+
+
+def _again(
+    search: Search, found: Hypothesis, data: Data, explained: Fit, searched: Callable[[Fit, Data], Search]
+) -> tuple[Search, Hypothesis, list[Hypothesis]]:
+    """A search under the error model of `data`, and the better of what it finds and what was found before.
+
+    Noise with a memory may take up so much of what is missing that a search which begins anew goes astray.
+    """
     search = searched(_refitted(search.base, explained, data), data)
     again, ranking = search.run()
-    # Noise with a memory may take up so much of what is missing that a search which begins anew goes astray.
-    known = Hypothesis(found.suspects, explained, search.base, data)
-    return search, search.better(again, known), ranking
+    return search, search.better(again, Hypothesis(found.suspects, explained, search.base, data)), ranking
 
 
 def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:
