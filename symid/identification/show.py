@@ -82,7 +82,8 @@ def warnings(solution: Solution) -> list[str]:
     """A sentence for each mistake of units or signs that shows, and for each state that its bounds cut off."""
     states = solution.model.states
     checked = solution.solved and solution.transcription.layout.size <= VERIFIED
-    return [*solution.problem.remarks, *_at_bounds(solution), *(solution.verification.sentences if checked else ())] + [
+    verified = solution.verification.sentences if checked else ()
+    return [*solution.problem.remarks, *_at_bounds(solution), *_joint(solution), *verified] + [
         f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} {states[name].unit}) at "
         f"{100 * share:.2g} % of the nodes: they cut the motion off, which biases the parameters; widen them with "
         f"model.with_bounds({name}=(lower, upper))"
@@ -98,6 +99,23 @@ def _at_bounds(solution: Solution) -> list[str]:
         "parameters depend on where it stands"
         for name, p in table.iterrows()
         if p.lower < p.upper
+    ]
+
+
+def _joint(solution: Solution) -> list[str]:
+    """A sentence where parameters beside process noise are not those of the recordings' likelihood alone."""
+    p = solution.problem
+    if not (solution.solved and p.model.processes and solution.values) or p.tilt:
+        return []
+    why = (
+        "the outputs have weights, which are no likelihood: give noise=... instead"
+        if p.weights is not None
+        else "conditions hold beside the equations of motion and the initial state, or the last step to it was not "
+        "solved: leave out what a Boundary or Constraint asks of the motion, or start from this solution"
+    )
+    return [
+        f"{', '.join(solution.values)}: of the largest joint density with the motion, not of the recordings' "
+        f"likelihood alone, so that process noise ({', '.join(p.model.processes)}) takes the place of damping; {why}"
     ]
 
 

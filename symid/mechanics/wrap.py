@@ -223,11 +223,14 @@ def _equations(
         return
     rates = [model[n].dot for n in names]
     first = {sm.diff(x, _time()): model[_name(x)].dot for x in q} | {u: draft.table[u] for u in speeds}
-    residuals = (forcing - mass * sm.Matrix(rates)).xreplace(first).xreplace(draft.table)
-    for derivative in sorted(residuals.atoms(sm.Derivative), key=str):
-        draft.violations.append(
-            f"the equations contain {derivative}, the derivative of an input: give it as an input of its own"
-        )
+    residuals = (forcing - mass * sm.Matrix(rates)).xreplace(first)
+    draft.violations += [
+        f"the equations contain {derivative}, the derivative of an input: give it as an input of its own"
+        for derivative in sorted(residuals.atoms(sm.Derivative), key=str)
+    ]
+    if draft.violations:
+        return
+    residuals = residuals.xreplace(draft.table)
     labels = [f"{_name(x)}_kinematics" for x in q] + [f"{speed_names[u]}_balance" for u in speeds]
     for label, residual in zip(labels, residuals, strict=True):
         setattr(model, label, Equation(residual))

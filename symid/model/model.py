@@ -12,6 +12,7 @@ from symid.model.attach import completed, hint, refuse_wrong_types
 from symid.model.component import Component
 from symid.model.declare import Algebraic, Constant, Control, Delay, Equation, Input, Output, Parameter, State
 from symid.model.derived import Derived
+from symid.model.expressions import TIME, taught
 from symid.model.fingerprint import fingerprint_of
 from symid.model.kinds import Kinds
 from symid.model.made import Copies
@@ -20,7 +21,8 @@ from symid.model.quantity import Operand, free_symbols, symbol, sympified
 if TYPE_CHECKING:
     from symid.model.term import Term
 
-TIME = symbol("t")
+
+taught()
 
 
 class NoSuchPart(ModelError, AttributeError):

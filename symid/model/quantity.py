@@ -12,7 +12,7 @@ from sympy.logic.boolalg import Boolean
 
 from symid.errors import ModelError
 from symid.model.arrays import of_parts
-from symid.model.comparison import GreaterThan, LessThan, NoSuchUse, StrictGreaterThan, StrictLessThan
+from symid.model.comparison import NoSuchAttribute, NoSuchUse
 
 Operand = Any
 """What stands beside a quantity in an expression: a number, a part or a SymPy expression."""
@@ -37,10 +37,6 @@ def initial(s: sm.Symbol) -> sm.Symbol:
 def terminal(s: sm.Symbol) -> sm.Symbol:
     """The symbol of the value of `s` at the last node, for conditions at the ends."""
     return symbol(f"{s}(end)")
-
-
-class NoSuchAttribute(ModelError, AttributeError):
-    """Python's own, too, so that `hasattr` works."""
 
 
 class Quantity:
@@ -94,16 +90,16 @@ class Quantity:
         return sm.Abs(self.symbol)
 
     def __le__(self, other: Operand) -> sm.Expr:
-        return LessThan(self.symbol, sympified(other))
+        return sm.LessThan(self.symbol, sympified(other))
 
     def __lt__(self, other: Operand) -> sm.Expr:
-        return StrictLessThan(self.symbol, sympified(other))
+        return sm.StrictLessThan(self.symbol, sympified(other))
 
     def __ge__(self, other: Operand) -> sm.Expr:
-        return GreaterThan(self.symbol, sympified(other))
+        return sm.GreaterThan(self.symbol, sympified(other))
 
     def __gt__(self, other: Operand) -> sm.Expr:
-        return StrictGreaterThan(self.symbol, sympified(other))
+        return sm.StrictGreaterThan(self.symbol, sympified(other))
 
     # ---- NumPy, and what a symbol cannot do ------------------------------------------
     def __array_ufunc__(self, function: Any, method: str, *arguments: Any, **named: Any) -> Any:

@@ -29,8 +29,7 @@ def test_standard_error_is_the_closed_form_times_the_estimated_noise(make):
 def test_known_noise_is_used_where_the_residual_does_not_refute_it():
     model, recording, _, closed = integrator(seed=3, known=0.05)
     assert si.Identification(model, recording).solve().parameters["std_error"]["b"] == pytest.approx(
-        closed["b"],
-        rel=0.01,  # a memory of the noise is not quite excluded
+        closed["b"], rel=1e-3
     )
     model, recording, _, closed = integrator(seed=3, known=0.005)
     assert si.Identification(model, recording).solve().parameters["std_error"]["b"] == pytest.approx(

@@ -150,6 +150,8 @@ def test_conditions_on_the_motion_are_counted_or_leave_the_joint_density():
     half.model.end = si.Boundary(terminal={half.model.x + half.model.v: 0.1})
     solution = half.solve(check=False)
     assert solution.solved and solution.problem.tilt == {}
+    assert "c, k: of the largest joint density" in str(solution) and "Boundary" in solution.warnings[-1]
+    assert "joint density" not in str(free.solve(check=False))
 
 
 def test_the_tilt_is_saved_and_refused_where_it_is_none(tmp_path):

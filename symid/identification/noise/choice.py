@@ -69,7 +69,8 @@ def choose(errors: list[Errors], choice: str, episodes: int) -> ErrorModel:
     elif choice == "auto":
         chance = whiteness(likeliest(likeliest(errors)))
         if chance > REFUTED:
-            return ErrorModel("white", _white(errors, chance, found), found)
+            stated = all(np.all(r.believed) for r in errors)  # as white, which is not doubted before it is refuted
+            return ErrorModel("white", _white(errors, chance, found), None if stated else found)
         why = f"the residual is correlated in time (p {_chance(chance)})"
     if found is not None and whiteness(likeliest(likeliest(found.innovations()))) > REFUTED:
         return ErrorModel("coloured", f"{why}; {_told(found)}", found)
