@@ -21,6 +21,7 @@ from symid.model.declare import (
 from symid.model.model import TIME, Model
 from symid.model.prior import LogNormal, Normal, Prior
 from symid.model.quantity import free_symbols, initial, symbol, terminal
+from symid.model.shown import as_shown, shown_states
 from symid.model.table import table
 from symid.model.term import Law, LawParameter, Term
 from symid.model.variants import explicit
@@ -53,11 +54,13 @@ __all__ = [
     "Row",
     "State",
     "Term",
+    "as_shown",
     "c_function",
     "c_texts",
     "explicit",
     "free_symbols",
     "initial",
+    "shown_states",
     "symbol",
     "table",
     "terminal",

@@ -161,13 +161,14 @@ class Model(Kinds, Derived):
         return tuple(i for i, r in enumerate(self.residual()) if not free_symbols(r) & rates)
 
     def rates(self) -> dict[str, str]:
-        """Which states are rates of others by an equation of the form 0 = x' - v: {v: x}."""
+        """Which states are rates of others by an equation of the form 0 = a (x' - v), a of constants: {v: x}."""
         states = {s.symbol: s for s in self.states.values()}
+        fixed = {c.symbol for c in self.constants.values() if c.value}
         found = {}
         for residual in self.residual():
             for x in states.values():
                 slope = residual.coeff(x.dot)
-                if slope.is_Number and slope != 0:
+                if slope != 0 and slope.free_symbols <= fixed:
                     rate = (x.dot - residual / slope).expand()
                     if rate in states:
                         found[states[rate].name] = x.name

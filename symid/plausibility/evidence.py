@@ -17,8 +17,8 @@ import scipy
 from symid.codegen import compile_program
 from symid.codegen.balance import balance_program
 from symid.codegen.rates import late_of
-from symid.model import Model
-from symid.plausibility.motion import Motion, shown_states, low_pass
+from symid.model import Model, shown_states
+from symid.plausibility.motion import Motion, low_pass
 from symid.units import FloatArray
 
 EDGE = 5

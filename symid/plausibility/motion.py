@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from symid.model import Model
+from symid.model import Model, shown_states
 from symid.recording import Recording, spline_of
 from symid.units import FloatArray
 
@@ -89,26 +89,6 @@ def even_pieces(recording: Recording, names: tuple[str, ...], window: tuple[floa
                 left -= rows.stop - rows.start
                 pieces.append(Piece(step, recording.time[rows], {name: recording[name][rows] for name in names}))
     return [p for p in pieces if abs(p.step / pieces[0].step - 1) < 0.01]
-
-
-def without_offsets(model: Model) -> Model:
-    """The same system with states counted as their sensors show them: x + b becomes x, and each x in it x - b, where b
-    is made of parameters and constants."""
-    shown, new = shown_states(model), model.copy()
-    fixed = {c.symbol for c in (*model.parameters.values(), *model.constants.values())}
-    for y in model.outputs.values():
-        for state in (model.states[n] for n in map(str, y.expr.free_symbols) if n in model.states and n not in shown):
-            offset = y.expr - state.symbol
-            if offset.free_symbols <= fixed:
-                late = [s for s, delay in model.delays.items() if delay.of == state.symbol]
-                new.substitute({s: s - offset for s in (state.symbol, *late)})
-                shown[state.name] = y.channel
-    return new
-
-
-def shown_states(model: Model) -> dict[str, str]:
-    """State -> channel, for each state that a sensor shows as it is."""
-    return {str(y.expr): y.channel for y in model.outputs.values() if str(y.expr) in model.states}
 
 
 def motion_of(model: Model, recording: Recording, window: tuple[float, float] | None = None) -> Motion | None:

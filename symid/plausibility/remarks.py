@@ -6,11 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from symid.model import Model
+from symid.model import Model, shown_states
 from symid.plausibility.body import PERSON, body_remarks
 from symid.plausibility.channels import channel_remarks
 from symid.plausibility.mistakes import model_remarks
-from symid.plausibility.motion import shown_states
 from symid.recording import Recording
 from symid.recording.smooth import left_by_smoother
 from symid.threads import one_blas_thread
