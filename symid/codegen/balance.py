@@ -1,10 +1,14 @@
-"""A model's residuals at one moment, with the recorded motion put in."""
+"""A model's residuals and outputs at one moment, with the recorded motion put in."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
+import sympy as sm
+
 from symid.codegen.program import Program
 from symid.codegen.rates import late_symbols
-from symid.model import TIME, Model
+from symid.model import TIME, Model, free_symbols
 
 
 def balance_program(model: Model) -> Program:
@@ -22,4 +26,35 @@ def balance_program(model: Model) -> Program:
         shared=symbols(model.parameters),
         data=(*symbols(model.inputs), *symbols(model.noises), TIME),
         constants=symbols(model.constants),
+    )
+
+
+@dataclass(frozen=True)
+class Shown:
+    """The outputs at single moments, of states and constants alone.
+
+    Parameters
+    ----------
+    program : local = states, constants = model constants; an output of anything else has a zero in its place.
+    shows : the states in each output; none where anything else is in it.
+    """
+
+    program: Program
+    shows: tuple[frozenset[str], ...]
+
+
+def shown_program(model: Model) -> Shown:
+    """Which states the outputs show, and how."""
+    states, constants = ({c.symbol for c in part.values()} for part in (model.states, model.constants))
+    rows = [y if free_symbols(y) <= states | constants else sm.Integer(0) for y in model.observed()]
+    return Shown(
+        Program(
+            f"outputs of {model.name}",
+            tuple(rows),
+            local=tuple(s.symbol for s in model.states.values()),
+            shared=(),
+            data=(),
+            constants=tuple(c.symbol for c in model.constants.values()),
+        ),
+        tuple(frozenset(map(str, free_symbols(y) & states)) for y in rows),
     )

@@ -10,6 +10,7 @@ from symid.checked import nearest
 from symid.errors import TranscriptionError
 from symid.model import Model
 from symid.recording import Recording
+from symid.transcription.inverse import seen_together
 from symid.units import same_dimension
 
 EVEN = 0.02
@@ -214,12 +215,17 @@ def first_states(model: Model, time: np.ndarray, channels: dict[str, np.ndarray]
 
     A state is taken from the channel of its name, or from that of an output which shows just this
     state; else, where an equation says that it is the rate of such a state, from the derivative;
-    else it is zero (the internal states of controllers and added physics).
+    else from outputs that show it together with others; else it is zero (the internal states of
+    controllers and added physics).
     """
     shown = {str(y.expr): y.channel for y in model.outputs.values()}
     known = {s: channels[c] for s in model.states for c in (s, shown.get(s)) if c in channels}
-    for rate, of in model.rates().items():
-        if rate not in known and of in known:
-            known[rate] = np.gradient(known[of], time, edge_order=2)
+    known = _with_rates(model, time, known)
+    known = _with_rates(model, time, known | seen_together(model, channels, known))
     zero = np.zeros(len(time))
     return np.column_stack([known.get(s, zero) for s in model.states] or [np.zeros((len(time), 0))])
+
+
+def _with_rates(model: Model, time: np.ndarray, known: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    rates = {v: np.gradient(known[x], time, edge_order=2) for v, x in model.rates().items() if x in known}
+    return rates | known
