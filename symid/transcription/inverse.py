@@ -35,6 +35,7 @@ def seen_together(
     kernel = compile_program(program.program, backend="numpy")
     outputs = list(model.outputs.values())
     targets = np.column_stack([channels[outputs[i].channel] for i in rows])
+    spread = np.maximum(targets.std(axis=0), 1e-9 * np.abs(targets).max(axis=0))
     places = [names.index(s) for s in unknown]
     local = np.column_stack([known.get(s, np.zeros(len(targets))) for s in names])
     constants = np.array([c.value for c in model.constants.values()], dtype=float)
@@ -50,13 +51,15 @@ def seen_together(
                 break
             dense = np.zeros((len(at), kernel.m, kernel.n_local))
             dense[:, kernel.jacobian_rows, kernel.jacobian_cols] = kernel.jacobian(*given)
-            slopes = dense[:, rows][:, :, places]
-            x = x - (np.linalg.pinv(slopes, rcond=1e-9) @ error[:, :, None])[:, :, 0]
+            slopes = dense[:, rows][:, :, places] / spread[:, None]
+            norm = np.linalg.norm(slopes, axis=1, keepdims=True)
+            norm = np.where(norm > 0, norm, 1.0)  # whatever the units of outputs and states
+            x = x - (np.linalg.pinv(slopes / norm, rcond=1e-9) @ (error / spread)[:, :, None])[:, :, 0] / norm[:, 0]
         return x, error
 
     with np.errstate(all="ignore"):
         try:
-            found = _followed(stepped, targets, [model.states[s].unit == "rad" for s in unknown])
+            found = _followed(stepped, targets, spread, [model.states[s].unit == "rad" for s in unknown])
         except np.linalg.LinAlgError:  # what is not finite has no pseudo-inverse
             return {}
     if found is None:
@@ -65,10 +68,9 @@ def seen_together(
     return {} if np.any((found < lower) | (found > upper)) else dict(zip(unknown, found.T, strict=True))
 
 
-def _followed(stepped, targets: np.ndarray, angles: list[bool]) -> np.ndarray | None:
+def _followed(stepped, targets: np.ndarray, spread: np.ndarray, angles: list[bool]) -> np.ndarray | None:
     """(samples, unknown) from the first sample on, None where the outputs are not as recorded."""
-    size = np.where(angles, 1.0, np.abs(targets).max(initial=1e-12))
-    spread = np.maximum(targets.std(axis=0), 1e-9 * np.abs(targets).max(axis=0))
+    size = np.where(angles, 1.0, np.abs(targets).max())
     draws = np.random.default_rng(0).standard_normal((DRAWS, len(size))) * size
     ends = [stepped(x[None], np.array([0]), STEPS) for x in draws]
     good = [x[0] for x, e in ends if np.isfinite(x).all() and np.all(np.abs(e) <= AGREED * spread)]

@@ -59,6 +59,18 @@ def test_a_gear_is_undone_and_a_known_angle_is_used():
     )
 
 
+@pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
+def test_units_do_not_matter(size):
+    """Length and angle from the place of a bob, in metres or in nanometres."""
+    m = arm()
+    m.l = si.State(unit="m")
+    m.x, m.h = (si.Output(e, unit="m", channel=c) for c, e in (("x", m.l * sm.sin(m.p)), ("h", -m.l * sm.cos(m.p))))
+    angle, length = 0.5 * np.sin(3 * TIME), size * (1 + 0.2 * np.sin(5 * TIME))
+    found = seen_together(m, {"x": length * np.sin(angle), "h": -length * np.cos(angle)}, {})
+    np.testing.assert_allclose(found["p"], angle, atol=1e-9)
+    np.testing.assert_allclose(found["l"] / size, length / size, atol=1e-9)
+
+
 def test_too_few_outputs_unknown_gains_and_impossible_recordings_show_nothing():
     truth = motion(0.0)
     assert seen_together(arm(lambda m: m.p + m.q), {"y0": truth["p"] + truth["q"]}, {}) == {}
