@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -89,9 +89,9 @@ def parameter_errors(
     choice : "auto", "white", "coloured" or "clustered".
     penalty : weight of squared scaled parameters in the objective. loss : output name -> width of a robust loss.
     """
-    at_bound = bound_active(t, result)
-    s = Sensitivity(t, result.z, result.multipliers, at_bound, penalty, loss or {})
-    white = s.gauss_newton
+    s = Sensitivity(t, result.z, result.multipliers, bound_active(t, result), penalty, loss or {})
+    s = replace(s, fixed=_pushed(s))
+    white, at_bound = s.gauss_newton, s.fixed
     inverse, null, shared = determined(white)
     errors = _errors(white, shared, known)
     model = choose(errors, choice, t.episodes.count)
@@ -121,6 +121,18 @@ def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:
             | ((z - lower < near) & (result.bound_multipliers_lower > pull))
             | ((upper - z < near) & (result.bound_multipliers_upper > pull))
         )
+
+
+def _pushed(s: Sensitivity) -> np.ndarray:
+    """(n,) `s.fixed` without parameters at a bound along which the outputs do not change: nothing pushes them there,
+    and what they make up for is as undetermined as they are."""
+    first, program = s.t.layout.offsets[-1], s.t.program
+    free = s.fixed & ~((np.arange(s.fixed.size) >= first) & (program.lower < program.upper))
+    if np.array_equal(free, s.fixed):
+        return s.fixed
+    null = determined(replace(s, fixed=free).gauss_newton)[1]
+    flat = first + np.flatnonzero(~free[first:])[involved(null)]
+    return np.where(np.isin(np.arange(s.fixed.size), flat), False, s.fixed)
 
 
 def determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -151,7 +151,7 @@ class Solution:
                 "unit": [p.unit for p in parts],
                 "lower": t.program.lower[first:] * scale,
                 "upper": t.program.upper[first:] * scale,
-                "at_bound": bound_active(t, self.result)[first:],
+                "at_bound": bound_active(t, self.result)[first:] if self.errors is None else self.errors.at_bound,
                 "meaning": [p.meaning for p in parts],
             },
             index=pd.Index(self.values, name="parameter"),
