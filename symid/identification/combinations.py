@@ -13,7 +13,7 @@ SIMPLE = 12
 CLOSE = 1e-5
 """A number this near to a simple fraction, relatively, is meant to be it; derivatives have some eight digits."""
 INVOLVED = 1e-6
-"""Least share of a null direction, in scaled parameters, that counts."""
+"""Least share of a null direction, in parameters scaled by what they do, that counts."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Combination:
 
 
 def involved(null: np.ndarray) -> np.ndarray:
-    """(q,) which parameters a null space (q, k), orthonormal in scaled parameters, leaves undetermined."""
+    """(q,) which parameters a null space (q, k), orthonormal in parameters so scaled, leaves undetermined."""
     return np.linalg.norm(null, axis=1) > INVOLVED if null.size else np.zeros(len(null), dtype=bool)
 
 

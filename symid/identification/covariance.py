@@ -47,7 +47,7 @@ class ParameterErrors:
     @property
     def undetermined(self) -> np.ndarray:
         """(q,) whether the data say nothing of a parameter alone."""
-        return involved(self.null)
+        return np.any(self.null != 0, axis=1)
 
     @property
     def std_errors(self) -> np.ndarray:
@@ -131,12 +131,16 @@ def _pushed(s: Sensitivity) -> np.ndarray:
     if np.array_equal(free, s.fixed):
         return s.fixed
     null = determined(replace(s, fixed=free).gauss_newton)[1]
-    flat = first + np.flatnonzero(~free[first:])[involved(null)]
+    flat = first + np.flatnonzero(~free[first:])[np.any(null != 0, axis=1)]
     return np.where(np.isin(np.arange(s.fixed.size), flat), False, s.fixed)
 
 
 def determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Inverse information (q, q) on the determined subspace, null space (q, k), orthonormal slopes (rows, q - k)."""
+    """Inverse information (q, q) on the determined subspace, null space (q, k), orthonormal slopes (rows, q - k).
+
+    A parameter that has no part in the null space has zeros there: what its step does to the outputs counts, which no
+    unit changes.
+    """
     s = reduced.s
     rooted = np.sqrt(s.curvatures)[:, None] * reduced.slopes
     values, vectors = np.linalg.eigh(reduced.beside)
@@ -150,7 +154,9 @@ def determined(reduced: Reduced) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     u, values, v = np.linalg.svd(np.where(seen, rooted / scale, 0.0), full_matrices=False)
     kept = values > ALIKE
     root = v[kept].T / values[kept] / scale[:, None]
-    return root @ root.T, v[~kept].T / scale[:, None], reduced.slopes @ root
+    null = v[~kept].T
+    null = np.where(involved(null)[:, None], null, 0.0) / scale[:, None]
+    return root @ root.T, null, reduced.slopes @ root
 
 
 def _exact(s: Sensitivity, white: Reduced, inverse: np.ndarray) -> tuple[Reduced, np.ndarray]:
