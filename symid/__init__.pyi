@@ -25,6 +25,7 @@ from .errors import (
     SolveError as SolveError,
     SymidError as SymidError,
     TranscriptionError as TranscriptionError,
+    WriteError as WriteError,
 )
 from .identification.export import export as export
 from .identification import (

@@ -65,9 +65,12 @@ def choice(value: Any, known: Sequence[str], what: str, error: type[SymidError])
 def path(value: Any, what: str, error: type[SymidError]) -> Path:
     """`value` as a Path."""
     try:
-        return Path(value)
+        found = Path(value)
     except TypeError:
         raise error(f"{what}: give the path of a file or a directory, not {shown(value)}") from None
+    if "\0" in str(found):
+        raise error(f"{what}: {shown(str(found))} holds a character that no path has")
+    return found
 
 
 def kind(value: Any, wanted: type | tuple[type, ...], what: str, error: type[SymidError]) -> Any:

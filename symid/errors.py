@@ -92,6 +92,23 @@ class DiagnosisError(SymidError):
     """
 
 
+class WriteError(SymidError, OSError):
+    """A file cannot be written where it was asked for; `errno`, `strerror` and `filename` as of any OSError.
+
+    Examples
+    --------
+    >>> recording.to_csv("/nowhere/recording.csv")
+    Traceback (most recent call last):
+    symid.errors.WriteError: /nowhere/recording.csv cannot be written (Permission denied): give another path, or ...
+    """
+
+    def __str__(self) -> str:
+        return (
+            f"{self.filename} cannot be written ({self.strerror}): give another path, or make room and the right to "
+            "write there"
+        )
+
+
 class UnitError(SymidError):
     """A unit text is not understood, or cannot be used where it stands."""
 

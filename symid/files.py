@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import json
 import os
@@ -11,34 +12,68 @@ from pathlib import Path
 
 import numpy as np
 
-from symid.errors import RecordingError
+from symid import checked
+from symid.errors import RecordingError, WriteError
 
 DIGITS = 300
 """Of an integer: more do not fit into a floating-point number."""
 
 
-def write_atomically(path: str | Path, content: str | bytes) -> Path:
-    """Write `content` to a temporary neighbour of `path`, then rename: the old file or the new, never a part."""
-    path = Path(path)
-    path.parent.mkdir(parents=True, exist_ok=True)
+def write_atomically(path: str | os.PathLike[str], content: str | bytes) -> Path:
+    """Write `content` to a temporary neighbour of `path`, then rename: the old file or the new, never a part.
+
+    What is no file, such as /dev/null or a pipe, is written to as it is, and stays what it is.
+
+    Raises
+    ------
+    WriteError : it cannot be written; `path` is no path, or a directory.
+    """
+    path = checked.path(path, "the file to write", RecordingError)
+    raw = content.encode() if isinstance(content, str) else content
+    try:
+        if _is_kept(path):
+            path.write_bytes(raw)
+        else:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            _exchange(path, raw)
+    except OSError as problem:  # a full disk does not say which file
+        raise WriteError(problem.errno, problem.strerror or str(problem), str(path)) from problem
+    return path
+
+
+def _is_kept(path: Path) -> bool:
+    """Whether it is a device, a pipe, a directory (which is no place), or a link as /dev has them."""
+    return (path.exists() and not path.is_file()) or path.parent == Path("/dev")
+
+
+def _exchange(path: Path, content: bytes) -> None:
     handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
     try:
         with os.fdopen(handle, "wb") as file:
-            file.write(content.encode() if isinstance(content, str) else content)
+            file.write(content)
         os.chmod(part, 0o666 & ~_umask())
         os.replace(part, path)
-    except BaseException as problem:
+    except BaseException:
         Path(part).unlink(missing_ok=True)
-        if isinstance(problem, OSError) and problem.filename is None:  # a full disk does not say which file
-            problem.filename = str(path)
         raise
-    return path
 
 
 def _umask() -> int:
     mask = os.umask(0)
     os.umask(mask)
     return mask
+
+
+def a_file(path: Path) -> Path:
+    """`path`, unless something else is there: of a pipe nobody may ever write the end, and a device has none.
+
+    Raises
+    ------
+    OSError : it is a directory, a pipe or a device.
+    """
+    if path.exists() and not path.is_file():
+        raise OSError(errno.EINVAL, "it is no file, but a directory, pipe or device", str(path))
+    return path
 
 
 def read_json(path: str | Path, **options):
@@ -50,7 +85,7 @@ def read_json(path: str | Path, **options):
         The file is missing, is no JSON in UTF-8, is nested without end, or holds a number beyond all use.
     """
     try:
-        content = json.loads(Path(path).read_text(encoding="utf-8-sig"), parse_int=_integer, **options)
+        content = json.loads(a_file(Path(path)).read_text(encoding="utf-8-sig"), parse_int=_integer, **options)
     except OSError as problem:
         raise RecordingError(f"{path}: cannot be read: {problem.strerror}") from None
     except (ValueError, RecursionError) as problem:

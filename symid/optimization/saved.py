@@ -12,7 +12,7 @@ import numpy as np
 
 from symid import checked
 from symid.errors import SolveError
-from symid.files import read_arrays, write_atomically
+from symid.files import a_file, read_arrays, write_atomically
 from symid.ipopt_solver.kept import put_together, taken_apart
 from symid.optimization.plan import Plan
 
@@ -29,10 +29,7 @@ def save(plan: Plan, path: str | Path) -> None:
     about = {"format": FORMAT, "problem": identity(plan.problem), "result": result, "sha256": _sum(arrays)}
     file = io.BytesIO()
     np.savez(file, about=np.array(json.dumps(about)), arrays=np.frombuffer(arrays, np.uint8))
-    try:
-        write_atomically(path, file.getvalue())
-    except OSError as problem:
-        raise SolveError(f"{path} cannot be written ({problem.strerror}): give another path") from problem
+    write_atomically(path, file.getvalue())
 
 
 def load(path: str | Path, problem: Optimization) -> Plan:
@@ -45,7 +42,7 @@ def load(path: str | Path, problem: Optimization) -> Plan:
     """
     path = checked.path(path, "Optimization.load", SolveError)
     try:
-        file = read_arrays(path.read_bytes())
+        file = read_arrays(a_file(path).read_bytes())
         about, arrays = json.loads(str(file["about"])), file["arrays"].tobytes()
         found, known = about["format"], dict(about["problem"])
     except OSError as absent:

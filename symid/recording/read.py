@@ -12,7 +12,8 @@ import numpy as np
 from symid import checked
 from symid.errors import RecordingError, RecordingWarning
 from symid.recording.cells import NO_WEIGHT, read_table
-from symid.recording.header import file_rows, is_dated, read_header, require_file
+from symid.files import a_file
+from symid.recording.header import faults_of_text, file_rows, is_dated, read_header, require_file
 from symid.recording.names import CELSIUS, Column
 from symid.recording.recording import Recording
 from symid.recording.rows import Table, with_missing, without_repeats
@@ -78,6 +79,8 @@ def read_recording(
     >>> read_recording("walk.csv", columns={"time_s": "t", "hip_angle_deg": "Hip"})  # doctest: +SKIP
     """
     path = checked.path(path, "read_recording", RecordingError)
+    with faults_of_text(path):
+        a_file(path)
     left: list[str] = []
     if columns is None and not _has_reader(path) and not is_dated(path):
         found = read_header(path)

@@ -1,7 +1,6 @@
 """The frozen noun of this room: what was measured, in SI, with a name and a unit on every column."""
 
 import os
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cached_property
@@ -13,9 +12,11 @@ import numpy as np
 
 from symid import checked
 from symid.errors import RecordingError
+from symid.files import write_atomically
+from symid.recording.fields import frozen, no_channel, refuse_faults
 from symid.recording.show import as_html, as_text
 from symid.recording.timing import sampling_interval_of
-from symid.units import FloatArray, IntArray, column_name, known_unit, nearest
+from symid.units import FloatArray, IntArray, column_name, known_unit
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -69,43 +70,16 @@ class Recording:
         def put(key: str, value: Any) -> None:
             object.__setattr__(self, key, value)
 
-        put("time", _frozen(self.time, float))
+        put("time", frozen(self.time, float))
         for key in ("channels", "units", "signs", "noise"):
             checked.kind(getattr(self, key), Mapping, f"{self.name}: {key}", RecordingError)
-        put("channels", MappingProxyType({k: _frozen(v, float) for k, v in self.channels.items()}))
+        put("channels", MappingProxyType({k: frozen(v, float) for k, v in self.channels.items()}))
         for key in ("units", "signs", "noise"):
             put(key, MappingProxyType(dict(getattr(self, key))))
         put("history", tuple(self.history))
-        put("segment", None if self.segment is None else _frozen(self.segment, np.int64))
-        put("split", None if self.split is None else _frozen(self.split, str))
-        self._check()
-
-    def _check(self) -> None:
-        count = self.time.size
-        if self.time.ndim != 1 or count < 2:
-            raise RecordingError(f"{self.name}: a recording needs at least two samples")
-        columns = {**self.channels, "segment": self.segment, "split": self.split}
-        for name, column in columns.items():
-            if column is not None and column.shape != (count,):
-                raise RecordingError(
-                    f"{self.name}: '{name}' has shape {column.shape}, time has ({count},); symid.recording.join "
-                    "takes the channels of a recording with other times"
-                )
-        for name in self.channels:
-            if name not in self.units:
-                raise RecordingError(f"{self.name}: channel '{name}' has no unit")
-            if known_unit(self.units[name]).factor != 1.0:
-                raise RecordingError(
-                    f"{self.name}: channel '{name}' is in {self.units[name]}, but a Recording "
-                    f"holds SI; add it by with_channel(), which converts"
-                )
-        for table in ("units", "signs", "noise"):
-            for name in getattr(self, table):
-                if name not in self.channels:
-                    raise RecordingError(f"{self.name}: {table} {self._unknown(name)}")
-        for run in self.runs:
-            if np.any(np.diff(self.time[run]) <= 0):
-                raise RecordingError(f"{self.name}: time does not increase from sample to sample")
+        put("segment", None if self.segment is None else frozen(self.segment, np.int64))
+        put("split", None if self.split is None else frozen(self.split, str))
+        refuse_faults(self)
 
     # -- looking ------------------------------------------------------------------------------
 
@@ -116,7 +90,7 @@ class Recording:
     def __getitem__(self, name: str) -> FloatArray:
         """One channel, shape(N,), in its SI unit; read-only."""
         if name not in self.channels:
-            raise RecordingError(f"{self.name}: {self._unknown(name)}")
+            raise RecordingError(f"{self.name}: {no_channel(self, name)}")
         return self.channels[name]
 
     @cached_property
@@ -278,22 +252,11 @@ class Recording:
 
         Raises
         ------
-        RecordingError : a unit has no ending of a column's name, or the file cannot be written.
+        RecordingError : a unit has no ending of a column's name.
+        WriteError : the file cannot be written.
         """
-        path = Path(path)
-        table = self.frame.reset_index()
-        try:
-            handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.", suffix=".part")
-        except OSError as error:
-            raise RecordingError(f"{path}: cannot be written: {error.strerror}") from error
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
-                table.to_csv(file, index=False, lineterminator="\n")
-            os.replace(part, path)
-        except BaseException:
-            Path(part).unlink(missing_ok=True)
-            raise
-        return path
+        text = self.frame.reset_index().to_csv(index=False, lineterminator="\n")
+        return write_atomically(path, text)
 
     def __reduce__(self) -> tuple[Any, ...]:
         values = {f.name: getattr(self, f.name) for f in fields(self)}
@@ -325,11 +288,6 @@ class Recording:
         if self.sampling_interval is None:
             raise RecordingError(f"{self.name}: {verb} needs evenly spaced samples; use fill_gaps() or resample()")
         return self.sampling_interval
-
-    def _unknown(self, name: str) -> str:
-        close = nearest(name, self.channels) or list(self.channels)
-        more = f" and {len(close) - 12} more" if len(close) > 12 else ""
-        return f"has no channel '{name}'; it has {', '.join(close[:12])}{more}"
 
     def rows(self, rows: slice, note: str | None = None) -> "Recording":
         """Some of the rows, without looking at their times.
@@ -369,16 +327,3 @@ class Recording:
 
 def _rebuild(values: dict[str, Any]) -> Recording:
     return Recording(**values)
-
-
-def _frozen(values: Any, kind: type) -> np.ndarray:
-    """The values as an array that nobody can write to; shared, not copied, where it is one."""
-    try:
-        array: np.ndarray = np.asarray(values, dtype=kind)
-    except (TypeError, ValueError, OverflowError) as problem:
-        raise RecordingError(f"a recording holds numbers: {problem}") from None
-    owner = array if array.base is None else array.base
-    if array.flags.writeable or getattr(getattr(owner, "flags", None), "writeable", True):
-        array = array.copy()
-        array.setflags(write=False)
-    return array

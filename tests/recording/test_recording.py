@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from waves import DEGREE, wave
 
-from symid.errors import RecordingError
+from symid.errors import RecordingError, WriteError
 from symid.recording import Recording
 
 # -- Recording --------------------------------------------------------------------------------
@@ -136,6 +136,7 @@ def test_a_file_appears_whole_or_not_at_all(tmp_path, monkeypatch):
     assert path.read_text() == "old" and os.listdir(tmp_path) == ["r.csv"]
 
 
-def test_a_folder_that_is_not_there_is_named(tmp_path):
-    with pytest.raises(RecordingError, match="r.csv: cannot be written: No such file"):
-        wave().to_csv(tmp_path / "nowhere" / "r.csv")
+def test_a_folder_that_is_a_file_is_named(tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(WriteError, match=r"r.csv cannot be written \(Not a directory|File exists"):
+        wave().to_csv(tmp_path / "file" / "r.csv")

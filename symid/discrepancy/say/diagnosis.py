@@ -283,7 +283,7 @@ class Diagnosis:
 
         Raises
         ------
-        OSError : the file cannot be written.
+        WriteError : the file cannot be written.
         """
         # Reports stand on the roof, and a diagnosis must not need them: fetched by name when asked for.
         write = import_module("symid.report").write_diagnosis_report
@@ -298,7 +298,7 @@ class Diagnosis:
 
         Raises
         ------
-        OSError : the file cannot be written.
+        WriteError : the file cannot be written.
         """
         return write_atomically(path, json.dumps(self.answer(), indent=1))
 
@@ -311,7 +311,7 @@ class Diagnosis:
 
         Raises
         ------
-        OSError : the file cannot be written.
+        WriteError : the file cannot be written.
         DiagnosisError : there was no held-out window.
         """
         run = self.runs.get("augmented_heldout")
