@@ -13,6 +13,7 @@ from symid.errors import ModelError
 from symid.model.conditions import Constraint, Objective
 from symid.model.component import Component
 from symid.model.declare import Constant, Equation, Expression, Input, Output, Port
+from symid.model.letters import why_no_letters
 from symid.model.quantity import AlongTime, refuse_calculus, sympified
 
 if TYPE_CHECKING:
@@ -84,6 +85,11 @@ def refuse_wrong_types(model: Model, part: Component, name: str) -> None:
             raise ModelError(
                 f"model '{model.name}': {key}={_shown(getattr(part, key))} of the {kind} '{name}' is no text"
             )
+    if reason := why_no_letters(getattr(part, "latex", "")):
+        raise ModelError(
+            f"model '{model.name}': latex={_shown(part.latex)} of the {kind} '{name}' is no symbol: {reason}; write "
+            r"letters and digits with _ and ^, as \theta_1 or \bar{k}_{h,1}"
+        )
     if isinstance(part, Constant) and not _is_number(part.value):
         raise ModelError(
             f"model '{model.name}': the value of the Constant '{name}' is {_shown(part.value)}; "

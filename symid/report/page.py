@@ -79,14 +79,22 @@ def facts(content: Mapping[str, object]) -> Markup:
 
 def equations(lines: Iterable[str]) -> Markup:
     """Equations from lines of LaTeX (`symid.model.show.latex_lines`) as MathML, shown by browsers without a script."""
-    from latex2mathml.converter import convert
-
     rows = []
     for line in lines:
         for i, part in enumerate(line.split(r"\\")):
-            mathml = _with_primes(convert(part.replace("&", "").replace(r"\qquad", "").strip(), display="block"))
-            rows.append(f'<div class="further">{mathml}</div>' if i else f"<div>{mathml}</div>")
+            shown = _mathml(part.replace("&", "").replace(r"\qquad", "").strip())
+            rows.append(f'<div class="further">{shown}</div>' if i else f"<div>{shown}</div>")
     return Markup(f'<div class="scroll equations">{"".join(rows)}</div>')
+
+
+def _mathml(latex: str) -> str:
+    """One line of LaTeX as MathML; as it is written, where the converter does not understand it."""
+    from latex2mathml.converter import convert
+
+    try:
+        return _with_primes(convert(latex, display="block"))
+    except Exception:  # its errors have no common class, and a report is worth more than one line of it
+        return Markup("<code>{}</code>").format(latex)
 
 
 def _with_primes(mathml: str) -> str:

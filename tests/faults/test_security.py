@@ -20,7 +20,9 @@ from symid.codegen.source import generate
 from symid.errors import ModelError, RecordingError, SolveError
 from symid.files import read_json
 from symid.identification.store import StudyDirectory
+from symid.model.show import latex_lines
 from symid.report import write_report
+from symid.report.page import equations
 
 BREAKS_OUT = (
     "a\nint planted = 1; //",
@@ -86,9 +88,54 @@ def test_a_text_is_no_expression(planted):
 def test_texts_of_a_model_are_escaped_in_a_notebook():
     model = pendulum()
     evil = "<script>alert(1)</script>"
-    model.size = si.Parameter(unit="m", latex=evil, meaning=evil)
+    model.size = si.Parameter(unit="m", meaning=evil)
     model.extra = si.Output(model.size * model.angle)
     assert evil not in model._repr_html_()
+
+
+LETTERS = (
+    r"\theta_{1,2}",
+    r"\bar{k}^{\mathrm{soll}}_h",
+    "ü",
+    "x'",
+    r"\text{left hip}",
+    r"w^{(1)}_{0}",
+    "T_0",
+    r"\dot\phi",
+)
+NO_LETTERS = (
+    r"\href{javascript:alert(1)}{x}",
+    r"\hspace{1\"onload=\"x}",
+    r"\class{x\"onclick=\"y}{z}",
+    r"\style{background:url(http://x)}{y}",
+    r"\text{<img src=x onerror=alert(1)>}",
+    r"\def\x{\x\x}\x",
+    r"a\\b",
+    r"\input{x}",
+    "$",
+    "x_",
+    "^2",
+    "a}{b",
+    "{" * 300,
+    "x\ny",
+)
+
+
+@pytest.mark.parametrize("latex", [*LETTERS, *NO_LETTERS])
+def test_letters_of_a_part_are_only_printed(latex):
+    """MathJax and MathML know links, styles, attributes and macros: a symbol has none of them."""
+    model = pendulum()
+    if latex in NO_LETTERS:
+        with pytest.raises(ModelError, match="is no symbol"):
+            model.size = si.Parameter(unit="m", latex=latex)
+    else:
+        model.size = si.Parameter(unit="m", latex=latex)
+        model.extra = si.Expression(model.size * model.angle, unit="m")
+        assert "<code>" not in equations(latex_lines(model)) and latex in model._repr_latex_()
+
+
+def test_an_equation_that_cannot_be_set_is_written():
+    assert equations(["x_1_2 <b>", "y &= 2"]).count("<math") == 1 == equations(["x_1_2 <b>"]).count("x_1_2 &lt;b&gt;")
 
 
 @pytest.mark.parametrize("text", ["[" * 100_000, "{", "\xff", '{"a": ' + "9" * 400 + "}", "9" * 5000])

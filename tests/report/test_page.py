@@ -1,0 +1,46 @@
+"""Parts of a page: tables, numbers, equations."""
+
+import pytest
+from conftest import pendulum, pendulum_recording
+
+import symid as si
+from symid.model import show
+from symid.report import page, report_html
+
+
+def test_words_in_equations_are_no_products_of_letters():
+    text = report_html(si.Identification(pendulum(), pendulum_recording()).solve(max_iterations=1))
+    latex = "".join(show.latex_lines(pendulum()))
+    assert r"\mathrm{damping}" in latex and r"\: " in latex and 'mathvariant="normal">d' in text
+
+
+def test_numbers_stand_below_each_other_and_long_names_may_go_on_in_the_next_line():
+    text = page.table(["name", "score"], [["a_long_name", "4,575.5"], ["b", "−5.3"]])
+    assert '<th class="n">score' in text and "a_<wbr>long_<wbr>name" in text
+    assert '<th class="">when' in page.table(["when"], [["always"], ["1"]])
+
+
+def test_text_is_escaped():
+    assert "<script>" not in page.page(
+        "<script>",
+        page.paragraph("<script>"),
+        page.table(["<script>"], [["<script>"]]),
+        page.facts({"<script>": "<script>"}),
+    )
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"), [(float("nan"), "none"), (float("inf"), "∞"), (-1234.567, "−1234.6"), (True, "yes"), (12, "12")]
+)
+def test_numbers(value, shown):
+    assert page.number(value) == shown
+
+
+def test_rates_have_primes_that_are_seen():
+    """A prime above a word is a hair in a browser: it stands beside the letters, also of a part with an index."""
+    m = si.Model("m")
+    m.speed, m.other = si.State(unit="m/s", index=range(2)), si.State(unit="m/s")
+    m.a = si.Equation({i: m.speed[i].dot + m.other for i in range(2)})
+    m.b = si.Equation(m.other.dot + m.speed[0])
+    mathml = page.equations(show.latex_lines(m))
+    assert mathml.count("<mo>&#x02032;</mo></mrow>") == 3 and "msubsup" not in mathml and "msup" not in mathml
