@@ -16,7 +16,7 @@ from symid.cli.options import (
     tell_files,
     with_inputs,
 )
-from symid.deadline import START_LIMIT_S
+from symid.deadline import LIMIT_NODES, START_LIMIT_S
 from symid.progress import say
 
 SUMMARY = "identify the parameters of a model from a recording"
@@ -60,9 +60,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--time-limit",
         type=float,
-        default=START_LIMIT_S,
         metavar="S",
-        help=f"of each start, s (default: {START_LIMIT_S:g})",
+        help=f"of each start, s (default: {START_LIMIT_S:g}, more beyond {LIMIT_NODES:,} samples)",
     )
     parser.add_argument("--json", metavar="OUT.json", help="write everything as JSON")
     parser.add_argument("--report", metavar="OUT.html", help="write a report with figures")

@@ -10,6 +10,7 @@ from symid.deadline import TimeUp
 from symid.errors import SolveError
 from symid.identification.starts.further import drawn_starts, far, further_starts
 from symid.ipopt_solver import Iteration, SolverResult
+from symid.ipopt_solver.aside import set_aside
 from symid.transcription import BackwardEuler
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ class Attempts:
         given = dict(self.options)
         if most < float("inf"):
             given["max_iterations"] = min(most, given.get("max_iterations", most))
+        given_back, self.best = None if self.best is None else set_aside(self.best), None
         try:
             end = self.problem.solve_from(z, on_iteration=self.on_iteration, near=near, **given)
         except TimeUp:
@@ -47,6 +49,8 @@ class Attempts:
         except SolveError as refused:
             self.refused = self.refused or refused
             return
+        finally:
+            self.best = given_back and given_back()
         better = end.solved and self.best is not None and end.objective < self.best.objective
         if self.best is None or (end.solved and (better or not self.best.solved)):
             self.best = end

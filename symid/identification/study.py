@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from symid import checked
-from symid.deadline import START_LIMIT_S
+from symid.deadline import start_limit
 from symid.errors import SolveError
 from symid.identification.dispatch import in_turn, on_executor
 from symid.identification.identity import digest
@@ -79,7 +79,16 @@ class Solve:
     def time_limit_s(self) -> float:
         """Of this start, making it included [s]; no part of the identity: who ran out of less is solved again."""
         given = self.options.get("time_limit_s")
-        return START_LIMIT_S if given is None else given
+        return start_limit(_nodes(self.problem)) if given is None else given
+
+
+def _nodes(problem: Identification) -> int:
+    """Nodes of the mesh, those of all episodes, counted from the samples in the windows."""
+    inside = [
+        r.time.size if w is None else np.count_nonzero((w[0] <= r.time) & (r.time <= w[1]))
+        for r, w in zip(problem.recordings, problem.windows, strict=True)
+    ]
+    return int(sum(inside)) * int(problem.refine) * problem.episodes.count
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 import builtins
 import dataclasses
+import errno
 import os
 import subprocess
 import sys
@@ -11,6 +12,7 @@ import pytest
 from nlp_problems import hs071, one_variable, tracking
 
 from symid.errors import MachineError, SolveError
+from symid.ipopt_solver import aside
 from symid.ipopt_solver import solve as ipopt_solver
 from symid.ipopt_solver import solve_nlp
 from symid.ipopt_solver.kept import put_together, taken_apart
@@ -126,3 +128,19 @@ def test_a_kept_result_without_one_of_its_times_is_refused(time):
     del content["seconds"][time]
     with pytest.raises(ValueError, match="times"):
         put_together(content, arrays)
+
+
+@pytest.mark.parametrize("room", [True, False])
+def test_a_large_result_waits_in_a_file_and_comes_back_bit_for_bit(monkeypatch, room):
+    result = solve_nlp(hs071())
+
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(aside, "MANY_UNKNOWNS", 0)
+    if not room:
+        monkeypatch.setattr(aside.np, "savez", full)
+    again = aside.set_aside(result)()
+    assert (again is result) == (not room) and repr(again) == repr(result)
+    for name in aside.VECTORS:
+        np.testing.assert_array_equal(getattr(again, name), getattr(result, name), strict=True)

@@ -10,10 +10,12 @@ import pytest
 from conftest import pendulum, pendulum_recording
 from study_problems import kept, numbers, numbers_of, problem, study
 
+from symid.deadline import START_LIMIT_S
 from symid.errors import MachineError, SolveError
 from symid.identification import Identification, Solve, Study
 from symid.identification import store as store_module
 from symid.identification.store import StudyDirectory
+from symid.recording import Recording
 from symid.transcription import Episodes
 
 # ---- what is kept ----------------------------------------------------------------------
@@ -249,3 +251,15 @@ def test_a_solve_that_ran_out_of_time_is_done_again_with_more_of_it(tmp_path, so
         row = limited(limit)
     assert row.solved and len(solved) == 2
     assert limited(1e-6).solved
+
+
+def test_a_long_recording_has_more_time_unless_it_is_said():
+    """As the time that a solve takes grows: an hour is not cut on a machine that others share."""
+    time = np.arange(360_000) / 100
+
+    def limit(window, **options):
+        recording = Recording("r", time, {"angle": time, "drive": time}, {"angle": "rad", "drive": "rad/s^2"})
+        return Solve(Identification(pendulum(), recording, window), options=options).time_limit_s
+
+    assert limit((0.0, 100.0)) == START_LIMIT_S and limit(None) == pytest.approx(6 * START_LIMIT_S)
+    assert limit(None, time_limit_s=5.0) == 5.0

@@ -57,18 +57,24 @@ def further_starts(t: Transcription, z: np.ndarray, solved: bool) -> Iterator[tu
     large, seen = _large(t), shooting is not None and not shooting.hidden
     if large and solved and not seen:
         return
-    motion = smooth_motion(t)
-    regressed = equation_error(t, guesses(t), motion)[0]
+    regressed, recorded = _recorded_motion(t, shooting)
     settled = large and solved and _doubt(shooting, z, regressed) < PULLED
     if settled and shooting.follows(shooting.unknowns(regressed)):
         return
-    yield t.start(regressed, motion if shooting is None else shooting.with_hidden(motion)), False
+    yield recorded, False
     if settled:
         return
     if seen or (shooting is not None and not large):
         others = [regressed, equation_error(t, guesses(t))[0]]
         for found in shooting.tracked([shooting.unknowns(p) for p in others]):
             yield t.start(*found), True
+
+
+def _recorded_motion(t: Transcription, shooting: Shooting | None) -> tuple[np.ndarray, np.ndarray]:
+    """(free parameters,) SI that a regression on the smoothed recording finds, and the free vector of both."""
+    motion = smooth_motion(t)
+    regressed = equation_error(t, guesses(t), motion)[0]
+    return regressed, t.start(regressed, motion if shooting is None else shooting.with_hidden(motion))
 
 
 @one_blas_thread
