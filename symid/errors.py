@@ -97,9 +97,9 @@ class WriteError(SymidError, OSError):
 
     Examples
     --------
-    >>> recording.to_csv("/nowhere/recording.csv")
+    >>> recording.to_csv("/dev/null/recording.csv")
     Traceback (most recent call last):
-    symid.errors.WriteError: /nowhere/recording.csv cannot be written (Permission denied): give another path, or ...
+    symid.errors.WriteError: /dev/null/recording.csv cannot be written (Not a directory): give another path, or ...
     """
 
     def __str__(self) -> str:

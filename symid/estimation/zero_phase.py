@@ -16,6 +16,9 @@ import numpy as np
 
 SMALLEST_GAIN = 0.03
 """The filter is undone where it left at least this part of a signal; rounding stays far below the sensors' noise."""
+LARGEST_EXCESS = 10 / SMALLEST_GAIN
+"""What is added to a frequency is at most so many times what is there: beyond the band, up to the highest frequency of
+the samples, a filter leaves nothing that could be multiplied back."""
 ROLL_OFF = 0.1
 """Part of the band, below and above its edge, over which what is kept fades away."""
 PADDING = 5.0
@@ -48,7 +51,8 @@ class ZeroPhase:
         """One sample in so many holds all frequencies that can be undone."""
         frequency = np.linspace(0, 0.5 / step, 2000)
         band = frequency[np.argmax(self.gain(frequency) < SMALLEST_GAIN)] or frequency[-1]
-        return max(1, round(0.5 / step / band))
+        most = 0.5 / step / band
+        return max(1 if (1 - ROLL_OFF) * most <= 1 else 2, round(most))
 
     def undone(self, x: np.ndarray, step: float, ratio: int) -> tuple[np.ndarray, np.ndarray]:
         """A channel (N,), the filter undone as far as one sample in `ratio` holds it, and what undoing added."""
@@ -64,15 +68,19 @@ class ZeroPhase:
         )
         frequency = np.fft.rfftfreq(len(long), step)
         spectrum = np.fft.rfft(long) * _kept(frequency * 2 * step * ratio, ratio)
-        kept, added = (np.fft.irfft(spectrum * a, len(long))[pad : pad + len(x)] for a in (1.0, self.excess(frequency)))
+        kept, added = (np.fft.irfft(spectrum * a, len(long))[pad : pad + len(x)] for a in (1.0, self._added(frequency)))
         return kept + added + middle, added
 
     def log_volume(self, step: float, sharpness: float = 1.0) -> tuple[float, float, float]:
         """Mean of log(1 / gain) over the band of samples `step` apart, `sharpness` times the excess, and its first and
         second derivative by the logarithm of that: what undoing adds to the log-likelihood of each sample."""
         frequency = np.linspace(0, 0.5 / step, 1001)
-        x = sharpness * self.excess(0.5 * (frequency[1:] + frequency[:-1]))
+        x = sharpness * self._added(0.5 * (frequency[1:] + frequency[:-1]))
         return float(np.mean(np.log1p(x))), float(np.mean(x / (1 + x))), float(np.mean(x / (1 + x) ** 2))
+
+    def _added(self, frequency: np.ndarray) -> np.ndarray:
+        """What is added of each frequency [Hz] to undo it."""
+        return np.minimum(self.excess(frequency), LARGEST_EXCESS)
 
     def sharpened(self, sharpness: float) -> ZeroPhase:
         """The filter whose excess is `sharpness` times as large."""
@@ -89,4 +97,4 @@ def _kept(x: np.ndarray, ratio: int) -> np.ndarray:
     """
     if ratio == 1:
         return np.ones(len(x))
-    return np.cos(0.25 * np.pi * np.clip((x - 1) / ROLL_OFF + 1, 0, 2))
+    return np.where(x < 1 + ROLL_OFF, np.cos(0.25 * np.pi * np.clip((x - 1) / ROLL_OFF + 1, 0, 2)), 0.0)

@@ -54,7 +54,8 @@ def mapped(path: Path, raw: list[RawColumn], mapping: Mapping[str, str]) -> tupl
     columns, table = [], {}
     for ours, theirs in mapping.items():
         sign = -1.0 if theirs not in there and theirs.startswith("-") else 1.0
-        found = there.get(theirs if sign > 0 else theirs[1:].strip())
+        wanted = theirs if sign > 0 else theirs[1:].strip()
+        found = there.get(wanted) or there.get(wanted.lstrip("#%/ "))  # as it stands in a line of comment
         if found is None:
             close = nearest(theirs, there) or list(there)[:MOST_NAMED]
             problems.append(f"there is no column '{theirs}' for {ours}; the file has {', '.join(close)}")

@@ -187,13 +187,14 @@ def _names(path: Path, rows: list, plain: list, number: re.Pattern) -> tuple[tup
         raise RecordingError(f"{path}: there are only comments; a header and samples are expected")
     below_comment = rows.index(plain[0]) - 1
     place = best_header([cells for _, cells in plain], number)
-    if place is None and all(number.fullmatch(cell) for cell in plain[0][1]):
+    if place is None and any(number.fullmatch(cell) for cell in plain[0][1]):
         noted = [w for cell in rows[below_comment][1] for w in [cell.lstrip("#%/ ")] if w] if below_comment >= 0 else []
-        if len(noted) == len(plain[0][1]):  # as numpy.savetxt writes it
+        if len(noted) == len(plain[0][1]):  # as numpy.savetxt writes it, and rostopic beside columns of text
             return (rows[below_comment][0], noted), None
-        raise RecordingError(
-            f"{path}: the first line holds numbers; a header such as time_s,ankle_angle_deg is expected"
-        )
+        if all(number.fullmatch(cell) for cell in plain[0][1]):
+            raise RecordingError(
+                f"{path}: the first line holds numbers; a header such as time_s,ankle_angle_deg is expected"
+            )
     header, below = plain[place or 0], plain[(place or 0) + 1 : (place or 0) + 2]
     with_units = bool(below) and len(below[0][1]) == len(header[1]) and are_units(below[0][1])
     return header, below[0] if with_units else None

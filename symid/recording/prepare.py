@@ -17,6 +17,7 @@ from symid.units import FloatArray, known_unit
 
 _PASSBAND = 0.8  # of the new Nyquist frequency is kept when downsampling
 _ANTI_ALIAS_ORDER = 8  # of the Butterworth filter, before it runs in both directions
+_SAME_RATE = 0.01  # part by which a clock may be slow, so that nothing but its highest hundredth could be aliased
 
 
 def fill_gaps(recording: Recording, max_gap_s: float, *channels: str) -> Recording:
@@ -81,7 +82,7 @@ def resample(recording: Recording, rate_hz: float) -> Recording:
         _require_values(part, "resample")
         old = float(np.median(np.diff(part.time)))
         even = part if part.sampling_interval else _evened(part, old)
-        if rate_hz < (1 - 1e-9) / old:
+        if rate_hz < (1 - _SAME_RATE) / old:
             even = lowpass(even, _PASSBAND * rate_hz / 2, order=_ANTI_ALIAS_ORDER)
         start, end = even.interval
         count = int(np.floor(_few_enough(part.name, (end - start) * rate_hz) * (1 + 1e-12) + 1e-6)) + 1
@@ -95,7 +96,7 @@ def resample(recording: Recording, rate_hz: float) -> Recording:
     note = f"resampled from {np.median(rates):g} Hz to {rate_hz:g} Hz by cubic splines"
     if recording.sampling_interval is None:
         note += ", after putting uneven times onto an even grid"
-    if max(rates) > rate_hz * (1 + 1e-9):
+    if rate_hz < (1 - _SAME_RATE) * max(rates):
         note += f", after a zero-phase Butterworth low-pass at {_PASSBAND * rate_hz / 2:g} Hz against aliasing"
     return _by_segment(recording, change).noted(note)
 

@@ -25,6 +25,7 @@ PLAIN = (".csv", ".txt", "")
 """Endings of comma-separated text; an ending that no reader has is taken for it, too."""
 EPOCH = 946684800.0, 4102444800.0
 """Seconds since 1970 of the years 2000 and 2100: a first time between them is a date, not a duration."""
+_CLOCKS = {1e-3: "ms", 1e-6: "us", 1e-9: "ns"}
 _CURES = {
     "gap": "read with allow_gaps=True (--allow-gaps on the command line), which gives what is missing no weight "
     "(or mark the parts in a 'segment' column)",
@@ -142,6 +143,7 @@ def _assemble(path: Path, columns: list[Column], table: Table, allow_gaps: bool)
             table[name] = table[name] * unit.factor
     text = next(column.text for column in columns if column.name == "time")
     table, rows, notes = _mended(path, table) if allow_gaps else (table, np.arange(table["time"].size), [])
+    _refuse_other_clock(path, text, units["time"].factor, table)
     history += _from_epoch(table) + notes
     time, note = _checked_time(path, text, table, rows, allow_gaps)
     names = [name for name in units if name != "time"]
@@ -169,6 +171,21 @@ def _mended(path: Path, table: Table) -> tuple[Table, IntArray, list[str]]:
     if put_in.any():
         notes.append(f"{put_in.sum()} rows put in without values, where the file has none")
     return table, np.where(place >= 0, kept[place], -1), notes
+
+
+def _refuse_other_clock(path: Path, text: str, factor: float, table: Table) -> None:
+    """RecordingError for times that are dates in a smaller unit than the one stated (of `factor` s), such as a
+    computer's nanoseconds taken for seconds.
+    """
+    start = float(table["time"][0])
+    for smaller in (1e-3, 1e-6, 1e-9):
+        if EPOCH[0] < start * smaller < EPOCH[1]:
+            unit = _CLOCKS.get(float(f"{factor * smaller:.3g}"), "a smaller unit")
+            raise RecordingError(
+                f"{path}: column '{text}' begins at {start:.6g} s; counted in {unit} from 1970 that is the year "
+                f"{datetime.fromtimestamp(start * smaller, UTC):%Y}: name the column time_ns, time_us or time_ms, as "
+                "it is, or map it: columns={'time_ns': ...}"
+            )
 
 
 def _from_epoch(table: Table) -> list[str]:

@@ -73,6 +73,21 @@ def test_undoing_restores_what_the_filter_left():
     np.testing.assert_allclose(sharper[inside], (restored + 0.3 * added)[inside], atol=1e-6 * x.std())
 
 
+@pytest.mark.parametrize("order", [1, 2, 4, 8])
+@pytest.mark.parametrize("share", [0.1, 0.2, 0.4, 0.6, 0.8, 0.95])
+def test_undoing_any_filter_gives_back_the_motion_and_never_blows_up(order, share):
+    """Of any order, and with a cutoff up to the highest frequency that the samples hold, where it left nothing."""
+    rng, time = np.random.default_rng(3), STEP * np.arange(2000)
+    motion = np.sin(2 * np.pi * 0.4 * share * time * 0.25 / STEP / 2)
+    x = motion + 0.01 * rng.standard_normal(2000)
+    f = ZeroPhase(order, share * 0.5 / STEP, 1 / STEP)
+    ratio = f.ratio(STEP)
+    found, added = f.undone(filtfilt(*butter(order, share), x), STEP, ratio)
+    inner = slice(200, -200)
+    assert np.abs(found - motion)[inner].std() < 0.05 and np.abs(added).max() < 2
+    assert np.isfinite(f.log_volume(STEP * ratio)).all()
+
+
 def test_white_noise_stays_white_where_the_band_fades():
     """The bins beside the edge of the band keep the power of their aliases, so that no sample foretells another."""
     rng, f = np.random.default_rng(1), ZeroPhase(2, 6.0, 1 / STEP)

@@ -126,3 +126,34 @@ def test_a_recording_takes_the_channels_of_another_with_other_times():
         join(angles, angles)
     with pytest.raises(RecordingError, match="symid.recording.join takes the channels"):
         angles.with_channel("force", force, "N")
+
+
+ROS = """%time,field.header.seq,field.header.frame_id,field.name0,field.position0,field.effort0
+{},7,base,joint_1,0.0997,0.222
+{},8,base,joint_1,0.0998,0.803
+{},9,base,joint_1,0.1001,0.811
+"""
+BEGIN = 1763812800123469249
+
+
+def test_the_joint_states_of_a_robot(tmp_path):
+    """As `rostopic echo -p` writes them: names in a comment, columns of text, a computer's clock in nanoseconds."""
+    (tmp_path / "r.csv").write_text(ROS.format(*(BEGIN + k * 5_000_000 for k in range(3))))
+    names = {"angle_rad": "field.position0", "torque_Nm": "-field.effort0"}
+    for time in ("%time", "time"):
+        found = read_recording(tmp_path / "r.csv", columns={"time_ns": time} | names)
+        np.testing.assert_allclose(found.time, [0, 0.005, 0.01], atol=1e-6)
+        assert found["torque"][1] == -0.803 and list(found.channels) == ["angle", "torque"]
+    with pytest.raises(RecordingError, match=r"counted in ns from 1970 that is the year 2025: name the column time_ns"):
+        read_recording(tmp_path / "r.csv", columns={"time_s": "%time"} | names)
+
+
+@pytest.mark.parametrize(
+    ("unit", "per_s", "said"), [("s", 1e3, "ms"), ("s", 1e6, "us"), ("ms", 1e9, "ns"), ("ms", 1e6, "us")]
+)
+def test_the_clock_of_a_computer_in_another_unit_than_stated_is_refused(tmp_path, unit, per_s, said):
+    """Read as seconds it would be a recording of years, without a word."""
+    rows = "\n".join(f"{round((1.7e9 + 0.01 * k) * per_s)},{k}" for k in range(5))
+    (tmp_path / "r.csv").write_text(f"time_{unit},force_N\n{rows}\n")
+    with pytest.raises(RecordingError, match=f"counted in {said} from 1970 that is the year 2023"):
+        read_recording(tmp_path / "r.csv")

@@ -218,3 +218,13 @@ def test_smoothing_that_is_refused(tmp_path):
         smooth_states(wave(4), "ankle_angle")
     with pytest.raises(RecordingError, match="has no channel 'hip'"):
         smooth_states(wave(), "hip")
+
+
+def test_the_same_rate_by_another_clock_is_not_filtered():
+    """A computer's clock that says 200.003 Hz: noise up to the highest frequency stays white."""
+    time = np.arange(400) / 200.003
+    noise = np.random.default_rng(0).standard_normal(400)
+    recording = Recording("r", time, {"a": noise}, {"a": "m"})
+    even = resample(recording, 200.0)
+    assert "low-pass" not in even.history[-1] and even["a"].std() == pytest.approx(noise.std(), rel=0.05)
+    assert "low-pass" in resample(recording, 190.0).history[-1]
