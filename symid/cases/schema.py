@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from symid.errors import DiagnosisError
 
@@ -42,11 +44,11 @@ MOST = 5
 """Violations that one message lists."""
 
 
-def refuse_violations(facts: object, path: Path) -> None:
-    """DiagnosisError that lists what in a case's JSON is not as `SCHEMA` says."""
+def refuse_violations(facts: object, path: Path, schema: Mapping[str, Any] = SCHEMA) -> None:
+    """DiagnosisError that lists what in a JSON file is not as its `schema` says, that of a case where none is given."""
     from jsonschema import Draft202012Validator
 
-    found = sorted(Draft202012Validator(SCHEMA).iter_errors(facts), key=lambda e: e.json_path)
+    found = sorted(Draft202012Validator(schema).iter_errors(facts), key=lambda e: e.json_path)
     if found:
         said = [f"{e.json_path.removeprefix('$').lstrip('.') or 'the whole'}: {_reason(e)}" for e in found[:MOST]]
         more = [f"and {len(found) - MOST} more"] if len(found) > MOST else []
@@ -58,11 +60,13 @@ def _reason(error) -> str:
     text = text if len(text) <= 40 else text[:37] + "..."
     kinds = {
         "type": "must be a {}",
+        "minimum": "must be at least {:g}",
         "exclusiveMinimum": "must be above {}",
         "maximum": "must be at most {:g}",
         "const": "must be {}, since only filters without a phase shift are undone",
         "enum": "must be one of {}",
         "maxLength": "must have at most {} letters",
+        "minItems": "must have at least {} entries",
     }
     if error.validator == "required":
         return error.message

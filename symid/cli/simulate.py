@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import json
 import math
+from pathlib import Path
 
 from symid.cli.options import add_model_arguments, add_recording_arguments, build_model, refuse_missing_folders
 from symid.errors import RecordingError
@@ -103,14 +104,14 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _planned(arguments: argparse.Namespace) -> int:
     """Make the recording of a planned experiment."""
+    from symid.cases.plan import refuse_no_plan
     from symid.discrepancy.prove.plan import recording_of
     from symid.files import read_json, write_atomically
     from symid.synthetic import csv_text
 
     plan = read_json(arguments.experiment)
-    plans = plan.get("experiments") if isinstance(plan, dict) else None
-    if not isinstance(plans, list) or "system" not in plan:
-        raise RecordingError(f"{arguments.experiment}: is no plan; give a file of `symid diagnose --experiment`")
+    refuse_no_plan(plan, Path(arguments.experiment))
+    plans = plan["experiments"]
     if not 1 <= arguments.number <= len(plans):
         raise RecordingError(
             f"{arguments.experiment}: has {len(plans)} experiments, so --number {arguments.number} is none of them"

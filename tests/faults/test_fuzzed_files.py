@@ -1,6 +1,7 @@
 """Files that a user writes, spoiled by hypothesis: one exception of symid, or a result; never another, never a hang."""
 
 import json
+import re
 import shutil
 
 import numpy as np
@@ -12,7 +13,8 @@ from hypothesis import strategies as st
 
 from symid.cases import read_case
 from symid.errors import RecordingError, SymidError
-from symid.mechanics import DoubleLinkPendulum, rig_model
+from symid.cli import main
+from symid.mechanics import LIBRARY, DoubleLinkPendulum, rig_model
 from symid.recording import Recording, fill_gaps, read_recording, resample
 
 DATA = ROOT / "data"
@@ -49,6 +51,66 @@ def test_cases(tmp_path, kind):
         told(read_case, tmp_path)
 
     check()
+
+
+def plan() -> dict:
+    """What `symid diagnose --experiment` writes, of the rig, with made-up numbers."""
+    channels = ["link1_angle", "link2_angle"]
+    model = rig_model(RIG, channels)
+    answer = {
+        "terms": [["viscous_friction", "joint1"]],
+        "parameters": {},
+        "constants": {},
+        "initial_state": dict.fromkeys(model.states, 0.1),
+        "random_forces": {},
+    }
+    with_law = model.with_term(LIBRARY["viscous_friction"].at("joint1"))
+    answer["parameters"] = dict.fromkeys(with_law.parameters, 0.01)
+    experiment = {
+        "words": "let go from 0.1 rad",
+        "step_s": 0.01,
+        "samples": 30,
+        "recordings": 2,
+        "inputs": dict.fromkeys(model.inputs, [0.0] * 30),
+        "sensor_noise": dict.fromkeys(model.outputs, 1e-3),
+        "answers": {"finding": answer, "rival": answer | {"terms": []}},
+    }
+    return {"system": {"rig": RIG, "friction": []}, "channels": channels, "experiments": [experiment]}
+
+
+def simulated(folder, content) -> int:
+    (folder / "plan.json").write_text(json.dumps(content))
+    return main(["simulate", str(folder / "o.csv"), "--experiment", str(folder / "plan.json")])
+
+
+def test_plans_of_experiments(tmp_path):
+    whole = plan()
+    assert simulated(tmp_path, whole) == 0 and len(read_recording(tmp_path / "o.csv")) == 60
+
+    @few
+    @given(st.one_of(spoiled(whole), spoiled(whole["experiments"][0]).map(lambda e: whole | {"experiments": [e]})))
+    def check(content):
+        assert told(simulated, tmp_path, content) in (0, 2)
+
+    check()
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"samples": 10**9}, "experiments.0..samples: must be at most 1e"),
+        ({"samples": 2, "step_s": 9e3}, "longer than 1,000,000 samples"),
+        ({"inputs": {"push": [0.0]}}, "input 'push' has 1 values for 30 samples"),
+        ({"answers": {}}, "the plan has no answer 'finding'; known: none"),
+        ({"sensor_noise": {}}, "the plan has no noise of output"),
+        ({"inputs": 3}, "experiments.0..inputs: must be a object"),
+    ],
+)
+def test_a_plan_that_is_none_is_refused_with_its_place(tmp_path, capsys, change, said):
+    whole = plan()
+    content = whole | {"experiments": [whole["experiments"][0] | change]}
+    assert simulated(tmp_path, content) == 2
+    assert re.search(said, capsys.readouterr().err)
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from math import isfinite
 from typing import Any
 
@@ -77,15 +77,24 @@ def recording_of(plan: Mapping[str, Any], model: Model, truth: str, seed: int) -
     # What was held of bodies that are not known is a constant of the answer and a parameter of the model.
     values = answer["constants"] | answer["parameters"]
     model = model.with_constants(**{k: answer["constants"][k] for k in model.constants if k in answer["constants"]})
-    values = {k: values[k] for k in model.parameters}
+    values = _of(values, model.parameters, "value of parameter")
     sim, rng = simulator(model), np.random.default_rng(seed)
     time = np.arange(plan["samples"]) * plan["step_s"]
-    inputs = {k: np.array(u, dtype=float) for k, u in plan["inputs"].items()}
-    start = np.array([answer["initial_state"][k] for k in sim.states])
-    noise, segments = np.array([plan["sensor_noise"][k] for k in model.outputs]), []
+    inputs = {k: np.array(u, dtype=float) for k, u in _of(plan["inputs"], model.inputs, "course of input").items()}
+    start = np.array(list(_of(answer["initial_state"], sim.states, "initial value of state").values()))
+    noise = np.array(list(_of(plan["sensor_noise"], model.outputs, "noise of output").values()))
+    forces = {k: size for k, size in answer["random_forces"].items() if k in model.noises}
+    segments = []
     for k in range(plan["recordings"]):
-        seen = sensed(sim, values, start, time, inputs, answer["random_forces"], noise, rng)
+        seen = sensed(sim, values, start, time, inputs, forces, noise, rng)
         if seen is None:
             raise DiagnosisError(f"the motion of '{model.name}' leaves all bounds with {plan['words']}")
         segments.append(Segment(time + k * (time[-1] + PAUSE), seen, inputs))
     return as_recording(segments, model, noise, plan["words"])
+
+
+def _of(table: Mapping[str, Any], names: Iterable[str], what: str) -> dict[str, Any]:
+    """The entries of these names; DiagnosisError where there is none."""
+    if lacking := [name for name in names if name not in table]:
+        raise DiagnosisError(f"the plan has no {what} '{lacking[0]}'")
+    return {name: table[name] for name in names}
