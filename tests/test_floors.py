@@ -9,8 +9,9 @@ PACKAGE = Path(__file__).parents[1] / "symid"
 
 ROOF = 8
 FLOOR = {
-    "errors": -1, "interrupt": -1,  # the ground: even units may raise, and import what takes a while
-    "units": 0, "files": 0, "checked": 0, "generated": 0, "threads": 0, "progress": 0, "deadline": 0,
+    "errors": -2, "interrupt": -2,  # the ground: even units may raise, and import what takes a while
+    "checked": -1,
+    "units": 0, "files": 0, "generated": 0, "threads": 0, "progress": 0, "deadline": 0,
     "fetch": 1, "recording": 1, "model": 1, "nlp": 1,
     "mechanics": 2, "codegen": 2,
     "transcription": 3, "simulation": 3, "plausibility": 3, "kkt": 3,
