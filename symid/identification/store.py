@@ -107,6 +107,9 @@ class StudyDirectory:
         content["sha256"] = {"content": _sha256(_text(content)), "arrays": _sha256(arrays)}
 
         def both():
+            for file in (self.path / f"{key}.npz", self.path / f"{key}.json"):
+                if file.exists() and not file.is_file():
+                    file.unlink()  # a pipe would be written to, and nobody need ever read it
             write_atomically(self.path / f"{key}.npz", arrays)
             write_json(self.path / f"{key}.json", content)
 

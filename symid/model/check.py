@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from math import isfinite, isnan, nan
 from numbers import Real
 
@@ -33,7 +34,7 @@ from symid.units import dimension, known_unit
 
 
 def violations(model: Model, units: bool = True) -> Iterator[str]:
-    """One sentence for each thing that is wrong; `units=False` leaves the dimensions out."""
+    """One sentence for each thing that is wrong; `units=False` leaves the dimensions of expressions out."""
     yield from _values(model)
     yield from _unknown_symbols(model)
     yield from _ports(model)
@@ -44,6 +45,7 @@ def violations(model: Model, units: bool = True) -> Iterator[str]:
         return
     yield from _missing_equations(model, residual)
     yield from _unused(model, residual)
+    yield from _scaled_units(model)
     if units:
         yield from _dimensions(model)
 
@@ -191,14 +193,22 @@ def _unused(model: Model, residual) -> Iterator[str]:
             yield f"parameter '{p.name}' is used by no equation and no output: remove it, or it cannot be identified"
 
 
+def _scaled_units(model: Model) -> Iterator[str]:
+    """What is declared in mm or ms: recordings are in SI, and would be taken for it."""
+    for c in model.components.values():
+        if not isinstance(c, _NO_SYMBOL):
+            with suppress(SymidError):  # one that is not known is for `_dimensions`
+                if known_unit(c.unit).factor != 1.0:
+                    yield f"'{c.name}' is in {c.unit}; inside a model use the SI unit {known_unit(c.unit).si}"
+
+
 def _dimensions(model: Model) -> Iterator[str]:
     table = dimensions_of_symbols(model)
     for c in model.components.values():
         if isinstance(c, _NO_SYMBOL):
             continue
         try:
-            if known_unit(c.unit).factor != 1.0:
-                yield f"'{c.name}' is in {c.unit}; inside a model use the SI unit {known_unit(c.unit).si}"
+            known_unit(c.unit)
         except SymidError as error:
             yield f"'{c.name}': {error}"
     table |= {f(s): table[s] for s in along_time(model) & table.keys() for f in (initial, terminal)}

@@ -10,6 +10,9 @@ from symid.identification.study_result import StudyResult
 from symid.plots.style import MODEL, WARN, Picture, opened
 from symid.units import unit_for
 
+EDGE = 0.05
+"""Part of the axis to the right of the largest value, for the whole of its mark."""
+
 
 def plot_study(result: StudyResult) -> Picture:
     """RMS error of every solve, one line for each problem, and how long it took."""
@@ -19,6 +22,8 @@ def plot_study(result: StudyResult) -> Picture:
     text, factor = unit_for(max((row.rms for row in rows), default=0.0), unit or "1")
     figure = Picture(figsize=(9, 0.5 * len(groups) + 1.0), layout="constrained")
     errors, times = figure.subplots(1, 2, sharey=True, width_ratios=[1.6, 1])
+    errors.set_zorder(times.get_zorder() + 1)  # its labels may go on there
+    errors.patch.set_visible(False)
     for y, (label, names) in enumerate(groups.items()):
         told = errors.annotate(label, (0.01, y - 0.32), xycoords=("axes fraction", "data"), fontsize=8.5, va="center")
         told.set_in_layout(False)  # a long one goes on above the other panel's points
@@ -33,7 +38,10 @@ def plot_study(result: StudyResult) -> Picture:
     for axes in (errors, times):
         opened(axes)
         low, high = axes.get_xlim()
-        axes.set_xlim(min(0.0, low) if np.isfinite(low) else 0.0, high)
+        low = min(0.0, low) if np.isfinite(low) else 0.0
+        axes.set_xlim(
+            low, high + EDGE * (high - low)
+        )  # from zero on, solves that ended alike have no margin of their own
         axes.xaxis.set_major_locator(MaxNLocator(4))
     return figure
 

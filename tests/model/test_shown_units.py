@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 import sympy as sm
 from hypothesis import given
@@ -9,8 +10,10 @@ from hypothesis import strategies as st
 
 import symid.model as si
 from symid.errors import ModelError
+from symid.identification import Identification
 from symid.identification.fit import common_unit, fit_text, rms_text
 from symid.mechanics.terms import LIBRARY
+from symid.recording import Recording
 from symid.units import quantity, shown_unit, unit_symbol, with_error
 
 
@@ -117,3 +120,17 @@ def test_a_port_whose_unit_is_wrong_or_cannot_be_told_is_refused():
     model.later = si.Equation(model.x.dot)
     with pytest.raises(ModelError, match="port 'push' has no unit"):
         model.check()
+
+
+@pytest.mark.parametrize(("unit", "right"), [("um", "m"), ("deg", "rad"), ("1/ms", "1/s"), ("rpm", "rad/s")])
+def test_a_model_in_other_units_than_si_is_not_solved(unit, right):
+    """Its recording is in SI: a place in um would be a million times too small, without a word."""
+    m = si.Model("piezo")
+    m.place = si.State(unit=unit)
+    m.rate = si.Parameter(unit=f"{unit}/s", bounds=(0, 1))
+    m.law = si.Equation(m.place.dot - m.rate)
+    m.seen = si.Output(m.place, channel="place")
+    time = np.arange(5.0)
+    recording = Recording("r", time, {"place": time}, {"place": right})
+    with pytest.raises(ModelError, match=f"'place' is in {unit}; inside a model use the SI unit {right}"):
+        Identification(m, recording).solve(check=False)

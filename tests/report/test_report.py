@@ -228,6 +228,12 @@ def test_the_report_of_a_study_has_every_problem_and_solve(study, tmp_path):
     assert [t.get_text() for t in plots.plot_study(study).axes[0].texts] == ["free", "bounded"]
 
 
+def test_solves_that_ended_alike_are_not_cut_off_at_the_edge(study):
+    for axes in plots.plot_study(study).axes:
+        (low, high), largest = axes.get_xlim(), max(line.get_xdata()[0] for line in axes.lines)
+        assert low <= 0 and high - largest > 0.03 * (high - low)
+
+
 @needs_browser
 def test_in_a_browser_the_report_of_a_study_is_whole(study, tmp_path):
     assert_well_shown(write_study_report(study, tmp_path / "study.html"), figures=1)
