@@ -75,5 +75,5 @@ def _boxed(x: Any) -> Any:
 def taught() -> None:
     """Once, when the package is imported."""
     sm.Expr.__array_ufunc__, sm.Expr.dot, sm.Expr.__float__ = _universal, property(_no_rate), _number
-    sm.Derivative.__new__ = _partial
+    sm.Derivative.__new__ = staticmethod(_partial)
     Relational.__bool__ = undecided

@@ -12,8 +12,11 @@ from symid.model import Model
 
 DRAWS, STEPS = 64, 30
 """Random first values for the first sample, and Gauss-Newton steps from each."""
-TOGETHER, FOLLOWING = 4, 6
-"""Samples that begin from the last one before them, and steps from there: at ten samples to a period, half of it."""
+TOGETHER, PARTS, FOLLOWING = 4, 1000, 6
+"""Samples that begin from the last one before them, half a period at ten samples to it, or so many that there are a
+thousand parts of a long recording; and steps from there at most."""
+SOLVED = 1e-12
+"""Error of the outputs, as a share of their variation, with which the steps end."""
 AGREED = 0.3
 """Error of the outputs, as a share of their variation, up to which the states count as seen."""
 
@@ -47,7 +50,7 @@ def seen_together(
             here[:, places] = x
             given = (here, np.empty(0), np.empty((len(at), 0)), constants)
             error = kernel.residual(*given)[:, rows] - targets[at]
-            if last == steps or not np.isfinite(error).all():
+            if last == steps or not np.isfinite(error).all() or np.all(np.abs(error) <= SOLVED * spread):
                 break
             dense = np.zeros((len(at), kernel.m, kernel.n_local))
             dense[:, kernel.jacobian_rows, kernel.jacobian_cols] = kernel.jacobian(*given)
@@ -78,8 +81,9 @@ def _followed(stepped, targets: np.ndarray, spread: np.ndarray, angles: list[boo
         return None
     x = min(good, key=lambda end: float(np.sum((end / size) ** 2)))
     found, errors = np.empty((len(targets), len(size))), np.empty_like(targets)
-    for first in range(0, len(targets), TOGETHER):
-        at = np.arange(first, min(first + TOGETHER, len(targets)))
+    together = max(TOGETHER, len(targets) // PARTS)
+    for first in range(0, len(targets), together):
+        at = np.arange(first, min(first + together, len(targets)))
         found[at], errors[at] = stepped(np.tile(x, (len(at), 1)), at, FOLLOWING)
         x = found[at[-1]]
     agrees = np.isfinite(found).all() and np.all(np.sqrt(np.mean(errors**2, axis=0)) <= AGREED * spread)
