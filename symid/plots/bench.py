@@ -29,7 +29,7 @@ def plot_growth(found: Mapping[str, Sequence[Mapping]]) -> Picture:
         axis.loglog(size, total, "o-", color=MODEL, ms=5, label="build and solve")
         axis.loglog(size, [r["iteration"] for r in runs], "s:", color=INK, ms=3.5, lw=1, label="one iteration")
         slope = np.polyfit(np.log(size), np.log(total), 1)[0]
-        axis.set_title(f"time ~ {by}$^{{{slope:.2f}}}$", fontsize=9)
+        axis.set_title(f"time ~ {by}^{slope:.2f}", fontsize=9)
         axis.set_xticks(size, [str(s) for s in size], rotation=45 if by == "nodes" else 0, fontsize=8)
         axis.minorticks_off()
         axis.set_xlabel(by)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import io
+import re
 
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from PIL import Image
 
 from symid.units import time_unit
@@ -16,8 +18,17 @@ SWINGS = 8.0
 """Of a stretch in which the single swings of a motion can be told apart."""
 
 
+_POWER = re.compile(r"\$\\mathdefault\{[-+−0-9.^{}]*\}\$")
+"""What matplotlib writes at the ticks of a logarithmic axis."""
+
+
 class Picture(Figure):
-    """A figure without pyplot, which a notebook shows as PNG."""
+    """A figure without pyplot, which a notebook shows as PNG; dollars in names are dollars, no formulas."""
+
+    def draw(self, renderer) -> None:
+        for text in self.findobj(Text):
+            text.set_parse_math(bool(_POWER.fullmatch(text.get_text())) or not text.get_text())
+        super().draw(renderer)
 
     def png(self, dpi: float = 130, width: float | None = None) -> bytes:
         """The figure as PNG; drawn `width` [inch] wide instead of its own, its letters as large as before."""

@@ -21,7 +21,8 @@ from symid.errors import ModelError, RecordingError, SolveError
 from symid.files import read_json
 from symid.identification.store import StudyDirectory
 from symid.model.show import latex_lines
-from symid.report import write_report
+from symid.plots import plot_residual_spectra
+from symid.report import report_html, write_report
 from symid.report.page import equations
 
 BREAKS_OUT = (
@@ -263,6 +264,22 @@ def test_texts_of_a_recording_are_escaped_in_a_report(tmp_path):
     write_report(solution, tmp_path / "r.html")
     for text in ((tmp_path / "r.html").read_text(), recording._repr_html_(), solution.problem._repr_html_()):
         assert "<img src=x" not in text and "<script>alert" not in text and "{{7*7}}" in text
+
+
+def test_dollars_in_names_are_no_formulas_in_figures():
+    """matplotlib sets what stands between two as mathematics, and refuses what it does not understand."""
+    evil = r"a $\frac{$ b $x^$"
+    time = np.linspace(0, 1, 60)
+    recording = si.Recording(evil, time, {evil: np.cos(3 * time)}, {evil: "rad"})
+    model = si.Model(evil)
+    model.angle, model.rate = si.State(unit="rad"), si.State(unit="rad/s")
+    model.stiffness = si.Parameter(unit="1/s^2", bounds=(0, 20), meaning=evil)
+    model.law = si.Equation({0: model.angle.dot - model.rate, 1: model.rate.dot + model.stiffness * model.angle})
+    model.seen = si.Output(model.angle, channel=evil)
+    solution = si.Identification(model, recording).solve(2, max_iterations=5, check=False)
+    assert "</html>" in report_html(solution)
+    spectra = plot_residual_spectra(solution)
+    assert spectra.png() == spectra.png()  # what the first drawing wrote at the ticks is a formula in the second
 
 
 @pytest.mark.parametrize("name", ["ｘ", "ſ", "µ", "ﬁ"])
