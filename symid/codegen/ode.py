@@ -25,6 +25,8 @@ TABLE = Path(__file__).with_name("ode.h").read_text()
 """The C declaration of what a model exports and the integrating loop reads."""
 ARGUMENTS = ("xd", "x", "l", "u", "w", "p", "c")
 """Arrays of every function, before the time t: rates, states, late signals, inputs, noises, parameters, constants."""
+BETWEEN = "linear", "zero", "cubic"
+"""What an input does between its samples, numbered as loop.c knows it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +40,7 @@ class OdeSource:
     functions : name -> array that the function fills -> expressions of its elements.
     entries : ``<function>_<group>`` -> rows and columns of the structural nonzeros of those derivatives.
     late_kind, late_index : of each late signal, 0 for a state and 1 for an input, and which.
-    input_held : of each input, 1 where it is constant between samples, 0 where linear.
+    input_between : of each input, what it does between its samples, by the place in `BETWEEN`.
     outputs_need_rates : whether an output holds rates or late signals.
     written : symbol -> how the functions name it, ``x[0]``.
     """
@@ -54,7 +56,7 @@ class OdeSource:
     entries: dict[str, tuple[list[int], list[int]]]
     late_kind: list[int]
     late_index: list[int]
-    input_held: list[int]
+    input_between: list[int]
     outputs_need_rates: bool
     written: dict[sm.Symbol, str]
 
@@ -69,14 +71,14 @@ class OdeSource:
             *map(str, (*sizes, int(self.outputs_need_rates))),
             "late_kind",
             "late_index",
-            "input_held",
+            "input_between",
             *self.functions,
             *(f"{{{k}_count, {k}_row, {k}_col}}" for k in self.entries),
         ]
         lists = [
             _ints("late_kind", self.late_kind),
             _ints("late_index", self.late_index),
-            _ints("input_held", self.input_held),
+            _ints("input_between", self.input_between),
         ]
         for tag, (rows, columns) in self.entries.items():
             lists += [f"enum {{{tag}_count = {len(rows)}}};", _ints(f"{tag}_row", rows), _ints(f"{tag}_col", columns)]
@@ -164,7 +166,7 @@ def ode_source(model: Model) -> OdeSource:
         entries,
         [0 if o in states else 1 for o in of],
         [states.index(o) if o in states else inputs.index(o) for o in of],
-        [int(u.hold == "zero") for u in model.inputs.values()],
+        [BETWEEN.index("linear" if u.hold == "smooth" else u.hold) for u in model.inputs.values()],
         bool(observed.free_symbols & {*rates, *late}),
         written,
     )

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symid.codegen.ode import OdeSource
+from symid.codegen.ode import BETWEEN, OdeSource
+from symid.simulation.between import bend, slopes
 from symid.simulation.run import Run
 
 
@@ -38,8 +39,10 @@ class Past:
 
     def __init__(self, run: Run, source: OdeSource, lag: np.ndarray, dlag: np.ndarray):
         self.run, self.source, self.lag, self.dlag = run, source, lag, dlag
-        self.held = np.zeros(run.u.shape[1], dtype=bool)
-        self.held[: len(source.input_held)] = source.input_held
+        between = np.zeros(run.u.shape[1], dtype=int)
+        between[: len(source.input_between)] = source.input_between
+        self.held, self.cubic = (between == BETWEEN.index(k) for k in ("zero", "cubic"))
+        self.slopes = slopes(run.t, run.u)
         self.steps: list[Step] = []
         self.begins: list[float] = []
         n, zero = len(run.x0), np.zeros((len(run.x0), run.nq))
@@ -65,7 +68,7 @@ class Past:
             self.start = step.begin + step.span
 
     def inputs_at(self, time: float, k: int) -> tuple[np.ndarray, np.ndarray]:
-        """(inputs,) and slopes: linear between samples or held, constant beyond the ends.
+        """(inputs,) and slopes: linear or cubic between samples or held, constant beyond the ends.
 
         k is the present interval: at its end a held input still has the value of its start.
         """
@@ -79,6 +82,10 @@ class Past:
         f = (time - t[k]) / h
         slope = (u[k + 1] - u[k]) / h if 0 <= f <= 1 else np.zeros_like(u[k])
         value = u[k] + min(max(f, 0.0), 1.0) * (u[k + 1] - u[k])
+        if self.cubic.any() and 0 <= f <= 1:
+            line = (u[k + 1] - u[k]) / h
+            more, steeper = bend(f, h, self.slopes[k] - line, self.slopes[k + 1] - line)
+            value, slope = value + self.cubic * more, slope + self.cubic * steeper
         if self.held.any():
             at_end = present == k - 1 and time - t[k] < 1e-9 * h
             held = present if at_end else len(t) - 1 if present > k and f >= 1 else k

@@ -9,10 +9,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from symid.codegen.ode import ode_source
+from symid.codegen.ode import BETWEEN, ode_source
 from symid.deadline import check
 from symid.errors import SymidError
 from symid.model import Model
+from symid.simulation.between import bend, slopes
 from symid.threads import one_blas_thread
 
 MOST = 100_000
@@ -51,13 +52,17 @@ def simulate_stiff(
     constants = np.array([c.value for c in model.constants.values()], dtype=float)
     u = np.column_stack([np.zeros(len(time)), *(inputs[k] for k in source.inputs)])[:, 1:]
     w = np.column_stack([np.zeros(len(time)), *(noise[k] for k in source.noises)])[:, 1:]
-    held, calls, late = np.array(source.input_held, dtype=bool), 0, np.zeros(0)
+    held, calls, late = np.array(source.input_between) == BETWEEN.index("zero"), 0, np.zeros(0)
+
+    cubic, slope = np.array(source.input_between) == BETWEEN.index("cubic"), slopes(time, u)
 
     def given(t: float, k: int) -> np.ndarray:
         """Inputs at t, of which those that are held are those of sample k."""
         j = min(max(int(np.searchsorted(time, t, side="right")) - 1, 0), len(time) - 2)
-        part = (t - time[j]) / (time[j + 1] - time[j])
-        return np.where(held, u[k], (1 - part) * u[j] + part * u[j + 1])
+        h = time[j + 1] - time[j]
+        part, line = (t - time[j]) / h, (u[j + 1] - u[j]) / h
+        more, _ = bend(part, h, slope[j] - line, slope[j + 1] - line)
+        return np.where(held, u[k], u[j] + (t - time[j]) * line + cubic * more)
 
     def rates(t: float, x: np.ndarray, k: int) -> np.ndarray:
         nonlocal calls

@@ -2,6 +2,7 @@
 
 Each function takes a whole number and gives one `Exam`, the same on every call. Half of the recordings are spoilt the
 way laboratories spoil them: low-pass filtered without phase shift, with noise that remembers, coarse encoders, short.
+Machines of other kinds are in `machines`.
 """
 
 import tempfile
@@ -10,6 +11,7 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from machines import MACHINES, MISSING, Made
 from scipy.signal import butter, filtfilt, lfilter
 
 import symid as si
@@ -27,6 +29,9 @@ from symid.simulation import simulator
 SPOILT = ("plain", "filtered", "plain", "coloured", "plain", "coarse", "plain", "short")
 CUTOFF_HZ, MEMORY_S = 6.0, 0.05
 """Of the filter; time constant of noise that remembers."""
+MACHINES_SPOILT = ("plain", "filtered", "coloured", "coarse")
+NOISE_LEVELS = (-3.0, -2.0)
+"""Powers of ten of the motion that its sensors add as noise."""
 COLOURED, COARSE = 1.5, 4.0
 """Size of that noise, and step of a coarse encoder, in standard deviations of the sensor."""
 SHORT_S = 25.0
@@ -111,16 +116,9 @@ def _spoilt(drawn: Concealed, how: str, seed: int, **facts) -> Exam:
         case = si.read_case(write_case(drawn, Path(folder), "exam"))
     rng, rec, sigma = np.random.default_rng((9, seed)), case.recording, drawn.setup.sensor_noise
     channels = {y.channel: rec[y.channel] for y in case.model.outputs.values()}
-    if how == "filtered":
-        taps = butter(2, CUTOFF_HZ / (0.5 * drawn.setup.rate))
-        channels = {k: filtfilt(*taps, y) for k, y in channels.items()}
-    elif how == "coloured":
-        a = np.exp(-1 / (drawn.setup.rate * MEMORY_S))
-        channels = {k: y + COLOURED * sigma * _remembering(a, rng, len(y)) for k, y in channels.items()}
-    elif how == "coarse":
-        step = COARSE * sigma
-        channels = {k: step * np.round(y / step) for k, y in channels.items()}
-    elif how == "short":
+    rate = drawn.setup.rate
+    channels = {k: _measured(y, how, rng, rate, sigma, MEMORY_S, (2, CUTOFF_HZ)) for k, y in channels.items()}
+    if how == "short":
         t0 = case.held_out_window[0]
         case = replace(case, fit_window=(max(0.0, t0 - SHORT_S), t0))
     if how not in ("plain", "short"):  # what was stated of the sensor does not hold any more
@@ -129,9 +127,42 @@ def _spoilt(drawn: Concealed, how: str, seed: int, **facts) -> Exam:
     return Exam(case, truth, {"system": drawn.setup.system, "spoilt": how} | facts)
 
 
+def _measured(y, how, rng, rate, sigma, memory, filtered) -> np.ndarray:
+    """What is left of a channel; memory in s, filtered with an order and a cutoff [Hz]."""
+    if how == "filtered":
+        return filtfilt(*butter(filtered[0], filtered[1] / (0.5 * rate)), y)
+    if how == "coloured":
+        return y + COLOURED * sigma * _remembering(np.exp(-1 / (rate * memory)), rng, len(y))
+    if how == "coarse":
+        return COARSE * sigma * np.round(y / (COARSE * sigma))
+    return y
+
+
 def _remembering(a: float, rng: np.random.Generator, count: int) -> np.ndarray:
     """An autoregression of order one and unit variance."""
     return lfilter([np.sqrt(1 - a**2)], [1, -a], rng.standard_normal(count + 500))[500:]
+
+
+# ---- other machines -------------------------------------------------------------------------------------
+def machine(seed: int) -> Exam:
+    """One of `MACHINES`, by turns with nothing missing and with one of `MISSING`, spoilt in one of four ways."""
+    rng = np.random.default_rng((9006, seed))
+    of, how = MACHINES[seed % len(MACHINES)], MACHINES_SPOILT[seed // 5 % 4]
+    name = MISSING[int(rng.integers(len(MISSING)))] if seed // 20 % 2 else None
+    made: Made = of(rng, name)
+    rate, level = 1 / (made.time[1] - made.time[0]), 10 ** rng.uniform(*NOISE_LEVELS)
+    filtered = (int(rng.choice((1, 2, 4))), rng.uniform(5, 9) * made.pace_Hz)
+    channels = dict(made.inputs)
+    for k, y in made.outputs.items():
+        sigma = level * y.std()
+        noisy = y + sigma * rng.standard_normal(len(y))
+        channels[k] = _measured(noisy, how, rng, rate, sigma, 5 / rate, filtered)
+    until = made.time[-1]
+    windows, made_by = ((0.0, 0.65 * until), (0.65 * until, until)), of.__name__
+    case = Case(
+        made_by, made.model, si.Recording(made_by, made.time, channels, made.units), *windows, None, None, False, 0
+    )
+    return Exam(case, made.truth, {"system": made_by, "spoilt": how})
 
 
 # ---- persons like that of the article ------------------------------------------------------------------
@@ -193,4 +224,4 @@ def _gains(delay: float) -> dict[str, float]:
     }
 
 
-DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, person)}
+DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, machine, person)}
