@@ -99,6 +99,11 @@ class _Point:
     value: float
 
 
+def seen(change: np.ndarray, left: np.ndarray) -> bool:
+    """Whether the likelihood sees a systematic `change` (N, m) of a motion whose fit left these errors (N, m)."""
+    return bool(np.any(np.sum(change**2, axis=0) > SEEN * np.mean(left**2, axis=0)))
+
+
 class Fitter:
     """Fits of one model to one set of data.
 
@@ -263,9 +268,8 @@ class Fitter:
         self.substeps //= 2
         if coarse is None or fine is None:
             return False
-        change = np.vstack([a.y - b.y for a, b in zip(coarse, fine, strict=True)])
         left = np.vstack(self.innovations(coarse, at.process))
-        return bool(np.any(np.sum(change**2, axis=0) > SEEN * np.mean(left**2, axis=0)))
+        return seen(np.vstack([a.y - b.y for a, b in zip(coarse, fine, strict=True)]), left)
 
     def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
         """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).

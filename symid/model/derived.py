@@ -61,6 +61,10 @@ class Derived:
         """A new model with other bounds on states, controls or parameters [in their own units]."""
         return variants.with_bounds(self._model, bounds)
 
+    def with_holds(self, **holds: str) -> Model:
+        """A new model whose inputs do something else between their samples, by name: see `Input`."""
+        return variants.with_holds(self._model, holds)
+
     def fixed(self, **values: float) -> Model:
         """A new model in which these parameters are known constants.
 

@@ -40,6 +40,11 @@ def with_bounds(model: Model, bounds: Mapping[str, Bounds]) -> Model:
     return _with(model, {k: replace(part_of(model, k, bounded), bounds=b) for k, b in bounds.items()})
 
 
+def with_holds(model: Model, holds: Mapping[str, str]) -> Model:
+    """With inputs that do something else between their samples."""
+    return _with(model, {k: replace(part_of(model, k, Input), hold=hold) for k, hold in holds.items()})
+
+
 def fixed(model: Model, values: Mapping[str, float]) -> Model:
     """With these parameters as known constants."""
     parts = {k: (part_of(model, k, Parameter), v) for k, v in values.items()}

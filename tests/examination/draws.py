@@ -160,7 +160,7 @@ def machine(seed: int) -> Exam:
     until = made.time[-1]
     windows, made_by = ((0.0, 0.65 * until), (0.65 * until, until)), of.__name__
     case = Case(
-        made_by, made.model, si.Recording(made_by, made.time, channels, made.units), *windows, None, None, False, 0
+        made_by, made.model, si.Recording(made_by, made.time, channels, made.units), *windows, None, None, True, 0.0
     )
     return Exam(case, made.truth, {"system": made_by, "spoilt": how})
 

@@ -81,13 +81,16 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
     """The model as given under another error model, from its own values or from those that go with what was found."""
     fitter = Fitter(base.model, data)
     kept = [explained.simulator.states.index(s) for s in fitter.sim.states]
+    begins = explained.initial[:, kept]
     near = replace(
         base,
         values={k: explained.values[k] for k in base.values},
-        initial=explained.initial[:, kept],
+        initial=begins,
         process=explained.process,
         kalman_gain=None,
     )
+    if len(base.initial) != len(begins):  # another cutoff cuts free motion into other pieces
+        base = replace(base, initial=begins)
     fits = [fitter.again(base)]
     try:
         fits.append(fitter.again(near))

@@ -324,6 +324,12 @@ def _rest(s: Story) -> list[str]:
 
 def _caveats(s: Story) -> list[str]:
     out = []
+    curved = [u.channel for u in s.model.inputs.values() if u.hold == "cubic"]
+    if curved:
+        out.append(
+            f"Between its samples {_listed(curved)} is taken to follow a smooth curve; straight lines would lose "
+            "some of it."
+        )
     if s.pieces:
         out.append(
             "In this motion small differences soon become large ones: it is compared in pieces of about "
