@@ -57,7 +57,7 @@ def judged(r: dict) -> str:
         return "missed" if r["verdict"] == "adequate" else "unexplained"
     if named < hidden:
         return "some of them"
-    if named <= hidden | alike and hidden & (named | alike):
+    if len(named) == len(hidden) and hidden <= named | alike or named <= hidden | alike and hidden & (named | alike):
         return "told as alike"
     return ("wrong, confirmed" if r["confirmed"] else "wrong, not confirmed") if sure else "wrong, unexplained"
 

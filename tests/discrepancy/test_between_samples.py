@@ -1,0 +1,41 @@
+"""What an input does between its samples is told by the likelihood where nobody stated it."""
+
+import numpy as np
+import pytest
+
+import symid as si
+from symid.discrepancy.locate.between_samples import with_likeliest_curves
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, segments_of
+from symid.simulation import simulator
+
+RATE_HZ, NOISE_M = 30.0, 3e-5
+
+
+def slide(hold: str) -> si.Model:
+    m = si.Model("slide")
+    m.x, m.v, m.push = si.State(unit="m"), si.State(unit="m/s"), si.Input(unit="N", hold=hold)
+    m.k, m.d = si.Parameter(unit="N/m", bounds=(0, 1e3)), si.Parameter(unit="N*s/m", bounds=(0, 10))
+    m.kinematics = si.Equation(m.x.dot - m.v)
+    m.balance = si.Equation(m.v.dot + m.d * m.v + m.k * m.x - m.push)
+    m.seen = si.Output(m.x, channel="seen")
+    return m
+
+
+@pytest.mark.parametrize("truth", ["linear", "cubic"])
+@pytest.mark.parametrize("stated", ["smooth", "linear", "cubic"])
+def test_the_curve_of_an_input_is_told_where_it_is_not_stated(truth, stated):
+    time = np.arange(0, 60, 1 / RATE_HZ)
+    push = np.sin(2 * np.pi * 1.1 * time) + np.sin(2 * np.pi * 0.73 * time + 1)
+    values = {"k": (2 * np.pi) ** 2, "d": 0.6}
+    run = simulator(slide(truth)).simulate(values, [0.0, 0.0], time, {"push": push}, substeps=8)
+    noise = NOISE_M * np.random.default_rng(5).standard_normal(len(time))
+    recording = si.Recording("slide", time, {"push": push, "seen": run.y[:, 0] + noise}, {"push": "N", "seen": "m"})
+    model = slide(stated)
+    data = Data(segments_of(model, recording, (0.0, 60.0), None), np.array([NOISE_M]), driven=False)
+    fit = fit_model(model, data, values)
+    chosen = with_likeliest_curves(fit, data)
+    told = "smooth" if truth == "linear" else "cubic"  # what is not stated is followed along straight lines
+    assert chosen.model.inputs["push"].hold == (told if stated == "smooth" else stated)
+    if chosen.model.inputs["push"].hold == told:
+        assert all(abs(chosen.values[k] - v) < 4 * chosen.errors[k] for k, v in values.items())
