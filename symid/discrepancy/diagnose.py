@@ -7,7 +7,6 @@ from dataclasses import replace
 from functools import cache
 
 from symid.discrepancy.locate.audit import audit
-from symid.discrepancy.locate.between_samples import with_likeliest_curves
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.locate.given import fitted_as_given
 from symid.discrepancy.model.dry import with_friction_speeds
@@ -123,7 +122,6 @@ def diagnose(
 
     task, plain, possible = fitted_as_given(task, plain, fits)
     piece_seconds = task.segment_length if task.segment_length != segment_length else None
-    possible = [(data, with_likeliest_curves(fit, data)) for data, fit in possible]
     possible = [(data, with_likeliest_jumps(given, fit, data)) for data, fit in possible]
     data, fit = possible[0]
     pool = list(suspects_of(task.model, sizes_of(fit, data))) if named is None else named

@@ -8,6 +8,7 @@ from math import log
 
 import numpy as np
 
+from symid.estimation.between_samples import with_likeliest_curves
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import FEWEST, Data, Segment, segments_of
 from symid.estimation.fit import Fit, Fitter
@@ -62,18 +63,18 @@ def fits_of(
     DiagnosisError : the model cannot be fitted.
     """
     if filter is None:
-        return [(plain, fit_model(model, plain, dict(start)))]
+        return [(plain, _fitted(model, plain, start))]
     plain = replace(plain, ratios_free=not np.any(stated))
     if known:
         data = _undone(model, recording, part, length, plain, filter, inputs=False, known=True)
-        return [(data, fit_model(model, data, dict(start)))]
+        return [(data, _fitted(model, data, start))]
     data, fit = settled(model, recording, part, length, plain, filter, start, stated)
     found = [(data, fit)]
     if inputs:
         # The log-likelihoods of the two compare where both hold the same frequencies.
         ratio = data.segments[0].ratio
         both = _undone(model, recording, part, length, plain, filter, inputs=True, ratio=ratio)
-        found.append((both, fit_model(model, both, fit.values)))
+        found.append((both, _fitted(fit.model, both, fit.values)))
     return found
 
 
@@ -97,11 +98,15 @@ def settled(
         noise = np.where(stated, plain.sensor_noise, _noise(plain, filter))
         own = replace(plain, sensor_noise=noise, ratios_free=not np.any(stated))
         data = _undone(model, recording, part, length, own, filter, inputs=False)
-        fit = fit_model(model, data, dict(start))
+        fit = _fitted(model, data, start)
         if has_settled(fit, data) or not rounds_left:
             break
-        filter, start = sharpened_filter(fit, data), fit.values
+        filter, start, model = sharpened_filter(fit, data), fit.values, fit.model
     return data, fit
+
+
+def _fitted(model: Model, data: Data, start: Mapping[str, float]) -> Fit:
+    return with_likeliest_curves(fit_model(model, data, dict(start)), data)
 
 
 def sharpened_filter(fit: Fit, data: Data) -> ZeroPhase:

@@ -48,11 +48,13 @@ class ZeroPhase:
         return 1 / (1 + self.excess(frequency))
 
     def ratio(self, step: float) -> int:
-        """One sample in so many holds all frequencies that can be undone."""
+        """One sample in so many holds all frequencies that can be undone, or those that are not too near to a zero.
+
+        At half the rate that the filter saw it leaves nothing, whatever its cutoff.
+        """
         frequency = np.linspace(0, 0.5 / step, 2000)
-        band = frequency[np.argmax(self.gain(frequency) < SMALLEST_GAIN)] or frequency[-1]
-        most = 0.5 / step / band
-        return max(1 if (1 - ROLL_OFF) * most <= 1 else 2, round(most))
+        lost = self.gain(frequency) < SMALLEST_GAIN
+        return max(2, round(0.5 / step / frequency[np.argmax(lost)])) if lost.any() else 1
 
     def undone(self, x: np.ndarray, step: float, ratio: int) -> tuple[np.ndarray, np.ndarray]:
         """A channel (N,), the filter undone as far as one sample in `ratio` holds it, and what undoing added."""
@@ -97,4 +99,5 @@ def _kept(x: np.ndarray, ratio: int) -> np.ndarray:
     """
     if ratio == 1:
         return np.ones(len(x))
-    return np.where(x < 1 + ROLL_OFF, np.cos(0.25 * np.pi * np.clip((x - 1) / ROLL_OFF + 1, 0, 2)), 0.0)
+    faded = np.clip((x - 1) / ROLL_OFF + 1, 0, 2)
+    return np.where(faded < 2, np.cos(0.25 * np.pi * faded), 0.0)  # zero itself: what was lost is divided by 1e-20

@@ -151,7 +151,7 @@ def machine(seed: int) -> Exam:
     name = MISSING[int(rng.integers(len(MISSING)))] if seed // 20 % 2 else None
     made: Made = of(rng, name)
     rate, level = 1 / (made.time[1] - made.time[0]), 10 ** rng.uniform(*NOISE_LEVELS)
-    filtered = (int(rng.choice((1, 2, 4))), rng.uniform(5, 9) * made.pace_Hz)
+    filtered = (int(rng.choice((2, 4))), rng.uniform(5, 9) * made.pace_Hz)
     channels = dict(made.inputs)
     for k, y in made.outputs.items():
         sigma = level * y.std()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import symid as si
-from symid.discrepancy.locate.between_samples import with_likeliest_curves
+from symid.estimation.between_samples import with_likeliest_curves
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data, segments_of
 from symid.simulation import simulator
