@@ -170,7 +170,7 @@ def person(seed: int) -> Exam:
     """Gains, platform and sway as of the article's recording, feedback late by one of `DELAYS_S`, filtered."""
     rng = np.random.default_rng((9005, seed))
     delay, cutoff = DELAYS_S[seed % len(DELAYS_S)], CUTOFFS_HZ[seed // len(DELAYS_S) % len(CUTOFFS_HZ)]
-    rate = RATES_HZ[seed // len(DELAYS_S) % len(RATES_HZ)]
+    rate = RATES_HZ[seed // len(DELAYS_S) // len(CUTOFFS_HZ) % len(RATES_HZ)]
     recording, _, model = _article()
     term = LIBRARY["feedback_delay"].at("global")
     truth = model.with_term(term) if delay else model

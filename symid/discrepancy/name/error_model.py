@@ -40,6 +40,9 @@ def with_error_model(
         progress(f"the noise remembers {data.memory} samples; looking again")
         search = searched(base, data)
     found, ranking = search.run()
+    if _holds(found.fit, search.base) != _holds(search.base, search.base):
+        progress("with what was found inputs are smooth between their samples; looking again")
+        search, found, ranking = _again(search, found, search.data, found.fit, searched)
     if not has_settled(found.fit, search.data):
         progress("with what was found the cutoff of the filter moves; looking again")
         search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched)
@@ -69,6 +72,11 @@ def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:
     return fit.loglik2 - white.loglik2 - coefficients * log(data.samples)
 
 
+def _holds(fit: Fit, base: Fit) -> dict[str, str]:
+    """What the inputs of `base` do between their samples in the model of another fit."""
+    return {k: fit.model.inputs[k].hold for k in base.model.inputs}
+
+
 def _likeliest(searches: list[Search]) -> Search:
     """The one whose data the model fits best, with whatever single suspect it lacks."""
     if len(searches) == 1:
@@ -78,7 +86,11 @@ def _likeliest(searches: list[Search]) -> Search:
 
 
 def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
-    """The model as given under another error model, from its own values or from those that go with what was found."""
+    """The model as given under another error model, from its own values or from those that go with what was found.
+
+    Its inputs do between their samples what they do there.
+    """
+    base = replace(base, model=base.model.with_holds(**_holds(explained, base)))
     fitter = Fitter(base.model, data)
     kept = [explained.simulator.states.index(s) for s in fitter.sim.states]
     begins = explained.initial[:, kept]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, log
 
@@ -16,6 +16,7 @@ from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.jump import with_fitted_jumps
 from symid.discrepancy.policy import POLICY
+from symid.estimation.between_samples import with_likeliest_curves
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
 
@@ -63,7 +64,11 @@ class Search:
         return self._added(Hypothesis((), self.base, self.base, self.data))
 
     def run(self) -> tuple[Hypothesis, list[Hypothesis]]:
-        """The best hypothesis, and each suspect alone, best first."""
+        """The best hypothesis, and each suspect alone, best first.
+
+        It ends early where with what was found the inputs are likelier to follow curves between their samples, as they
+        then do in the model of its fit: all else hangs on that.
+        """
         best, single = Hypothesis((), self.base, self.base, self.data), self.single
         while len(best.suspects) < POLICY.most_effects:
             more = self._preferred(best, self._added(best) if best.suspects else single)
@@ -78,6 +83,9 @@ class Search:
                 if not self._worth(more, best):
                     break
             best = polished(more)
+            curved = with_likeliest_curves(best.fit, self.data)
+            if curved is not best.fit:
+                return replace(best, fit=curved), single
             if best.base is not self.base:  # its dry friction is less abrupt, and so is what is tried next
                 self.base = self.projection.fit = best.base
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
