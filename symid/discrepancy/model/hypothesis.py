@@ -106,10 +106,13 @@ def _odds(suspect: Suspect) -> float:
 
 
 def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, share: float = 1.0) -> float:
-    """Cost of suspects: log N for each parameter, twice for one that was scanned for and for each new initial value."""
+    """Cost of suspects: log N for each parameter (Schwarz 1978), twice for one that was scanned for.
+
+    A new initial value costs 2 (Akaike 1974): the samples long after it tell nothing of it.
+    """
     states = after.initial.size - before.initial.size
-    count = states + sum(s.size + (s.scanned is not None) for s in suspects)
-    return log(max(share * data.samples, 2.0)) * count
+    count = sum(s.size + (s.scanned is not None) for s in suspects)
+    return log(max(share * data.samples, 2.0)) * count + 2.0 * states
 
 
 def _surprise(suspect: Suspect, fit: Fit) -> float:

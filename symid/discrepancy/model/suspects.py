@@ -147,8 +147,10 @@ class Suspect:
 FAMILIES = (
     {"viscous_friction", "coulomb_friction", "joint_drag", "quadratic_drag", "link_drag"},
     {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "constant_torque"},
+    {"feedback_delay", "muscle_lag", "second_order_muscle_lag"},
+    {"joint_feedback_delay", "joint_muscle_lag"},
 )
-"""Laws that take up what one another do: each is at one amplitude nearly another."""
+"""Laws that take up what one another do: each is at one amplitude, or while it is small, nearly another."""
 
 
 def is_alike(suspect: Suspect, other: Suspect) -> bool:

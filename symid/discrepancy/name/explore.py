@@ -10,7 +10,7 @@ import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.hypothesis import Hypothesis, extended, padded
-from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.scan import scan
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
@@ -56,13 +56,15 @@ def explore(
     )
     with ThreadPoolExecutor(threads) as pool:
         starts = [s for s in pool.map(lambda s: _starts(fit, data, projection, s), suspects) if s]
-        starts.sort(key=lambda s: -_reach(s))
-        chosen = [s for i, s in enumerate(starts) if _reach(s) > POLICY.worth_refitting or i < POLICY.always_refitted]
-        chosen = [s for s in chosen[:refitted] if least <= 0 or _reach(s) > KEPT * least]
+        reach = _reaches(starts)
+        starts.sort(key=lambda s: -reach[s[0].suspect])
+        promising = [s for s in starts if reach[s[0].suspect] > POLICY.worth_refitting]
+        chosen = (promising if len(promising) > POLICY.always_refitted else starts[: POLICY.always_refitted])[:refitted]
+        chosen = [s for s in chosen if least <= 0 or reach[s[0].suspect] > KEPT * least]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
         first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen[: POLICY.always_refitted]) if c is not None]
         best = max((c.log_ratio for c in first), default=0.0)
-        worth = [s for s in chosen[POLICY.always_refitted :] if _reach(s) > POLICY.beam_share * best]
+        worth = [s for s in chosen[POLICY.always_refitted :] if reach[s[0].suspect] > POLICY.beam_share * best]
         first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
         first.sort(key=lambda c: -c.log_ratio)
         others = {s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast][:2] for s in chosen}
@@ -75,9 +77,24 @@ def explore(
     return by_score(found + [c for c in rest if c not in close])
 
 
-def _reach(starts: list[Start]) -> float:
-    """What the best of these starts may come to explain."""
-    return max(s.forecast for s in starts) * (BEYOND if starts[0].suspect.bypasses else 1.0)
+def _reaches(starts: Sequence[list[Start]]) -> dict[Suspect, float]:
+    """What each suspect may come to explain from the best of its starts.
+
+    A law that cannot be simulated where it is switched off, as a lag, is while it is small what others of its family
+    are: it may explain as much as they.
+    """
+    own = {s[0].suspect: max(t.forecast for t in s) * (BEYOND if s[0].suspect.bypasses else 1.0) for s in starts}
+    return {
+        s[0].suspect: max(
+            [own[s[0].suspect], *(v for o, v in own.items() if _begins_finite(s) and is_alike(o, s[0].suspect))]
+        )
+        for s in starts
+    }
+
+
+def _begins_finite(starts: list[Start]) -> bool:
+    q = starts[0].suspect.strength
+    return q is not None and all(s.values[q.key] != q.null for s in starts)
 
 
 def by_score(found: Sequence[Hypothesis]) -> list[Hypothesis]:
