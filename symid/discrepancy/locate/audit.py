@@ -15,6 +15,8 @@ from symid.estimation.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
 
+DIFFERENCES = 2, 4
+"""Orders of the differences of which spectra are taken."""
 FALLING = 4.0
 """A spectrum that still falls by this factor in the upper half of its band shows no floor of sensor noise."""
 FLAT = 1.12
@@ -138,11 +140,15 @@ def _cutoff(pieces: list[np.ndarray], step: float, pace: float) -> float:
 def _spectrum(x: np.ndarray, step: float, pace: float) -> tuple[np.ndarray, np.ndarray]:
     """Frequencies [Hz] above zero and the power of each, without what slow motion leaks into the fast.
 
-    The second differences, which are nearly white, are looked at through a window and their gain is taken out again
-    (prewhitening; Blackman & Tukey 1958).
+    Differences, which are nearer to white, are looked at through a window and their gain is taken out again
+    (prewhitening; Blackman & Tukey 1958). Those of fourth order leave least of a large slow motion, those of second
+    order least of noise in the slow: of what leaks neither way the lesser is nearer to the truth.
     """
-    n = min(len(x) - 2, max(128, int(5 * pace / step)))
-    f, power = welch(np.diff(x, 2), 1 / step, window="blackmanharris", nperseg=n, detrend="linear")
-    power[1:] /= (2 * np.sin(np.pi * f[1:] * step)) ** 4
+    n, found = min(len(x) - max(DIFFERENCES), max(128, int(5 * pace / step))), []
+    for order in DIFFERENCES:
+        f, power = welch(np.diff(x, order), 1 / step, window="blackmanharris", nperseg=n, detrend="linear")
+        power[1:] /= (2 * np.sin(np.pi * f[1:] * step)) ** (2 * order)
+        found.append(power)
+    power = np.minimum(*found)
     power[0] = power[1]
     return f, power
