@@ -25,7 +25,7 @@ from symid.discrepancy.task import Part, Task, listed_suspects, check_options, t
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
 from symid.estimation.measurement import fits_of, settled, sharpened_filter
-from symid.estimation.pieces import free_pieces
+from symid.estimation.pieces import free_pieces, joined
 from symid.estimation.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.model import Model
@@ -98,6 +98,7 @@ def diagnose(
         driven=driven,
     )
     pieces = segments_of(task.model, task.recording, task.fit_window, task.segment_length)
+    whole = pieces if task.moved else joined(pieces)
     pieces = pieces if task.moved else free_pieces(pieces, len(task.model.states))
 
     def searched(base: Fit, data: Data) -> Search:
@@ -107,7 +108,7 @@ def diagnose(
         return Search(base, data, pool, flexible, jumps, threads, progress)
 
     # Locate: what the recording can be trusted for, and what the model as given leaves of it.
-    checked = audit(task.model, task.recording, pieces, sensor_noise, filter)
+    checked = audit(task.model, task.recording, whole, sensor_noise, filter)
     given = task.model
     task = replace(task, model=with_friction_speeds(given, pieces, checked.noise))
     plain = Data(pieces, checked.noise, task.random, checked.rounding).thinned()

@@ -29,7 +29,7 @@ def free_pieces(segments: Sequence[Segment], states: int) -> tuple[Segment, ...]
     ----------
     states : of the model; two are one coordinate, which is never chaotic, so that its motion stays in one piece.
     """
-    whole = _joined(segments)
+    whole = joined(segments)
     if states <= 2:
         return whole
     swings = float(np.median([swing(e) for e in segments]))
@@ -39,7 +39,7 @@ def free_pieces(segments: Sequence[Segment], states: int) -> tuple[Segment, ...]
     return tuple(part for e in whole for part in cut(e, piece_length(whole)))
 
 
-def _joined(segments: Sequence[Segment]) -> tuple[Segment, ...]:
+def joined(segments: Sequence[Segment]) -> tuple[Segment, ...]:
     """Neighbours that follow each other put together."""
     found = [segments[0]]
     for before, after in pairwise(segments):
