@@ -25,6 +25,16 @@ def with_likeliest_curves(fit: Fit, data: Data) -> Fit:
     return fit
 
 
+def holds_of(fit: Fit, base: Fit) -> dict[str, str]:
+    """What the inputs of `base` do between their samples in the model of another fit."""
+    return {k: fit.model.inputs[k].hold for k in base.model.inputs}
+
+
+def with_holds_of(fit: Fit, base: Fit, data: Data) -> Fit:
+    """`base`, with inputs that do between their samples what they do in the model of another fit."""
+    return Fitter(base.model.with_holds(**holds_of(fit, base)), data, near=base).again(base)
+
+
 def _differs(straight: Fitter, curved: Fitter, fit: Fit) -> bool:
     """Whether the likelihood sees the difference."""
     p = np.array([fit.values[k] for k in straight.sim.parameters])

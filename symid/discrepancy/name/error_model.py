@@ -15,6 +15,7 @@ from math import inf, log
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.search import Search
 from symid.errors import SymidError
+from symid.estimation.between_samples import holds_of
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.measurement import has_settled, with_memory
@@ -40,7 +41,7 @@ def with_error_model(
         progress(f"the noise remembers {data.memory} samples; looking again")
         search = searched(base, data)
     found, ranking = search.run()
-    if _holds(found.fit, search.base) != _holds(search.base, search.base):
+    if holds_of(found.fit, search.base) != holds_of(search.base, search.base):
         progress("with what was found inputs are smooth between their samples; looking again")
         search, found, ranking = _again(search, found, search.data, found.fit, searched)
     if not has_settled(found.fit, search.data):
@@ -72,11 +73,6 @@ def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:
     return fit.loglik2 - white.loglik2 - coefficients * log(data.samples)
 
 
-def _holds(fit: Fit, base: Fit) -> dict[str, str]:
-    """What the inputs of `base` do between their samples in the model of another fit."""
-    return {k: fit.model.inputs[k].hold for k in base.model.inputs}
-
-
 def _likeliest(searches: list[Search]) -> Search:
     """The one whose data the model fits best, with whatever single suspect it lacks."""
     if len(searches) == 1:
@@ -90,7 +86,7 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
 
     Its inputs do between their samples what they do there.
     """
-    base = replace(base, model=base.model.with_holds(**_holds(explained, base)))
+    base = replace(base, model=base.model.with_holds(**holds_of(explained, base)))
     fitter = Fitter(base.model, data)
     kept = [explained.simulator.states.index(s) for s in fitter.sim.states]
     begins = explained.initial[:, kept]

@@ -16,7 +16,7 @@ from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.jump import with_fitted_jumps
 from symid.discrepancy.policy import POLICY
-from symid.estimation.between_samples import with_likeliest_curves
+from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
 
@@ -67,7 +67,7 @@ class Search:
         """The best hypothesis, and each suspect alone, best first.
 
         It ends early where with what was found the inputs are likelier to follow curves between their samples, as they
-        then do in the model of its fit: all else hangs on that.
+        then do in the model of its fit, and something is left: all else hangs on that.
         """
         best, single = Hypothesis((), self.base, self.base, self.data), self.single
         while len(best.suspects) < POLICY.most_effects:
@@ -85,7 +85,10 @@ class Search:
             best = polished(more)
             curved = with_likeliest_curves(best.fit, self.data)
             if curved is not best.fit:
-                return replace(best, fit=curved), single
+                best = replace(best, fit=curved)
+                if not self.quiet(best):
+                    return best, single
+                best = replace(best, base=with_holds_of(curved, self.base, self.data))
             if best.base is not self.base:  # its dry friction is less abrupt, and so is what is tried next
                 self.base = self.projection.fit = best.base
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
