@@ -16,7 +16,7 @@ from symid.files import a_file
 from symid.recording.header import faults_of_text, file_rows, is_dated, read_header, require_file
 from symid.recording.names import CELSIUS, Column
 from symid.recording.recording import Recording
-from symid.recording.rows import Table, with_missing, without_repeats
+from symid.recording.rows import LABELS, Table, with_missing, without_repeats
 from symid.recording.spikes import find_dropouts, find_spikes
 from symid.recording.timing import on_grid, time_fault
 from symid.units import FloatArray, IntArray
@@ -219,7 +219,7 @@ def _checked_time(
 def _runs(path: Path, table: Table, rows: IntArray) -> list[slice]:
     """Rows that belong together; refused where a segment's rows are not all in one place."""
     count = table["time"].size
-    labels = [table[name] for name in ("split", "segment") if name in table]
+    labels = [table[name] for name in LABELS if name in table]
     keys = list(zip(*labels, strict=True)) if labels else [()] * count
     edges = [0, *(i for i in range(1, count) if keys[i] != keys[i - 1]), count]
     runs = [slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True)]

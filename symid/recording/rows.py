@@ -10,6 +10,8 @@ from symid.recording.timing import missing_steps
 from symid.units import FloatArray, IntArray
 
 Table = dict[str, np.ndarray]
+LABELS = "split", "segment"
+"""Columns that say to which run a row belongs."""
 MOST_PUT_IN = 1.0
 """Missing rows that are put in, at most, for each row there is: a longer pause parts two recordings."""
 
@@ -44,7 +46,7 @@ def with_missing(table: Table, runs: Sequence[slice]) -> tuple[Table, IntArray, 
         times.append(time if not count else _even(time, steps))
         put_in.append(count)
     place = np.concatenate(places)
-    new = {name: _filled(values, place) for name, values in table.items()}
+    new = {name: _filled(values, place, name in LABELS) for name, values in table.items()}
     return new | {"time": np.concatenate(times)}, place, np.array(put_in)
 
 
@@ -55,8 +57,8 @@ def _even(time: FloatArray, steps: IntArray) -> FloatArray:
     return full
 
 
-def _filled(values: np.ndarray, place: IntArray) -> np.ndarray:
-    """Values of the rows that are there; between them NaN, or for labels what stands above."""
-    if values.dtype.kind == "f":
-        return np.where(place >= 0, values[place], np.nan)
-    return values[np.maximum.accumulate(place)]
+def _filled(values: np.ndarray, place: IntArray, label: bool) -> np.ndarray:
+    """Values of the rows that are there; between them NaN, or for labels, numbers too, what stands above."""
+    if label or values.dtype.kind != "f":
+        return values[np.maximum.accumulate(place)]
+    return np.where(place >= 0, values[place], np.nan)

@@ -45,6 +45,12 @@ def test_gaps_are_filled_where_allowed(tmp_path):
     assert whole.history[-1] == "gaps up to 0.05 s filled by PCHIP: 5 value(s)"
 
 
+def test_rows_that_are_put_in_belong_to_the_segment_around_them(tmp_path):
+    rows = [f"{0.01 * i:.2f},{i % 5},{i // 50}" for i in range(100) if i not in (7, 60, 61)]
+    holed = read_recording(written(tmp_path, csv_text(rows, "time_s,ankle_angle_deg,segment")), allow_gaps=True)
+    assert len(holed) == 100 and np.array_equal(holed.segment, np.repeat([0, 1], 50))
+
+
 @pytest.mark.parametrize("row", ["0.05", "0.05,1", "0.05,1,2,3", "0.05,1,2,3,"])
 @pytest.mark.parametrize("allow_gaps", [False, True])
 def test_a_row_that_is_too_short_or_too_long_is_never_read_shifted(tmp_path, row, allow_gaps):
