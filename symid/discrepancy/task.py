@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from symid import checked
 from symid.errors import DiagnosisError
 from symid.discrepancy.model.suspects import Suspect
+from symid.estimation.missing import without_missing
 from symid.estimation.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.mechanics.places import with_places
@@ -82,7 +83,7 @@ def task_of(subject: Model | Solution, recording: Recording | None, fit_window: 
     model = with_places(model.simulated("diagnose"))
     task = Task(model, recording, fit_window, start={**values, **start}, values=values, **others)
     _check_parts(task)
-    return task
+    return replace(task, recording=without_missing(recording, model, task.moved))
 
 
 def _check_parts(task: Task) -> None:

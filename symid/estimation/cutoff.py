@@ -8,13 +8,15 @@ the filter's gain, and the rounding of a file that came after it. The filter is 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from itertools import product
+from math import inf
 
 import numpy as np
-from scipy.optimize import minimize, minimize_scalar
+from scipy.optimize import minimize, minimize_scalar, nnls
 from scipy.signal import csd, welch
 
+from symid.estimation.smoothing import LEAST_GAIN, Smoothing
 from symid.estimation.zero_phase import ZeroPhase
 
 ORDERS = (2, 3, 4)
@@ -23,6 +25,11 @@ RATES = (1, 2, 4)
 FEWER_SAMPLES = 5.0
 """That samples were left out after the filter must be likelier by the exponential of this, odds of 150 to 1: spectra of
 a few seconds tell it by 0.5, those of a minute by 100."""
+SMOOTHING = 10.0
+"""A smoothing must be so much likelier, odds of 20000 to 1, than another filter or none: its zeros in the spectra of
+thousands of samples are worth hundreds, dips of white noise near them a few (tests/estimation/test_smoothing.py)."""
+POLYNOMIALS, MOST_SMOOTHED = (0, 2, 4), 51
+"""Degrees of the polynomials, of which an odd one smooths as the even one below, and the most samples of one."""
 LOOK = 12.0
 """So many times the pace lasts one look at a spectrum, which is steep: shorter ones smear it."""
 SHORTEST = 6
@@ -34,34 +41,60 @@ CUTOFFS = 16
 
 
 def estimated_filter(
-    outputs: Sequence[np.ndarray], inputs: Sequence[np.ndarray], step: float, pace: float = 1.0
-) -> ZeroPhase:
-    """The zero-phase Butterworth filter behind (N,) `outputs`, which have been found to be filtered.
+    outputs: Sequence[np.ndarray], inputs: Sequence[np.ndarray], step: float, pace: float = 1.0, empty: bool = True
+) -> ZeroPhase | None:
+    """The zero-phase filter behind (N,) `outputs`: a Butterworth filter, or a smoothing where that is likelier.
 
     Parameters
     ----------
     inputs : (N,) what drove them. step : between samples [s]. pace : of the motion [s].
+    empty : whether their spectra were found to be empty beyond some frequency, so that there is a filter; else it is a
+        smoothing or none.
     """
     frequency, power = _unexplained(outputs, inputs, step, LOOK * pace)
     low = max(_end_of_motion(frequency, p) for p in power)
     use = (frequency > low) & (frequency < 0.97 * frequency[-1])
     f, power = frequency[use], power[:, use]
-    cutoffs = np.geomspace(0.5 * low, 0.45 / step, CUTOFFS)
+    if not use.any():
+        return None
 
-    def cost(order: int, rate: int, cutoff: float) -> float:
-        gain = ZeroPhase(order, cutoff, rate / step).gain(f)
+    def cost(gain: np.ndarray) -> float:
         return sum(_misfit(f, p, gain**2) for p in power)
 
-    _, order, rate, at = min(
-        (cost(n, r, c) + FEWER_SAMPLES * (r > 1), n, r, i)
+    smoothing = _smoothing(f, power, 1 / step)
+    smooth = inf if smoothing is None else cost(smoothing.gain(f)) + SMOOTHING
+    if not empty:
+        return smoothing if smooth < cost(np.ones_like(f)) else None
+    butterworth = _butterworth(f, cost, 1 / step, np.geomspace(0.5 * low, 0.45 / step, CUTOFFS))
+    return smoothing if smooth < cost(butterworth.gain(f)) else butterworth
+
+
+def _butterworth(f: np.ndarray, cost: Callable[[np.ndarray], float], rate: float, cutoffs: np.ndarray) -> ZeroPhase:
+    """The likeliest of all orders, of filters before and after samples were left out, and of cutoffs [Hz]."""
+    _, order, more, at = min(
+        (cost(ZeroPhase(n, c, r * rate).gain(f)) + FEWER_SAMPLES * (r > 1), n, r, i)
         for n, r in product(ORDERS, RATES)
         for i, c in enumerate(cutoffs)
     )
     near = cutoffs[max(at - 1, 0)], cutoffs[min(at + 1, CUTOFFS - 1)]
     best = minimize_scalar(
-        lambda c: cost(order, rate, c), bounds=near, method="bounded", options={"xatol": 1e-3 * near[0]}
+        lambda c: cost(ZeroPhase(order, c, more * rate).gain(f)),
+        bounds=near,
+        method="bounded",
+        options={"xatol": 1e-3 * near[0]},
     )
-    return ZeroPhase(order, float(best.x), rate / step)
+    return ZeroPhase(order, float(best.x), more * rate)
+
+
+def _smoothing(f: np.ndarray, power: np.ndarray, rate: float) -> Smoothing | None:
+    """The one whose zeros are nearest to those of the spectra: least squares of what is left, in parts of the power."""
+    made = [Smoothing.of(n, k, rate) for n in POLYNOMIALS for k in range(n // 2 * 2 + 3, MOST_SMOOTHED + 1, 2)]
+
+    def left(one: Smoothing) -> float:
+        shapes = _shapes(f, np.maximum(one.gain(f) ** 2, LEAST_GAIN**2))
+        return sum(nnls((shapes / p).T, np.ones_like(p))[1] ** 2 for p in power)
+
+    return min((one for one in made if one.cutoff < 0.5 * rate), key=left, default=None)
 
 
 def _unexplained(outputs, inputs, step: float, look: float) -> tuple[np.ndarray, np.ndarray]:
@@ -82,9 +115,15 @@ def _end_of_motion(frequency: np.ndarray, power: np.ndarray) -> float:
     return float(frequency[np.argmax(above < MOTION**2 * above[1])])
 
 
+def _shapes(f: np.ndarray, gain: np.ndarray) -> np.ndarray:
+    """(5, F) what noise and random forces may leave behind a filter of that gain of power, and a rounding after it."""
+    return np.array([*(gain * (f[-1] / f) ** k for k in (0, 2, 4, 6)), np.ones_like(f)])
+
+
 def _misfit(f: np.ndarray, power: np.ndarray, gain: np.ndarray) -> float:
     """Whittle's -log-likelihood for each look, at the best noise."""
-    shapes = np.array([*(gain * (f[-1] / f) ** k for k in (0, 2, 4, 6)), np.ones_like(f)])
+    gain = np.maximum(gain, LEAST_GAIN**2)
+    shapes = _shapes(f, gain)
 
     def cost(log_sizes):
         parts = np.exp(np.clip(log_sizes, -100, 50))[:, None] * shapes

@@ -13,6 +13,7 @@ from symid.estimation.cold_start import fit_model
 from symid.estimation.data import FEWEST, Data, Segment, segments_of
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.pieces import free_pieces
+from symid.estimation.smoothing import Smoothing
 from symid.estimation.sensor_noise import noise_before
 from symid.estimation.whitening import remembered, whitening_of
 from symid.estimation.zero_phase import ZeroPhase
@@ -65,7 +66,7 @@ def fits_of(
     if filter is None:
         return [(plain, _fitted(model, plain, start))]
     plain = replace(plain, ratios_free=not np.any(stated))
-    if known:
+    if known or isinstance(filter, Smoothing):
         data = _undone(model, recording, part, length, plain, filter, inputs=False, known=True)
         return [(data, _fitted(model, data, start))]
     data, fit = settled(model, recording, part, length, plain, filter, start, stated)

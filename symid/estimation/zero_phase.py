@@ -52,9 +52,14 @@ class ZeroPhase:
 
         At half the rate that the filter saw it leaves nothing, whatever its cutoff.
         """
+        band = self.band(step)
+        return max(2, round(0.5 / step / band)) if band < 0.5 / step else 1
+
+    def band(self, step: float) -> float:
+        """Frequency up to which it left enough of samples `step` apart [Hz]."""
         frequency = np.linspace(0, 0.5 / step, 2000)
         lost = self.gain(frequency) < SMALLEST_GAIN
-        return max(2, round(0.5 / step / frequency[np.argmax(lost)])) if lost.any() else 1
+        return float(frequency[np.argmax(lost)]) if lost.any() else 0.5 / step
 
     def undone(self, x: np.ndarray, step: float, ratio: int) -> tuple[np.ndarray, np.ndarray]:
         """A channel (N,), the filter undone as far as one sample in `ratio` holds it, and what undoing added."""

@@ -71,7 +71,7 @@ def audit(
     cutoff = np.array([_cutoff([e.recorded[:, i] for e in segments], step, pace) for i in range(len(names))])
     rounding = np.array([_step(np.concatenate([e.recorded[:, i] for e in segments])) for i in range(len(names))])
     known = filter is not None
-    filter = filter or (_filter(model, segments) if np.isfinite(cutoff).any() else None)
+    filter = filter or _filter(model, segments, bool(np.isfinite(cutoff).any()))
     inputs = (
         filter is not None
         and not known
@@ -90,10 +90,10 @@ def audit(
     return Audit(noise, np.array([c in table for c in names]), cutoff, rounding, filter, inputs, known)
 
 
-def _filter(model: Model, segments: tuple[Segment, ...]) -> ZeroPhase:
+def _filter(model: Model, segments: tuple[Segment, ...], empty: bool) -> ZeroPhase | None:
     longest = max(segments, key=lambda e: len(e.time))
     inputs = [longest.inputs[u] for u in model.inputs]
-    return estimated_filter(list(longest.recorded.T), inputs, longest.step, pace_of(segments))
+    return estimated_filter(list(longest.recorded.T), inputs, longest.step, pace_of(segments), empty)
 
 
 def _step(x: np.ndarray) -> float:
