@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import log
+from typing import cast
 
 import numpy as np
 
@@ -168,7 +169,7 @@ def _undone(
         pieces = [
             replace(e, undone=a.recorded) for e, a in zip(pieces, segments_of(model, added, part, length), strict=True)
         ]
-    pieces = _away_from_ends(pieces, recording, ENDS / filter.cutoff)
+    pieces = away_from_ends(pieces, recording, filter)
     pieces = pieces if plain.driven else free_pieces(pieces, len(model.states))
     return replace(
         plain,
@@ -178,9 +179,16 @@ def _undone(
     )
 
 
-def _away_from_ends(pieces: Sequence[Segment], recording: Recording, seconds: float) -> list[Segment]:
+def restored(model: Model, recording: Recording, data: Data) -> Recording:
+    """The recording with the outputs of a model as they were before the filter that was undone in `data`."""
+    filter = cast("ZeroPhase", data.filter)
+    outputs = [y.channel for y in model.outputs.values()]
+    return _restored(recording, outputs, filter, filter.ratio(float(np.median(np.diff(recording.time)))))[0]
+
+
+def away_from_ends(pieces: Sequence[Segment], recording: Recording, filter: ZeroPhase) -> list[Segment]:
     """The pieces without the samples so near to the ends of a run that the filter knew nothing beyond them."""
-    found = []
+    found, seconds = [], ENDS / filter.cutoff
     for e in pieces:
         run = next(recording.time[r] for r in recording.runs if recording.time[r][-1] >= e.time[0])
         rows = np.flatnonzero((e.time >= run[0] + seconds) & (e.time <= run[-1] - seconds))

@@ -33,6 +33,10 @@ class Smoothing(ZeroPhase):
         angle = brentq(lambda a: made._gain(np.array([a]))[0] - 0.5**0.5, 0.0, end)
         return cls(order, float(angle) * rate / (2 * np.pi), rate, samples)
 
+    def __str__(self) -> str:
+        fitted = f"a polynomial of degree {self.order} fitted to" if self.order else "the mean of"
+        return f"{fitted} {self.samples} samples at a time, at -3 dB at {self.cutoff:.2g} Hz,"
+
     @cached_property
     def _weights(self) -> np.ndarray:
         return savgol_coeffs(self.samples, self.order)

@@ -38,6 +38,9 @@ class ZeroPhase:
     cutoff: float
     rate: float
 
+    def __str__(self) -> str:
+        return f"a Butterworth filter of order {self.order}, forwards and backwards, at {self.cutoff:.2g} Hz"
+
     def excess(self, frequency: np.ndarray) -> np.ndarray:
         """x^2n, so that the gain is 1 / (1 + excess), with the digital filter's warped frequency."""
         warped = np.tan(np.pi * np.minimum(frequency / self.rate, 0.499))
@@ -63,16 +66,7 @@ class ZeroPhase:
 
     def undone(self, x: np.ndarray, step: float, ratio: int) -> tuple[np.ndarray, np.ndarray]:
         """A channel (N,), the filter undone as far as one sample in `ratio` holds it, and what undoing added."""
-        pad = min(len(x) - 1, round(PADDING / step))
-        middle = 0.5 * (x[0] + x[-1])
-        fade = 0.5 - 0.5 * np.cos(np.pi * np.arange(pad) / max(pad, 1))
-        long = np.concatenate(
-            [
-                fade * (2 * x[0] - x[pad:0:-1] - middle),
-                x - middle,
-                fade[::-1] * (2 * x[-1] - x[-2 : -pad - 2 : -1] - middle),
-            ]
-        )
+        long, pad, middle = _extended(x, step)
         frequency = np.fft.rfftfreq(len(long), step)
         spectrum = np.fft.rfft(long) * _kept(frequency * 2 * step * ratio, ratio)
         kept, added = (np.fft.irfft(spectrum * a, len(long))[pad : pad + len(x)] for a in (1.0, self._added(frequency)))
@@ -93,6 +87,14 @@ class ZeroPhase:
         """The filter whose excess is `sharpness` times as large."""
         tangent = np.tan(np.pi * self.cutoff / self.rate) * sharpness ** (-0.5 / self.order)
         return ZeroPhase(self.order, float(np.arctan(tangent) * self.rate / np.pi), self.rate)
+
+
+def _extended(x: np.ndarray, step: float) -> tuple[np.ndarray, int, float]:
+    """A channel less its level, with reflections that fade away at both ends; their length, and that level."""
+    pad, middle = min(len(x) - 1, round(PADDING / step)), 0.5 * (x[0] + x[-1])
+    fade = 0.5 - 0.5 * np.cos(np.pi * np.arange(pad) / max(pad, 1))
+    before, after = 2 * x[0] - x[pad:0:-1], 2 * x[-1] - x[-2 : -pad - 2 : -1]
+    return np.concatenate([fade * (before - middle), x - middle, fade[::-1] * (after - middle)]), pad, middle
 
 
 def _kept(x: np.ndarray, ratio: int) -> np.ndarray:

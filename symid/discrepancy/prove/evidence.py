@@ -21,6 +21,7 @@ from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_
 from symid.discrepancy.task import Task
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
+from symid.estimation.measurement import away_from_ends, restored
 from symid.estimation.free_run import FreeRun
 
 
@@ -67,7 +68,7 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
     if found.suspects != before:
         left = search.remainder(found)
     nameless_too = bool(left and left[0].minus_log10_p > POLICY.remainder) or not found.established
-    windows = _windows(task, plain)
+    windows = _windows(task, plain, data)
     unnamed = nameless(found, data, windows.get("heldout"), search.progress) if nameless_too else Nameless()
     final = improved(found, unnamed) if unnamed.fits and not near_noise(found, data) else found.fit
     runs = _runs(final, base, task, windows, refitted=final is found.fit)
@@ -107,15 +108,21 @@ def rivals(found: Hypothesis, ranking: Sequence[Hypothesis]) -> list:
     ]
 
 
-def _windows(task: Task, plain: Data) -> dict[str, Data]:
-    """The windows in which errors are told: segments that were set apart are judged whole, fitted ones as fitted."""
-    return {
-        key: plain.with_segments(
-            segments_of(task.model, task.recording, w, None if isinstance(w, str) else task.segment_length)
-        )
-        for key, w in (("train", task.fit_window), ("heldout", task.held_out))
+def _windows(task: Task, plain: Data, data: Data) -> dict[str, Data]:
+    """The windows in which errors are told: segments that were set apart are judged whole, fitted ones as fitted.
+
+    A filter that was undone in `data` is undone there, too, at all samples: what it left of each swing is no error.
+    """
+    recording = task.recording if data.filter is None else restored(task.model, task.recording, data)
+    windows = {"train": task.fit_window, "heldout": task.held_out}
+    found = {
+        key: segments_of(task.model, recording, w, None if isinstance(w, str) else task.segment_length)
+        for key, w in windows.items()
         if w is not None
     }
+    if data.filter is not None:
+        found = {key: away_from_ends(pieces, recording, data.filter) for key, pieces in found.items()}
+    return {key: plain.with_segments(pieces) for key, pieces in found.items()}
 
 
 def _runs(final: Fit, base: Fit, task: Task, windows: dict[str, Data], refitted: bool) -> dict[str, FreeRun]:

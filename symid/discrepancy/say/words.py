@@ -338,8 +338,8 @@ def _caveats(s: Story) -> list[str]:
     if s.filter is not None:
         stated = ", as stated" if s.audit.known else ""
         out.append(
-            f"The recording was low-pass filtered{stated}: about as a Butterworth filter of order {s.filter.order}, "
-            f"forwards and backwards, does at {s.filter.cutoff:.2g} Hz. That was undone before anything was compared."
+            f"The recording was low-pass filtered{stated}: about as {s.filter} does. That was undone before "
+            "anything was compared."
         )
     elif not s.audit.stated.all():
         out.append(
