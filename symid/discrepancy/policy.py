@@ -30,7 +30,9 @@ class Policy:
         the speed (7 to 1), which is the first term of every smooth loss.
     never : the price of what is never named: a clock whose frequency is a multiple of the one at which a motion
         swings that nothing drives, since any bent force or bent scale makes such harmonics; a law of which a
-        part came to nothing.
+        part came to nothing; a channel that is late by less than `skew` samples.
+    skew : of a sample, by which channels of one recorder may be apart: its multiplexer reads them one after the other,
+        and what a model leaves out of a smooth motion looks like a hundredth of a sample.
     harmonics : multiples that count.
     equivalent : answers whose evidence is so near are told; the better test then errs in 4 % (Phi(-sqrt(12)/2)).
     most_effects : a search ends here.
@@ -64,6 +66,7 @@ class Policy:
         }
     )
     never: float = 1000.0
+    skew: float = 0.05
     harmonics: int = 6
     equivalent: float = 12.0
     most_effects: int = 8

@@ -70,7 +70,8 @@ class Hypothesis:
     def doubt(self) -> float:
         """The part of `belief` that decides whether a suspect is believed at all, however it is called."""
         return sum(
-            POLICY.doubt * (not s.established) + POLICY.never * (self._is_harmonic(s) or self._is_half(s))
+            POLICY.doubt * (not s.established)
+            + POLICY.never * (self._is_harmonic(s) or self._is_half(s) or self._is_skew(s))
             for s in self.suspects
         )
 
@@ -81,6 +82,14 @@ class Hypothesis:
         """
         at = {q: self.fit.values[suspect.term.parameter_name(q.key)] for q in suspect.law.parameters}
         return any(q.null is not None and v in q.bounds and (v == q.null or q.null == 1) for q, v in at.items())
+
+    def _is_skew(self, suspect: Suspect) -> bool:
+        """Whether one channel comes later than others by less than a clock keeps to its samples."""
+        q = suspect.strength
+        if q is None or q.unit != "s" or suspect.law.acts_on not in ("sensor", "excitation"):
+            return False
+        step = self.data.segments[0].step / self.data.segments[0].ratio
+        return abs(self.fit.values[suspect.term.parameter_name(q.key)]) < POLICY.skew * step
 
     def _is_harmonic(self, suspect: Suspect) -> bool:
         """Whether a clock strikes where a motion that nothing drives has its own harmonics."""

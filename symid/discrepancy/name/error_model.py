@@ -45,13 +45,11 @@ def with_error_model(
         progress("with what was found inputs are smooth between their samples; looking again")
         search, found, ranking = _again(search, found, search.data, found.fit, searched)
     if not has_settled(found.fit, search.data):
+        progress("with what was found the cutoff of the filter moves; looking again")
         try:
-            data, explained = settle(found.fit, search.data)
+            search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched)
         except SymidError:
-            data = None  # the model with what was found cannot be begun anew: the cutoff stays where it was
-        if data is not None:
-            progress("with what was found the cutoff of the filter moves; looking again")
-            search, found, ranking = _again(search, found, data, explained, searched)
+            pass  # the model with what was found cannot be begun anew: the cutoff stays where it was
     data, explained = with_memory(found.fit, search.data)
     more = _gain(data, explained, search.data, found.fit)
     if data is search.data or found.evidence(1.0) + more < search.flexible().evidence(1.0):
