@@ -12,7 +12,6 @@ from symid.model.attach import completed, hint, refuse_wrong_types
 from symid.model.component import Component
 from symid.model.declare import Algebraic, Constant, Control, Delay, Equation, Input, Output, Parameter, State
 from symid.model.derived import Derived
-from symid.model.expressions import TIME, taught
 from symid.model.fingerprint import fingerprint_of
 from symid.model.kinds import Kinds
 from symid.model.made import Copies
@@ -21,8 +20,7 @@ from symid.model.quantity import Operand, free_symbols, symbol, sympified
 if TYPE_CHECKING:
     from symid.model.term import Term
 
-
-taught()
+TIME = symbol("t")
 
 
 class NoSuchPart(ModelError, AttributeError):

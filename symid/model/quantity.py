@@ -12,7 +12,7 @@ from sympy.logic.boolalg import Boolean
 
 from symid.errors import ModelError
 from symid.model.arrays import of_parts
-from symid.model.comparison import NoSuchAttribute, NoSuchUse
+from symid.model.comparison import GreaterThan, LessThan, NoSuchUse, StrictGreaterThan, StrictLessThan
 
 Operand = Any
 """What stands beside a quantity in an expression: a number, a part or a SymPy expression."""
@@ -37,6 +37,10 @@ def initial(s: sm.Symbol) -> sm.Symbol:
 def terminal(s: sm.Symbol) -> sm.Symbol:
     """The symbol of the value of `s` at the last node, for conditions at the ends."""
     return symbol(f"{s}(end)")
+
+
+class NoSuchAttribute(ModelError, AttributeError):
+    """Python's own, too, so that `hasattr` works."""
 
 
 class Quantity:
@@ -90,16 +94,16 @@ class Quantity:
         return sm.Abs(self.symbol)
 
     def __le__(self, other: Operand) -> sm.Expr:
-        return sm.LessThan(self.symbol, sympified(other))
+        return LessThan(self.symbol, sympified(other))
 
     def __lt__(self, other: Operand) -> sm.Expr:
-        return sm.StrictLessThan(self.symbol, sympified(other))
+        return StrictLessThan(self.symbol, sympified(other))
 
     def __ge__(self, other: Operand) -> sm.Expr:
-        return sm.GreaterThan(self.symbol, sympified(other))
+        return GreaterThan(self.symbol, sympified(other))
 
     def __gt__(self, other: Operand) -> sm.Expr:
-        return sm.StrictGreaterThan(self.symbol, sympified(other))
+        return StrictGreaterThan(self.symbol, sympified(other))
 
     # ---- NumPy, and what a symbol cannot do ------------------------------------------
     def __array_ufunc__(self, function: Any, method: str, *arguments: Any, **named: Any) -> Any:
