@@ -16,7 +16,7 @@ import numpy as np
 from scipy.optimize import minimize, minimize_scalar, nnls
 from scipy.signal import csd, welch
 
-from symid.estimation.smoothing import LEAST_GAIN, Smoothing
+from symid.estimation.smoothing import Smoothing
 from symid.estimation.zero_phase import ZeroPhase
 
 ORDERS = (2, 3, 4)
@@ -28,6 +28,13 @@ a few seconds tell it by 0.5, those of a minute by 100."""
 SMOOTHING = 10.0
 """A smoothing must be so much likelier, odds of 20000 to 1, than another filter or none: its zeros in the spectra of
 thousands of samples are worth hundreds, dips of white noise near them a few (tests/estimation/test_smoothing.py)."""
+EXPLAINED = 0.55
+"""And leave less than this part of what a noise without it leaves unexplained of the spectra: 0.13 to 0.49 where there
+was one, 0.69 and more where a motion is no noise (tests/discrepancy, tests/mechanics, tests/estimation)."""
+NEAREST = 5
+"""So many are compared by their likelihood, which takes longer than least squares."""
+FILLED = 1e-3
+"""Power that is left at the zeros of a smoothing, where it leaves 0.05 between them: looks of finite length smear."""
 POLYNOMIALS, MOST_SMOOTHED = (0, 2, 4), 51
 """Degrees of the polynomials, of which an odd one smooths as the even one below, and the most samples of one."""
 LOOK = 12.0
@@ -59,14 +66,17 @@ def estimated_filter(
         return None
 
     def cost(gain: np.ndarray) -> float:
-        return sum(_misfit(f, p, gain**2) for p in power)
+        return sum(_misfit(p, _shapes(f, gain**2)) for p in power)
 
-    smoothing = _smoothing(f, power, 1 / step)
-    smooth = inf if smoothing is None else cost(smoothing.gain(f)) + SMOOTHING
+    smooth, smoothing = _smoothing(f, power, 1 / step)
+    exact = float(np.sum(np.log(power) + 1))  # what no model beats
+    plain = cost(np.ones_like(f))
+    if not (smooth - exact < EXPLAINED * (plain - exact)):
+        smooth = inf
     if not empty:
-        return smoothing if smooth < cost(np.ones_like(f)) else None
+        return smoothing if smooth + SMOOTHING < plain else None
     butterworth = _butterworth(f, cost, 1 / step, np.geomspace(0.5 * low, 0.45 / step, CUTOFFS))
-    return smoothing if smooth < cost(butterworth.gain(f)) else butterworth
+    return smoothing if smooth + SMOOTHING < cost(butterworth.gain(f)) else butterworth
 
 
 def _butterworth(f: np.ndarray, cost: Callable[[np.ndarray], float], rate: float, cutoffs: np.ndarray) -> ZeroPhase:
@@ -86,15 +96,20 @@ def _butterworth(f: np.ndarray, cost: Callable[[np.ndarray], float], rate: float
     return ZeroPhase(order, float(best.x), more * rate)
 
 
-def _smoothing(f: np.ndarray, power: np.ndarray, rate: float) -> Smoothing | None:
-    """The one whose zeros are nearest to those of the spectra: least squares of what is left, in parts of the power."""
+def _smoothing(f: np.ndarray, power: np.ndarray, rate: float) -> tuple[float, Smoothing]:
+    """The likeliest of those whose zeros are nearest to those of the spectra, and its cost.
+
+    Near by least squares of what is left, in parts of the power.
+    """
     made = [Smoothing.of(n, k, rate) for n in POLYNOMIALS for k in range(n // 2 * 2 + 3, MOST_SMOOTHED + 1, 2)]
 
     def left(one: Smoothing) -> float:
-        shapes = _shapes(f, np.maximum(one.gain(f) ** 2, LEAST_GAIN**2))
-        return sum(nnls((shapes / p).T, np.ones_like(p))[1] ** 2 for p in power)
+        return sum(nnls((_smoothed(f, one) / p).T, np.ones_like(p))[1] ** 2 for p in power)
 
-    return min((one for one in made if one.cutoff < 0.5 * rate), key=left, default=None)
+    near = sorted(made, key=left)[:NEAREST]
+    costs = [sum(_misfit(p, _smoothed(f, one)) for p in power) for one in near]
+    best = int(np.argmin(costs))
+    return costs[best], near[best]
 
 
 def _unexplained(outputs, inputs, step: float, look: float) -> tuple[np.ndarray, np.ndarray]:
@@ -120,20 +135,23 @@ def _shapes(f: np.ndarray, gain: np.ndarray) -> np.ndarray:
     return np.array([*(gain * (f[-1] / f) ** k for k in (0, 2, 4, 6)), np.ones_like(f)])
 
 
-def _misfit(f: np.ndarray, power: np.ndarray, gain: np.ndarray) -> float:
-    """Whittle's -log-likelihood for each look, at the best noise."""
-    gain = np.maximum(gain, LEAST_GAIN**2)
-    shapes = _shapes(f, gain)
+def _smoothed(f: np.ndarray, smoothing: Smoothing) -> np.ndarray:
+    """(4, F) likewise behind a smoothing, whose zeros no floor of its own may fill."""
+    return _shapes(f, smoothing.gain(f) ** 2 + FILLED)[:-1]
+
+
+def _misfit(power: np.ndarray, shapes: np.ndarray) -> float:
+    """Whittle's -log-likelihood for each look, at the best sizes of (K, F) shapes."""
 
     def cost(log_sizes):
         parts = np.exp(np.clip(log_sizes, -100, 50))[:, None] * shapes
         model = parts.sum(axis=0)
         return np.sum(np.log(model) + power / model), (parts * (1 / model - power / model**2)).sum(axis=1)
 
-    floor = np.log(np.median(power / gain))
+    floor = np.log(np.median(power / shapes[0]))
     rounding = np.log(max(power.min(), 1e-300))
     starts = (
         [floor, floor - 2, floor - 2, floor - 6, rounding],
         [floor - 6, floor - 2, floor - 1, floor - 6, rounding],
     )
-    return min(minimize(cost, np.array(s), jac=True, method="L-BFGS-B").fun for s in starts)
+    return min(minimize(cost, np.array(s[: len(shapes)]), jac=True, method="L-BFGS-B").fun for s in starts)
