@@ -9,6 +9,7 @@ from typing import cast
 
 import numpy as np
 
+from symid.errors import DiagnosisError
 from symid.estimation.between_samples import with_likeliest_curves
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import FEWEST, Data, Segment, segments_of
@@ -171,12 +172,13 @@ def _undone(
         ]
     pieces = away_from_ends(pieces, recording, filter)
     pieces = pieces if plain.driven else free_pieces(pieces, len(model.states))
-    return replace(
-        plain,
-        segments=tuple(e.sparser(ratio) for e in pieces),
-        filter=filter,
-        sensor_noise=plain.sensor_noise / np.sqrt(ratio),
-    )
+    sparse = tuple(s for s in (e.sparser(ratio) for e in pieces) if len(s.time) >= FEWEST)
+    if not sparse:
+        raise DiagnosisError(
+            f"the recording looks as if it had gone through {filter}: then no piece of it holds {FEWEST} samples that "
+            "say something new; give longer pieces, or the filter that it went through"
+        )
+    return replace(plain, segments=sparse, filter=filter, sensor_noise=plain.sensor_noise / np.sqrt(ratio))
 
 
 def restored(model: Model, recording: Recording, data: Data) -> Recording:
