@@ -16,6 +16,11 @@ pytestmark = pytest.mark.slow
         pytest.param("spoilt", 12, id="one effect, filtered"),
         pytest.param("spoilt", 15, id="one effect, short"),
         pytest.param("weak", 7, id="a weak effect"),
+        pytest.param("machine", 0, id="a slide with a smooth input"),
+        pytest.param("machine", 6, id="a rod, filtered near half the rate"),
+        pytest.param("machine", 9, id="gliders, filtered"),
+        pytest.param("machine", 21, id="a rod with drag and a smooth input"),
+        pytest.param("machine", 25, id="a slide with dry friction, filtered"),
     ],
 )
 def test_what_is_concealed_is_named_and_nothing_else(draw, seed):
