@@ -53,7 +53,6 @@ def simulate_stiff(
     u = np.column_stack([np.zeros(len(time)), *(inputs[k] for k in source.inputs)])[:, 1:]
     w = np.column_stack([np.zeros(len(time)), *(noise[k] for k in source.noises)])[:, 1:]
     held, calls, late = np.array(source.input_between) == BETWEEN.index("zero"), 0, np.zeros(0)
-
     cubic, slope = np.array(source.input_between) == BETWEEN.index("cubic"), slopes(time, u)
 
     def given(t: float, k: int) -> np.ndarray:
