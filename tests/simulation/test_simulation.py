@@ -72,18 +72,6 @@ def test_inputs_are_linear_between_samples_and_noise_is_held(Simulator):
     np.testing.assert_allclose(held.states["rate"], [0.0, 0.5, -0.5], atol=1e-14)
 
 
-@pytest.mark.parametrize("hold, order", [("linear", 2), ("cubic", 4)])
-def test_a_sampled_smooth_input_is_met_to_the_order_of_its_curves(Simulator, hold, order):
-    free = {"stiffness": 0.0, "damping": 0.0}
-
-    def error(samples: int) -> float:
-        t = np.sort(np.r_[0, 2, np.linspace(0, 2, samples)[1:-1] + 0.3 / samples])  # a first interval of its own length
-        run = Simulator(oscillator(hold=hold)).simulate(free, [0.0, 0.0], t, {"push": np.sin(4 * t)}, substeps=2)
-        return float(np.abs(run.states["rate"] - (1 - np.cos(4 * t)) / 8).max())
-
-    assert np.log2(error(81) / error(161)) == pytest.approx(order, abs=0.3)
-
-
 @pytest.mark.parametrize("method, order", [("rk4", 4), ("euler", 1)])
 @pytest.mark.parametrize("lag", [None, 0.13])
 def test_order_of_accuracy(method, order, lag):

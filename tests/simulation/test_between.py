@@ -1,0 +1,43 @@
+"""What inputs do between their samples, in every integrator."""
+
+import numpy as np
+import pytest
+
+import symid as si
+from symid.simulation import Simulator
+from symid.simulation.stiff import simulate_stiff
+
+
+def lag(hold: str) -> si.Model:
+    m = si.Model("lag")
+    m.x, m.u = si.State(unit="m"), si.Input(unit="m", hold=hold)
+    m.rate = si.Parameter(unit="1/s")
+    m.motion = si.Equation(m.x.dot - m.rate * (m.u - m.x))
+    m.seen = si.Output(m.x)
+    return m
+
+
+def uneven(samples: int) -> np.ndarray:
+    """Times from 0 to 2 s of which the first interval has a length of its own."""
+    return np.sort(np.r_[0, 2, np.linspace(0, 2, samples)[1:-1] + 0.3 / samples])
+
+
+@pytest.mark.parametrize("backend", ["c", "numpy"])
+@pytest.mark.parametrize("hold, order", [("linear", 2), ("cubic", 4)])
+def test_a_sampled_smooth_input_is_met_to_the_order_of_its_curves(backend, hold, order):
+    def error(samples: int) -> float:
+        t = uneven(samples)
+        run = Simulator(lag(hold), backend).simulate({"rate": 1.0}, [0.0], t, {"u": np.sin(4 * t)}, substeps=2)
+        exact = (np.sin(4 * t) - 4 * np.cos(4 * t) + 4 * np.exp(-t)) / 17
+        return float(np.abs(run.y[:, 0] - exact).max())
+
+    assert np.log2(error(81) / error(161)) == pytest.approx(order, abs=0.3)
+
+
+@pytest.mark.parametrize("hold", ["linear", "cubic", "zero"])
+def test_a_stiff_integrator_sees_the_same_input(hold):
+    t = uneven(41)
+    u = np.sin(4 * t)
+    run = Simulator(lag(hold)).simulate({"rate": 5.0}, [0.2], t, {"u": u}, substeps=16)
+    stiff = simulate_stiff(lag(hold), np.array([5.0]), np.array([0.2]), t, {"u": u}, {}, np.array([1.0]), 1e-10)
+    np.testing.assert_allclose(stiff[:, 0], run.y[:, 0], atol=1e-7)
