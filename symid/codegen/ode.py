@@ -27,6 +27,8 @@ ARGUMENTS = ("xd", "x", "l", "u", "w", "p", "c")
 """Arrays of every function, before the time t: rates, states, late signals, inputs, noises, parameters, constants."""
 BETWEEN = "linear", "zero", "cubic"
 """What an input does between its samples, numbered as loop.c knows it."""
+UNSTATED = {"smooth": "cubic", "either": "linear"}
+"""What it does where its declaration leaves that open."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +168,7 @@ def ode_source(model: Model) -> OdeSource:
         entries,
         [0 if o in states else 1 for o in of],
         [states.index(o) if o in states else inputs.index(o) for o in of],
-        [BETWEEN.index("linear" if u.hold == "smooth" else u.hold) for u in model.inputs.values()],
+        [BETWEEN.index(UNSTATED.get(u.hold, u.hold)) for u in model.inputs.values()],
         bool(observed.free_symbols & {*rates, *late}),
         written,
     )

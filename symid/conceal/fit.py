@@ -55,7 +55,7 @@ def fit_free(
     ------
     SymidError : the model diverges from there.
     """
-    sim = simulator(model)
+    sim = simulator(model.with_unstated_holds("linear"))
     names = list(sim.parameters if free is None else free)
     E, n, q = len(segments), len(sim.states), len(names)
     low = np.array([model.parameters[k].bounds[0] for k in names] + [-np.inf] * (E * n))
@@ -111,7 +111,7 @@ def simulate_free(
     model: Model, segments: Sequence[Segment], values: Mapping[str, float], initial: np.ndarray
 ) -> FreeFit:
     """What these values simulate, without fitting anything."""
-    sim = simulator(model)
+    sim = simulator(model.with_unstated_holds("linear"))
     runs = [
         sim.simulate(values, x0, e.time, e.inputs, substeps=_substeps(e), keep="outputs")
         for e, x0 in zip(segments, initial, strict=True)

@@ -80,7 +80,7 @@ def task_of(subject: Model | Solution, recording: Recording | None, fit_window: 
     start = {
         name: checked.number(v, f"diagnose: start of '{name}'", DiagnosisError) for name, v in (start or {}).items()
     }
-    model = with_places(model.simulated("diagnose"))
+    model = with_places(model.simulated("diagnose").with_unstated_holds("either"))
     task = Task(model, recording, fit_window, start={**values, **start}, values=values, **others)
     _check_parts(task)
     return replace(task, recording=without_missing(recording, model, task.moved))

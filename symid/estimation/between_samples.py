@@ -15,7 +15,7 @@ def with_likeliest_curves(fit: Fit, data: Data) -> Fit:
     Straight lines lose the part (w h)^2 / 12 of an input of angular frequency w that is sampled every h: 0.4 % at 30
     samples a period. With good sensors that is enough to look like a wrong gain or mass.
     """
-    for name in [k for k, u in fit.model.inputs.items() if u.hold == "smooth"]:
+    for name in [k for k, u in fit.model.inputs.items() if u.hold == "either"]:
         curved = Fitter(fit.model.with_holds(**{name: "cubic"}), data, near=fit)
         if _differs(Fitter.of(fit, data), curved, fit):
             try:

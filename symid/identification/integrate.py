@@ -84,7 +84,5 @@ class Reintegration:
         m, d = t.measured[t.recording_of[e]], t.program.data[e]
         time = m.mesh(PIECES)
         inputs = {u: np.append(input_at(t.model, t.scheme, m, u, 0.0, PIECES), m.inputs[u][m.last]) for u in m.inputs}
-        if t.scheme.order == 2 and t.layout.refine == 1:  # its mesh sees straight lines
-            inputs |= {u: np.interp(time, m.time, m.inputs[u]) for u in m.inputs if t.model.inputs[u].hold == "smooth"}
         noise = {w: np.append(np.repeat(x, PIECES), 0.0) for w, x in zip(t.model.noises, d.noise.T, strict=True)}
         return time[nodes], *({k: x[nodes] for k, x in table.items()} for table in (inputs, noise))

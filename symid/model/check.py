@@ -74,7 +74,7 @@ def _values(model: Model) -> Iterator[str]:
 
 def _holds(part: Input | Control) -> tuple[str, ...]:
     """What this part may do between samples: a control is not sampled from a smooth signal."""
-    return HOLDS if isinstance(part, Input) else HOLDS[2:]
+    return HOLDS if isinstance(part, Input) else HOLDS[-2:]
 
 
 def _number(value) -> float:

@@ -21,7 +21,7 @@ from symid.model.prior import Prior
 from symid.model.quantity import AlongTime, Quantity, symbol
 
 Bounds = tuple[float, float]
-HOLDS = ("smooth", "cubic", "linear", "zero")
+HOLDS = ("smooth", "either", "cubic", "linear", "zero")
 REQUIRED: Any = None
 """A unit that was not given: attaching the part to a model refuses it, with the part's name."""
 
@@ -110,9 +110,10 @@ class Input(AlongTime, Component):
     channel : names the column, by default the input's name.
     hold : what the signal does between its samples. "zero" keeps each sample until the next one, as a
         digital-to-analogue converter does (zero-order hold; Astrom & Wittenmark 1997, section 2.3);
-        "linear" joins them by straight lines; "cubic" by cubics without a corner at the samples. "smooth"
-        does not say: straight lines in a simulation, and where the scheme is of second order on the samples
-        themselves, else a cubic spline; a diagnosis takes straight lines or cubics, whichever is likelier.
+        "linear" joins them by straight lines; "cubic" by cubics without a corner at the samples (Bessel's; de Boor
+        1978, chapter IV). "smooth" stands for "cubic" wherever nothing can tell; a scheme of second order whose nodes
+        are the samples takes the means of neighbours, which is the same to its order. In a diagnosis "smooth" becomes
+        "either": straight lines, or cubics where these are likelier.
 
     Examples
     --------

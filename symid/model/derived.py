@@ -65,6 +65,11 @@ class Derived:
         """A new model whose inputs do something else between their samples, by name: see `Input`."""
         return variants.with_holds(self._model, holds)
 
+    def with_unstated_holds(self, hold: str) -> Model:
+        """A new model in which this is what inputs do between their samples where their declaration leaves it open."""
+        unstated = [k for k, u in self._model.inputs.items() if u.hold == "smooth"]
+        return variants.with_holds(self._model, dict.fromkeys(unstated, hold))
+
     def fixed(self, **values: float) -> Model:
         """A new model in which these parameters are known constants.
 

@@ -46,7 +46,7 @@ class Change:
     Parameters
     ----------
     said : the mistake that this would undo, as a clause.
-    factors : channel or constant -> factor. time : factor of the times. swapped : two channels, exchanged.
+    factors : channel or constant -> factor. time : factor of the times. swapped : two outputs or two inputs, exchanged.
     """
 
     said: str = ""
@@ -95,6 +95,14 @@ class Witness:
         for the likeliest equations (Box & Draper 1965): it tells a mistake from the right where noise hides it.
         """
         return self._least(self._determinant, change)
+
+    def of_bounds(self, change: Change) -> FloatArray:
+        """Fitted parameters over their upper bounds, of those that lie between zero and a finite one and enter."""
+        first = self._first()[0]
+        with np.errstate(all="ignore"):
+            given, recorded = self._given(change, first)
+            p, _ = self._fitted(np.eye(len(recorded)), given, first)
+        return (p / self.upper)[(self.lower >= 0) & np.isfinite(self.upper) & (self.upper > 0)]
 
     def _least(self, measure, change: Change) -> float:
         """The least measure over first values, of which those that lead to the same parameters count once."""
@@ -224,9 +232,12 @@ class Witness:
     def _arguments(self, change: Change, p: FloatArray):
         """Local values, data and constants of the kernel, with the change made."""
         motion, names, curves = self.motion, list(self.model.states), dict(self.motion.curves)
+        of_inputs = {u.channel: motion.inputs[u.channel] for u in self.model.inputs.values()}
         if change.swapped:
             a, b = change.swapped
-            curves[a], curves[b] = curves[b], curves[a]
+            for table in (curves, of_inputs):
+                if a in table:
+                    table[a], table[b] = table[b], table[a]
         states, slopes = np.empty((motion.time.size, len(names))), np.empty((motion.time.size, len(names)))
         for i, name in enumerate(names):
             order = self.order[i]
@@ -236,9 +247,7 @@ class Witness:
                 curves[channel][order] * factor,
                 curves[channel][order + 1] * factor / change.time,
             )
-        inputs = {
-            u.name: motion.inputs[u.channel] * change.factors.get(u.channel, 1.0) for u in self.model.inputs.values()
-        }
+        inputs = {u.name: of_inputs[u.channel] * change.factors.get(u.channel, 1.0) for u in self.model.inputs.values()}
         time = motion.time * change.time
         data = np.zeros((time.size, len(inputs) + len(self.model.noises) + 1))
         data[:, : len(inputs)], data[:, -1] = np.column_stack([*inputs.values()]) if inputs else 0.0, time

@@ -36,6 +36,13 @@ CLEAR = 0.5
 """... and no more than this: where nothing explains the motion, nothing is blamed."""
 AS_GOOD = 1.1
 """Changes that leave this many times as much as the best are told beside it: the motion cannot tell them apart."""
+SELDOM, TINY, USUAL = 0.5, 1e-4, 1e-3
+"""Seconds between samples from on which milliseconds may have been taken for seconds, and the shares of their upper
+bounds below which all parameters are then, and above which all would be. Stiffness grows by a million."""
+SLOW_MOTION = (
+    "every parameter that explains the motion is below a ten thousandth of its upper bound, and none would be if the "
+    "time column holds milliseconds but is labelled as seconds: check that first"
+)
 ANGLES = (
     (180 / np.pi, "holds radians but is labelled as degrees"),
     (np.pi / 180, "holds degrees but is labelled as radians"),
@@ -99,7 +106,13 @@ def model_remarks(model: Model, recording: Recording, window: tuple[float, float
     try:
         model = as_shown(model)
         motion = motion_of(model, recording, window)
-        if motion is None or Witness(model, motion).unexplained() <= EXPLAINED:
+        if motion is None:
+            return []
+        witness = Witness(model, motion)
+        given = witness.unexplained()
+        if given <= MOSTLY and _slowed(witness):
+            return [f"{recording.name}: {SLOW_MOTION}"]
+        if given <= EXPLAINED:
             return []
         told = foretold(motion)
         looks = [(m, law_open) for m, law_open in ((told, False), (motion, False), (told, True)) if m is not None]
@@ -110,6 +123,14 @@ def model_remarks(model: Model, recording: Recording, window: tuple[float, float
     except (SymidError, np.linalg.LinAlgError, ValueError):
         pass  # a model or a motion about which equations of single moments say nothing
     return []
+
+
+def _slowed(witness: Witness) -> bool:
+    """Whether the unknowns have made up for a time in milliseconds: nothing that is known tells how fast all is."""
+    if witness.motion.step < SELDOM:
+        return False
+    as_given, as_read = (witness.of_bounds(Change(time=factor)) for factor in (1.0, 1e-3))
+    return bool(as_read.size and (as_given < TINY).all() and (as_read > USUAL).all() and (as_read <= 1.0).all())
 
 
 def _judged(model: Model, motion: Motion, law_open: bool) -> str | None:
@@ -168,9 +189,8 @@ def channel_changes(model: Model) -> Iterator[Change]:
         (1e3, "seconds but is labelled as milliseconds"),
     ):
         yield Change(f"the time column holds {said}", time=factor)
-    for a, b in combinations(outputs, 2):
-        if outputs[a] == outputs[b]:
-            yield Change(f"the columns of {a} and {b} are swapped", swapped=(a, b))
+    for a, b in (*combinations(outputs, 2), *combinations(inputs, 2)):
+        yield Change(f"the columns of {a} and {b} are swapped", swapped=(a, b))
 
 
 def _of_channels(channels: tuple[str, ...], unit: str) -> Iterator[Change]:

@@ -100,7 +100,7 @@ def synthetic_recording(
     channels = [y.channel for y in model.outputs.values()]
     _known("sensor", sensor_noise or {}, channels, model)
     start = dict.fromkeys(model.states, 0.0) | dict(initial_state or {})
-    run = simulator(model).simulate(
+    run = simulator(model.with_unstated_holds("linear")).simulate(
         parameters, start, time, inputs, noise=noise, substeps=max(1, int(np.ceil(step / 0.0051)))
     )
     if run.diverged:

@@ -74,7 +74,7 @@ class Simulator:
     """Forward simulation of one model, compiled once and cached by its equations.
 
     Residuals are solved for the rates at every stage and integrated by Runge-Kutta 4 (or
-    explicit Euler) with fixed substeps. Inputs are linear between samples, or cubic or held where they say so; noise is
+    explicit Euler) with fixed substeps. Inputs do between samples what they state (`Input.hold`); noise is
     constant over a sample interval, delayed states come from the run's own dense output.
 
     Parameters

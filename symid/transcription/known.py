@@ -9,6 +9,7 @@ import numpy as np
 
 from symid.codegen import Kernel
 from symid.codegen.interval import equations_over
+from symid.codegen.ode import UNSTATED
 from symid.codegen.symbols import own_points, used_data
 from symid.model import Model
 from symid.transcription.data import Measured
@@ -73,8 +74,10 @@ def input_at(model: Model, scheme: Scheme, m: Measured, name: str, abscissa: flo
     """(intervals,) an input, or time, at a point of each collocation interval."""
     if name == "t":
         return m.times(abscissa, refine)
-    hold, smooth = model.inputs[name].hold, "cubic" if scheme.order > 2 or refine > 1 else "linear"
-    return m.input_at(name, abscissa, refine, smooth if hold == "smooth" else hold)
+    hold = model.inputs[name].hold
+    if hold == "smooth" and scheme.order <= 2 and refine == 1:  # it sees the samples alone, as in the article
+        hold = "linear"
+    return m.input_at(name, abscissa, refine, UNSTATED.get(hold, hold))
 
 
 def values_of(model: Model) -> np.ndarray:

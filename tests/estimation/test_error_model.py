@@ -187,7 +187,7 @@ def test_inputs_may_have_gone_through_the_filter_too():
 
 def test_sparser_outputs_keep_all_of_the_inputs():
     (segment,) = data_of(recorded(0)).segments
-    sparse, sim = segment.sparser(5), simulator(cart())
+    sparse, sim = segment.sparser(5), simulator(cart().with_unstated_holds("linear"))  # which does not know its ends
     whole = segment.simulate(sim, TRUE, np.zeros(2), substeps=2)
     part = sparse.simulate(sim, TRUE, np.zeros(2), substeps=10)
     np.testing.assert_allclose(part.y, whole.y[::5], atol=1e-12)

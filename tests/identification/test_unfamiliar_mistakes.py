@@ -109,6 +109,9 @@ def test_mistakes_behind_a_gear_are_named(seed):
         channels = dict(recording.channels) | {channel: factor * recording[channel]}
         found = remarks(drawn.model, replace(recording, channels=channels))
         assert any(words in text for text in found), (words, found)
+    swapped = {"shaft": recording["tacho"], "tacho": recording["shaft"]}
+    found = remarks(drawn.model, replace(recording, channels=dict(recording.channels) | swapped))
+    assert any("the columns of shaft and tacho are swapped" in text for text in found), found
     for factor, words in ((10.0, "inertia is 10 times too large"), (0.1, "inertia is 10 times too small")):
         found = remarks(drawn.model.with_constants(inertia=2e-4 * factor), recording)
         assert any(words in text for text in found), (words, found)
@@ -133,6 +136,31 @@ def test_masses_that_the_parameters_nearly_make_up_for_are_named(seed):
     for name, factor in (("mb", 10.0), ("mb", 0.1), ("mw", 10.0), ("mw", 0.1)):
         (found,) = remarks(drawn.model.with_constants(**{name: factor * drawn.model[name].value}), recording)
         assert f"{name} is 10 times too {'large' if factor > 1 else 'small'}" in found
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_milliseconds_that_the_parameters_make_up_for_are_named(seed):
+    """Masses alone are known: stiffness a million times smaller explains a road that is passed in an hour and more."""
+    drawn = quarter_car(np.random.default_rng([seed, 77]))
+    (recording,) = drawn.recordings
+    (found,) = remarks(drawn.model, replace(recording, time=1e3 * recording.time))
+    assert "the time column holds milliseconds but is labelled as seconds" in found
+
+
+def test_swapped_inputs_are_named():
+    """A room between a radiator and the street, of which only the temperature of the air is measured."""
+    rng, t = np.random.default_rng(43), np.arange(0, 3 * 86400, 300.0)
+    m = declared("room", {"air": "K"}, {"loss": ("W/K", (0, 1e3))}, {"heat": "W", "outside": "K"})
+    m.capacity = si.Constant(2e6, unit="J/K")
+    m.warms = si.Equation(m.capacity * m.air.dot - m.heat - m.loss * (m.outside - m.air))
+    m.seen = si.Output(m.air)
+    given = {"heat": 1500 + smooth(rng, t, 3e-5, 400.0), "outside": 278 + smooth(rng, t, 2e-5, 3.0)}
+    drawn = system(m, {"loss": 90.0}, [([292.0], t, given)], 0.005, rng)
+    (recording,) = drawn.recordings
+    assert remarks(m, recording) == []
+    swapped = {"heat": recording["outside"], "outside": recording["heat"]}
+    (found,) = remarks(m, replace(recording, channels=dict(recording.channels) | swapped))
+    assert "the columns of heat and outside are swapped" in found
 
 
 def test_a_length_in_millimetres_is_named():

@@ -66,7 +66,7 @@ def test_collocation_with_a_lag_converges_to_the_simulation(model):
     values, worst = GAINS | {"feedback_delay": 0.0837}, []
     for rate in (50.0, 100.0, 200.0):
         time = np.arange(round(6 * rate) + 1) / rate
-        push = np.sin(3 * time) * np.minimum(time, 1) ** 3
+        push = np.sin(3 * time) * (1 - np.exp(-2 * time)) ** 3
         run = simulator(model).simulate(
             values,
             dict.fromkeys(model.states, 0.0),

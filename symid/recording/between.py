@@ -18,7 +18,9 @@ def slopes(time: np.ndarray, u: np.ndarray) -> np.ndarray:
     return np.vstack([line[:1] - bends[:1] * h[0], line[:-1] + bends * h[:-1], line[-1:] + bends[-1:] * h[-1]])
 
 
-def bend(f: float, h: float, first: np.ndarray, last: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def bend(
+    f: np.ndarray | float, h: np.ndarray | float, first: np.ndarray, last: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """What Hermite's cubic adds to the straight line at the part `f` of an interval of `h` seconds, and its slope.
 
     Parameters
@@ -27,3 +29,11 @@ def bend(f: float, h: float, first: np.ndarray, last: np.ndarray) -> tuple[np.nd
     """
     g = 1 - f
     return h * f * g * (g * first - f * last), g * (1 - 3 * f) * first - f * (2 - 3 * f) * last
+
+
+def cubic(time: np.ndarray, u: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """(K,) the curve through the (N,) samples `u` at other times within them."""
+    k = np.clip(np.searchsorted(time, at, side="right") - 1, 0, len(time) - 2)
+    slope, h = slopes(time, u[:, None])[:, 0], time[k + 1] - time[k]
+    f, line = (at - time[k]) / h, (u[k + 1] - u[k]) / h
+    return u[k] + f * h * line + bend(f, h, slope[k] - line, slope[k + 1] - line)[0]
