@@ -38,7 +38,8 @@ AS_GOOD = 1.1
 """Changes that leave this many times as much as the best are told beside it: the motion cannot tell them apart."""
 SELDOM, TINY, USUAL = 0.5, 1e-4, 1e-3
 """Seconds between samples from on which milliseconds may have been taken for seconds, and the shares of their upper
-bounds below which all parameters are then, and above which all would be. Stiffness grows by a million."""
+bounds below which all parameters are then, and above which all would be. Stiffness grows by a million, damping by a
+thousand: one of them alone may have wide bounds (a torsion pendulum of half a minute)."""
 SLOW_MOTION = (
     "every parameter that explains the motion is below a ten thousandth of its upper bound, and none would be if the "
     "time column holds milliseconds but is labelled as seconds: check that first"
@@ -130,7 +131,7 @@ def _slowed(witness: Witness) -> bool:
     if witness.motion.step < SELDOM:
         return False
     as_given, as_read = (witness.of_bounds(Change(time=factor)) for factor in (1.0, 1e-3))
-    return bool(as_read.size and (as_given < TINY).all() and (as_read > USUAL).all() and (as_read <= 1.0).all())
+    return bool(as_read.size > 1 and (as_given < TINY).all() and (as_read > USUAL).all() and (as_read <= 1.0).all())
 
 
 def _judged(model: Model, motion: Motion, law_open: bool) -> str | None:
