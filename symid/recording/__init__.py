@@ -9,6 +9,7 @@ from symid.recording.read import read_recording
 from symid.recording.recording import Recording
 from symid.recording.smooth import smooth_states, spline_of
 from symid.recording.spikes import find_dropouts, find_spikes
+from symid.recording.turns import find_wraps, unwrap
 
 __all__ = [
     "Recording",
@@ -16,6 +17,7 @@ __all__ = [
     "fill_gaps",
     "find_dropouts",
     "find_spikes",
+    "find_wraps",
     "join",
     "joint_angles",
     "load_columns",
@@ -27,4 +29,5 @@ __all__ = [
     "resample",
     "smooth_states",
     "spline_of",
+    "unwrap",
 ]

@@ -18,6 +18,7 @@ _MOMENT = re.compile(
 )
 _DOTTED = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})")
 """Day, month and year: what is written with points is never in another order."""
+_DAY = 86400.0
 
 
 def is_moment(cell: str) -> bool:
@@ -29,7 +30,8 @@ def seconds_of(cells: Sequence[Any]) -> FloatArray | None:
     """Seconds since the first of dates and times of day; None where there are others, or all are the same.
 
     Dates as ``2024-05-01``, with or without a zone, or ``1.5.2024``; others (``5/1/2024``) could be read in two ways,
-    and are taken where all are the same day, of which only the time of day is used. Also a time of day without a date.
+    and are taken where all are the same day, of which only the time of day is used. Also a time of day without a date,
+    which goes on behind midnight.
     """
     if not len(cells) or (isinstance(cells[0], str) and not is_moment(cells[0])):
         return None
@@ -60,8 +62,15 @@ def _by_parts(cells: Sequence[Any]) -> FloatArray | None:
     except ValueError:  # a 31st of February, a 25th hour
         return None
     if len(dates) == len(cells):
-        return np.array([86400.0 * (d - dates[0]).days + s for d, s in zip(dates, moments, strict=True)])
-    return np.array(moments) if len(set(texts)) == 1 else None
+        return np.array([_DAY * (d - dates[0]).days + s for d, s in zip(dates, moments, strict=True)])
+    if len(set(texts)) != 1:
+        return None
+    return np.array(moments) if texts[0] else _past_midnight(np.array(moments))
+
+
+def _past_midnight(moments: FloatArray) -> FloatArray:
+    """Times of day [s] that go on where a day ends: where they fall by more than half of one."""
+    return moments + _DAY * np.cumsum(np.diff(moments, prepend=moments[0]) < -_DAY / 2)
 
 
 def _time_of_day(m: re.Match[str]) -> float:

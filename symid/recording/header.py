@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import islice
@@ -115,6 +116,10 @@ def no_time(names: list[str], columns: list[Column], refused: bool) -> list[str]
     counting = next((name for name in names if name.lower() in ("frame", "frame#", "sample")), None)
     if counting:
         return [f"there is no time column (time_s), and '{counting}' counts samples; add one: {counting} / rate"]
-    close = nearest("time_s", names, 1)
-    hint = f"; '{close[0]}' may be meant" if close else f"; columns: {', '.join(names[:MOST_NAMED])}"
+    close = nearest("time_s", names, 1) or [n for n in names if "time" in re.split(r"[\W_]+", n.lower())]
+    hint = (
+        f"; '{close[0]}' may be meant: read_recording(columns={{'time_s': '{close[0]}', ...}})"
+        if close
+        else f"; columns: {', '.join(names[:MOST_NAMED])}"
+    )
     return ["there is no time column (time_s)" + hint]

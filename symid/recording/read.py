@@ -4,6 +4,7 @@ import os
 import warnings
 from collections.abc import Mapping
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,8 @@ from symid.files import a_file
 from symid.recording.header import faults_of_text, file_rows, is_dated, read_header, require_file
 from symid.recording.names import CELSIUS, Column
 from symid.recording.recording import Recording
+from symid.recording.remarks import remarks_on
 from symid.recording.rows import LABELS, Table, with_missing, without_repeats
-from symid.recording.spikes import find_dropouts, find_spikes
 from symid.recording.timing import on_grid, time_fault
 from symid.units import FloatArray, IntArray
 
@@ -26,15 +27,6 @@ PLAIN = (".csv", ".txt", "")
 EPOCH = 946684800.0, 4102444800.0
 """Seconds since 1970 of the years 2000 and 2100: a first time between them is a date, not a duration."""
 _CLOCKS = {1e-3: "ms", 1e-6: "us", 1e-9: "ns"}
-_CURES = {
-    "gap": "read with allow_gaps=True (--allow-gaps on the command line), which gives what is missing no weight "
-    "(or mark the parts in a 'segment' column)",
-    "uneven": "read with allow_gaps=True (--allow-gaps on the command line)",
-    "repeated": "remove the row, or mark separate runs in a 'segment' column (a row that repeats the one before in "
-    "every cell is left out with allow_gaps=True, --allow-gaps)",
-    "backwards": "sort the rows, or mark separate runs in a 'segment' column",
-    "single": "record more, or remove the row",
-}
 
 
 def read_recording(
@@ -91,7 +83,7 @@ def read_recording(
     recording, rows = _assemble(path, found, table, allow_gaps)
     if left:
         recording = recording.noted(f"left out, their unit or length is another: {', '.join(left)}")
-    remarks = _spike_remarks(path, found, recording, rows)
+    remarks = [f"{path}: {text}" for text in remarks_on(found, recording, rows, partial(_place, path))]
     for remark in remarks:
         warnings.warn(remark, RecordingWarning, stacklevel=2)
     return recording.noted(*(f"warning: {remark}" for remark in remarks))
@@ -210,7 +202,7 @@ def _checked_time(
             largest = max(largest, change)
         elif not (allow_gaps and fault.kind in ("gap", "uneven")):
             row = rows[run.start + fault.sample] + 1
-            raise RecordingError(f"{path}: column '{text}', {_place(path, row)}: {fault.text}; {_CURES[fault.kind]}")
+            raise RecordingError(f"{path}: column '{text}', {_place(path, row)}: {fault.text}; {fault.cure}")
     if largest == 0.0:
         return time, None
     return time, f"times moved onto an even grid, by at most {largest:.2g} s"
@@ -241,43 +233,3 @@ def _place(path: Path, row: int, more: str = "") -> str:
     if not _has_reader(path):
         facts.insert(0, f"line {next(line for place, (line, _) in enumerate(file_rows(path)) if place == row)}")
     return f"row {row} ({', '.join(facts)})" if facts else f"row {row}"
-
-
-def _spike_remarks(path: Path, columns: list[Column], recording: Recording, rows: IntArray) -> list[str]:
-    """What stands out in the channels, by row."""
-    texts = {column.name: column.text for column in columns}
-    remarks = []
-
-    def shown(name: str, *values: float) -> tuple[str, ...]:  # as they stand in the file
-        unit = next(c.unit for c in columns if c.name == name and c.unit)
-        zero = CELSIUS if unit.text == "degC" else 0.0
-        return (*(f"{(value - zero) / unit.factor:.4g}" for value in values), unit.text)
-
-    for name, values in recording.channels.items():
-        gone = [(run.start + d.start, run.start + d.stop) for run in recording.runs for d in find_dropouts(values[run])]
-        if gone:
-            first, last = gone[0]
-            more = f", and at {len(gone) - 1} more places" if gone[1:] else ""
-            remarks.append(
-                f"{path}: column '{texts[name]}', {_place(path, rows[first], f'time {recording.time[first]:g} s')} to "
-                f"row {rows[last - 1]}{more}: jumps to {' '.join(shown(name, values[first]))} and back, as where a "
-                "value is missing; leave such cells empty and read with allow_gaps=True (--allow-gaps)"
-            )
-        spikes = [
-            (float(ratio), run.start + int(i))
-            for run in recording.runs
-            for i, ratio in zip(*find_spikes(values[run]), strict=True)
-        ]
-        if spikes:
-            ratio, worst = max(spikes)
-            others = sorted(rows[i] for _, i in spikes if i != worst)
-            more = f"; likewise row {', '.join(map(str, others[:5]))}" if others else ""
-            more += f" and {len(others) - 5} more" if others[5:] else ""
-            there, before, after, unit = shown(name, *values[[worst, worst - 1, worst + 1]])
-            remarks.append(
-                f"{path}: column '{texts[name]}', "
-                f"{_place(path, rows[worst], f'time {recording.time[worst]:g} s')}: "
-                f"{there} {unit} stands out between {before} and {after}, {ratio:.0f} times more "
-                f"than is usual there{more}; keep it out of the window, or correct it"
-            )
-    return remarks

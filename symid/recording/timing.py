@@ -11,15 +11,33 @@ JITTER = 0.01
 MOST_SAMPLES = 10**8
 """More samples than this are rather a fault of the time column."""
 _ROUNDING_LIMIT = 0.1  # of a step: times rounded more coarsely than this are refused as uneven
+_HOUR = 3600.0
+_CURES = {
+    "gap": "read with allow_gaps=True (--allow-gaps on the command line), which gives what is missing no weight "
+    "(or mark the parts in a 'segment' column)",
+    "uneven": "read with allow_gaps=True (--allow-gaps on the command line)",
+    "repeated": "remove the row, or mark separate runs in a 'segment' column (a row that repeats the one before in "
+    "every cell is left out with allow_gaps=True, --allow-gaps)",
+    "coarse": "write the times with their fractions of a second, or count them from the sampling rate",
+    "backwards": "sort the rows, mark separate runs in a 'segment' column, or add its period to a counter that began "
+    "again",
+    "clock": "write the times in UTC, with their zone, or as seconds from the first sample",
+    "single": "record more, or remove the row",
+}
 
 
 @dataclass(frozen=True)
 class TimeFault:
     """What is wrong with the time column, at which sample (index of the later of the two)."""
 
-    kind: str  # "repeated", "backwards", "gap", "uneven", "single"
+    kind: str  # one of _CURES
     sample: int
     text: str
+
+    @property
+    def cure(self) -> str:
+        """What to do about it."""
+        return _CURES[self.kind]
 
 
 def sampling_interval_of(time: FloatArray, runs: tuple[slice, ...]) -> float | None:
@@ -69,9 +87,14 @@ def time_fault(time: FloatArray) -> TimeFault | None:
     late = np.flatnonzero(steps <= 0)
     if late.size:
         i = int(late[0]) + 1
+        if steps[i - 1] == 0 and usual == 0:
+            return TimeFault("coarse", i, f"time {time[i]:.15g} s is repeated, as most times are")
         if steps[i - 1] == 0:
             return TimeFault("repeated", i, f"time {time[i]:.15g} s is repeated")
-        return TimeFault("backwards", i, f"time goes back from {time[i - 1]:.15g} s to {time[i]:.15g} s")
+        back = f"time goes back from {time[i - 1]:.15g} s to {time[i]:.15g} s"
+        if abs(steps[i - 1] + _HOUR - usual) < usual:
+            return TimeFault("clock", i, f"{back}, by an hour as where clocks are set to winter time")
+        return TimeFault("backwards", i, back)
     gaps = np.flatnonzero(steps > 1.5 * usual)
     if gaps.size:
         i = int(gaps[0]) + 1
@@ -80,6 +103,8 @@ def time_fault(time: FloatArray) -> TimeFault | None:
             f"time jumps from {time[i - 1]:.15g} s to {time[i]:.15g} s, about {missing} sample(s) of "
             f"{usual:g} s are missing"
         )
+        if abs(steps[i - 1] - _HOUR - usual) < usual:
+            text += " (an hour, as where clocks are set to summer time: then write the times in UTC or with their zone)"
         return TimeFault("gap", i, text)
     if grid_step(time) is None:
         step, departure = _departure(time)
