@@ -12,6 +12,7 @@ import numpy as np
 
 from symid.errors import SymidError
 from symid.identification.elsewhere import said_of_optimum
+from symid.identification.held import said_of_inputs
 from symid.identification.integrate import Reintegration
 from symid.nlp import OptimalityReport, check_optimality
 from symid.threads import one_blas_thread
@@ -79,7 +80,7 @@ def verify(solution: Solution) -> Verification:
     if departs:
         coarse = mesh is not None and bool((mesh["std_errors"].abs() > COARSE).any())
         sentences.append(_said_of_departure(solution, departures, coarse))
-    sentences += said_of_optimum(solution) + _said_of_mesh(solution, mesh)
+    sentences += said_of_optimum(solution) + said_of_inputs(solution) + _said_of_mesh(solution, mesh)
     return Verification(mesh, departures, departs, optimality, tuple(sentences))
 
 
