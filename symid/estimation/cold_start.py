@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.data import Data
+from symid.estimation.data import Data, observed_state
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.kalman import linearised_along
 from symid.model import Model
@@ -32,7 +32,7 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -
     values = {k: _first(p) for k, p in model.parameters.items()} | {
         k: v for k, v in (start or {}).items() if k in model.parameters
     }
-    initial = np.array([_observed_state(model, e.recorded[0]) for e in data.segments])
+    initial = np.array([observed_state(model, e.recorded[0]) for e in data.segments])
     fitter = Fitter(model, data)
     if not fitter.driven:
         return _grow(model, data, values, initial)
@@ -71,12 +71,6 @@ def _first(parameter) -> float:
     if low <= 0 <= high:
         return 0.0
     return float(0.5 * (low + high)) if np.isfinite(low + high) else float(low if np.isfinite(low) else high)
-
-
-def _observed_state(model: Model, recorded: np.ndarray) -> list[float]:
-    """Each state that a sensor shows as it is, from the sensor; the others zero."""
-    shown = {str(y.expr): v for y, v in zip(model.outputs.values(), recorded, strict=True)}
-    return [float(shown.get(name, 0.0)) for name in model.states]
 
 
 def _equivalent_noise(sim, values, initial, data: Data) -> np.ndarray:

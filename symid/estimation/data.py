@@ -155,7 +155,7 @@ class Data:
     driven : whether random forces act at the model's noises (then samples correct the state).
     rounding : (m,) step of each output's encoder, 0 for none, SI.
     memory : samples that the noise remembers: the order of the autoregression that whitens the innovations.
-    filter : what the recording was filtered with and is undone.
+    filter : what the recording was filtered with and is undone. inputs_filtered : whether the inputs were, too.
     ratios_free : whether the ratios of the sensors' noises are estimated with the model: where little is left above the
         motion, no spectrum tells them.
     pace : of the motion [s], whatever is stated in seconds is so many times longer; `pace_of` the segments if left out.
@@ -167,6 +167,7 @@ class Data:
     rounding: np.ndarray | float = 0.0
     memory: int = 0
     filter: ZeroPhase | None = None
+    inputs_filtered: bool = False
     ratios_free: bool = False
     pace: float = 0.0
 
@@ -309,6 +310,12 @@ def segments_between(
             f"from {time[0]:g} s to {time[-1]:g} s"
         )
     return tuple(found)
+
+
+def observed_state(model: Model, recorded: np.ndarray) -> list[float]:
+    """Each state that a sensor shows as it is, from the sensor; the others zero."""
+    shown = {str(y.expr): v for y, v in zip(model.outputs.values(), recorded, strict=True)}
+    return [float(shown.get(name, 0.0)) for name in model.states]
 
 
 def swing(segment: Segment) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.data import Data
+from symid.estimation.data import Data, observed_state
 from symid.estimation.fit import Fit, Fitter
 
 
@@ -93,13 +93,7 @@ def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
         and len(fit.innovations[0]) == len(data.segments[0].time)
     ):
         return [fit.initial]
-    shown = {str(y.expr): i for i, y in enumerate(fit.model.outputs.values())}
-    plain = np.zeros((len(data.segments), fit.initial.shape[1]))
-    for k, e in enumerate(data.segments):
-        for j, s in enumerate(fit.model.states):
-            if s in shown:
-                plain[k, j] = e.recorded[0, shown[s]]
-                continue
+    plain = np.array([observed_state(fit.model, e.recorded[0]) for e in data.segments])
     return [plain, *_short_fits(fit, data, plain)]
 
 

@@ -178,7 +178,22 @@ def _undone(
             f"the recording looks as if it had gone through {filter}: then no piece of it holds {FEWEST} samples that "
             "say something new; give longer pieces, or the filter that it went through"
         )
-    return replace(plain, segments=sparse, filter=filter, sensor_noise=plain.sensor_noise / np.sqrt(ratio))
+    noise = plain.sensor_noise / np.sqrt(ratio)
+    return replace(plain, segments=sparse, filter=filter, inputs_filtered=inputs, sensor_noise=noise)
+
+
+def of_window(model: Model, recording: Recording, part, length: float | None, data: Data) -> Data:
+    """Another window of the recording that `data` are of, with the same error model.
+
+    Raises
+    ------
+    DiagnosisError : too little of it is left where a filter is undone.
+    """
+    if data.filter is None:
+        return data.with_segments(segments_of(model, recording, part, length))
+    ratio, known = data.segments[0].ratio, not data.cutoff_free
+    fine = replace(data, sensor_noise=data.sensor_noise * np.sqrt(ratio))
+    return _undone(model, recording, part, length, fine, data.filter, data.inputs_filtered, known, ratio)
 
 
 def restored(model: Model, recording: Recording, data: Data) -> Recording:

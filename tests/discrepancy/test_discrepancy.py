@@ -14,7 +14,6 @@ from symid.cases import read_case
 from symid.discrepancy import Suspect, diagnose, suspects
 from symid.discrepancy.locate.remainder import remainder
 from symid.discrepancy.model.hypothesis import hypothesis
-from symid.discrepancy.name.explore import explore
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.certain import sure
 from symid.errors import DiagnosisError
@@ -200,16 +199,6 @@ def test_physics_of_no_list_is_unexplained_and_placed():
     odd = Law("displaced_damping", "joint", (LawParameter("size_Ns_m3", "N*s/m^3"),), _displaced_damping)
     finding_ = finding(recorded(7, odd.at("cart"), {"size_Ns_m3": 4000.0}))
     assert finding_.verdict == "unexplained" and finding_.effects[0].location == "cart"
-
-
-def test_hopeless_suspects_gain_nothing():
-    data = data_of(recorded(8))
-    fit = fit_model(cart(), data)
-    found = explore(fit, data, few())
-    assert found and max(c.score for c in found) < 5
-    # What the model's own unknowns say already is never an explanation.
-    own = [c for c in found if c.suspect.term.name in ("viscous_friction", "torsional_spring")]
-    assert all(abs(c.log_ratio) < 1.0 for c in own)
 
 
 def test_the_answer_is_in_the_stated_format(tmp_path):

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from driven_cart import cart
+from scipy.signal import lfilter
 
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import suspects
@@ -12,6 +13,7 @@ from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove import certain
 from symid.discrepancy.prove.held_out import compare
 from symid.discrepancy.prove.nulls import _signs, false_alarm_probability
+from symid.discrepancy.prove.opponents import refuted
 from symid.estimation.free_run import FreeRun
 from symid.estimation.independence import independent_share
 
@@ -52,6 +54,17 @@ def test_what_is_too_short_says_how_long_it_would_have_to_be():
     proof = compare(run(common), run(common * np.repeat(rng.lognormal(-0.1, 0.5, 10), 150)))
     if not proof.confirmed and proof.margin > 0:
         assert proof.needed is None or proof.needed > proof.seconds
+
+
+def test_values_that_predict_best_stay_unless_the_window_refutes_them():
+    rng = np.random.default_rng(0)
+    noise = rng.standard_normal(2000)
+    predictive, followed, met = (run(noise * s) for s in (1.0, 0.998, 0.9))
+    assert not refuted(predictive, followed, unknowns=6) and refuted(predictive, met, unknowns=6)
+    # The same fall of a slow error, of which few samples are independent, is what a fit by free runs does to it.
+    slow = lfilter([1.0], [1.0, -0.99], noise)
+    assert not refuted(run(slow), run(0.9 * slow), unknowns=6)
+    assert refuted(run(np.full(2000, np.inf)), run(noise), unknowns=6)
 
 
 def test_the_tail_of_the_largest_of_many():

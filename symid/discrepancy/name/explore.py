@@ -14,6 +14,7 @@ from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.scan import scan
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
+from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
 
@@ -30,9 +31,12 @@ MOMENTS = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Start:
+    """Where the fit of a suspect begins: at `values`, all else as fitted, or with all else from nothing (`afresh`)."""
+
     forecast: float
     suspect: Suspect
     values: dict[str, float]
+    afresh: bool = False
 
 
 def explore(
@@ -125,7 +129,9 @@ def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> l
     finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
     finite = [v for here, v in finite if np.isfinite(here)][:2]
     forecast = max([s.forecast for s in found] + [_promise(fitter, fit, suspect)])
-    return found[:1] + [Start(forecast, suspect, v) for v in finite]
+    begun = [Start(forecast, suspect, v) for v in finite]
+    # Values that a wrong model liked may not hold it together with any size of what it lacks.
+    return found[:1] + (begun or [Start(forecast, suspect, v, afresh=True) for v in suspect.starts(off=False)[:1]])
 
 
 def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
@@ -143,15 +149,19 @@ def _promise(fitter: Fitter, fit: Fit, suspect: Suspect) -> float:
 
 
 def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothesis | None:
-    suspect = start.suspect
-    fitter = Fitter(fit.model.with_term(suspect.term), data, near=fit)
+    suspect, model = start.suspect, fit.model.with_term(start.suspect.term)
+    fitter = Fitter(model, data, near=fit)
     try:
-        new = fitter.fit(
-            fit.values | suspect.named(start.values),
-            extended(fit.initial, fitter.sim),
-            fit.process,
-            iterations,
-            errors=iterations >= 40,
+        new = (
+            fit_model(model, data, suspect.named(start.values))
+            if start.afresh
+            else fitter.fit(
+                fit.values | suspect.named(start.values),
+                extended(fit.initial, fitter.sim),
+                fit.process,
+                iterations,
+                errors=iterations >= 40,
+            )
         )
     except SymidError:
         return None

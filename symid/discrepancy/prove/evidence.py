@@ -15,13 +15,15 @@ from symid.discrepancy.prove.certain import beyond_chance, honest
 from symid.discrepancy.prove.elsewhere import elsewhere
 from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
 from symid.discrepancy.prove.nameless import Nameless, improved, nameless
-from symid.discrepancy.prove.held_out import Proof, compare
+from symid.discrepancy.prove.held_out import Proof, compare, compare_forecasts
 from symid.discrepancy.prove.nulls import largest, null_maxima
 from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_values
 from symid.discrepancy.task import Task
+from symid.errors import DiagnosisError
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
-from symid.estimation.measurement import away_from_ends, restored
+from symid.estimation.forecast import forecasts
+from symid.estimation.measurement import away_from_ends, of_window, restored
 from symid.estimation.free_run import FreeRun
 
 
@@ -80,13 +82,25 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
         survivals(found.suspects, found.fit, base, data, white),
         () if white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking)),
         runs,
-        compare(runs["baseline_heldout"], runs["augmented_heldout"])
-        if "augmented_heldout" in runs and final is not base
-        else None,
+        _proof(final, base, task, data, runs),
         unnamed,
         final,
         elsewhere(found.fit, windows["heldout"], runs) if "heldout" in windows and not nameless_too else None,
     )
+
+
+def _proof(final: Fit, base: Fit, task: Task, data: Data, runs: dict[str, FreeRun]) -> Proof | None:
+    """What the held-out data say of the improved model; None without such data, or where nothing was improved."""
+    if task.held_out is None or final is base:
+        return None
+    free = compare(runs["baseline_heldout"], runs["augmented_heldout"])
+    if base.kalman_gain is None:
+        return free
+    try:
+        held = of_window(task.model, task.recording, task.held_out, task.segment_length, data)
+        return compare_forecasts(forecasts(base, held), forecasts(final, held), free)
+    except DiagnosisError:
+        return free  # too little of the window is left where a filter is undone
 
 
 def near_noise(found: Hypothesis, data: Data) -> bool:

@@ -1,13 +1,20 @@
-"""Do data that were not used agree? Two free runs of the same stretches, compared block by block."""
+"""Do data that were not used agree? Two free runs, or two sets of forecasts, of the same data, block by block.
+
+Where random forces act, a free run holds all that they did, which buries what is compared: models are then judged by
+the log-density that each gave to the samples, each before it was seen (Dawid 1984, a proper score: Gneiting & Raftery
+2007). Forecasts look but a step ahead, so that they may take what a measurement did for physics: the free runs must
+not speak against them.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.special import stdtr, stdtrit
 
 from symid.discrepancy.policy import POLICY
+from symid.estimation.forecast import Forecasts
 from symid.estimation.free_run import FreeRun, moves
 
 
@@ -17,10 +24,11 @@ class Proof:
 
     Attributes
     ----------
-    margin : part by which the rms falls, negative where it grows.
+    margin : part by which the rms of the errors falls, negative where it grows.
     probability : that it falls in the long run, from the scatter of the blocks.
     blocks, seconds : how many blocks there are, and how much time they cover.
     needed : seconds of such data that would confirm a fall like this one; None where there is none.
+    free_runs : of forecasts, what free runs say; None of free runs themselves.
     """
 
     margin: float
@@ -28,22 +36,44 @@ class Proof:
     blocks: int
     seconds: float
     needed: float | None
+    free_runs: Proof | None = None
 
     @property
     def confirmed(self) -> bool:
-        return self.margin > 0 and self.probability >= POLICY.confirm
+        return self.margin > 0 and self.probability >= POLICY.confirm and not self.contradicted
+
+    @property
+    def contradicted(self) -> bool:
+        """Whether free runs become worse by more than chance does."""
+        return self.free_runs is not None and self.free_runs.probability <= 1 - POLICY.confirm
 
 
 def compare(before: FreeRun, after: FreeRun) -> Proof:
     """Paired comparison of two free runs of the same data.
 
-    The logarithms of the ratios of mean square errors of the blocks, which do not depend on how much moves in
-    each, have a mean whose Student t counts neighbouring blocks as far as they are independent.
+    The logarithms of the ratios of mean square errors of the blocks do not depend on how much moves in each.
     """
     cut = _blocks(before)
     ratios = np.array([np.log(_power(before, b) / _power(after, b)) for b in cut])
-    margin = 1.0 - after.relative / before.relative
-    seconds = sum(float(before.time[b][-1] - before.time[b][0]) for b in cut)
+    return _proof(ratios, 1.0 - after.relative / before.relative, before, cut)
+
+
+def compare_forecasts(before: Forecasts, after: Forecasts, free_runs: Proof | None) -> Proof:
+    """Paired comparison of the forecasts of two models of the same data.
+
+    The margin is that of the geometric mean of the outputs' errors, of which the log-density is the logarithm.
+    """
+    cut = _blocks(before)
+    with np.errstate(invalid="ignore"):
+        gains = after.density - before.density
+        ratios = np.array([float(gains[b].mean()) for b in cut])
+        margin = 1.0 - float(np.exp(-gains.mean() / before.outputs))
+    return replace(_proof(ratios, margin, before, cut), free_runs=free_runs)
+
+
+def _proof(ratios: np.ndarray, margin: float, run: FreeRun | Forecasts, cut: list[slice]) -> Proof:
+    """From one log-ratio a block: their mean has a Student t that counts neighbours as far as they are independent."""
+    seconds = sum(float(run.time[b][-1] - run.time[b][0]) for b in cut)
     n, mean = len(ratios), float(ratios.mean())
     if n < 2 or not np.isfinite(ratios).all():
         return Proof(margin, 0.5, n, seconds, None)
@@ -53,9 +83,8 @@ def compare(before: FreeRun, after: FreeRun) -> Proof:
     if spread < 1e-12:
         return Proof(margin, 0.5 if mean == 0 else float(mean > 0), n, seconds, None)
     probability = float(stdtr(effective - 1, mean / spread * np.sqrt(effective)))
-    return Proof(
-        margin, probability, n, seconds, _needed(mean / spread, seconds / effective) if mean > 0 < margin else None
-    )
+    needed = _needed(mean / spread, seconds / effective) if mean > 0 < margin else None
+    return Proof(margin, probability, n, seconds, needed)
 
 
 def _needed(size: float, each: float) -> float:
@@ -66,7 +95,7 @@ def _needed(size: float, each: float) -> float:
     return blocks * each
 
 
-def _blocks(run: FreeRun) -> list[slice]:
+def _blocks(run: FreeRun | Forecasts) -> list[slice]:
     """Segments, cut where they are longer than a block."""
     found, ends = [], np.cumsum(run.lengths)
     for a, b in zip([0, *ends[:-1]], ends, strict=True):

@@ -6,13 +6,17 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.special import fdtrc
 
 from symid.errors import SymidError
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit, Fitter
-from symid.estimation.free_run import FreeRun, free_run
+from symid.estimation.free_run import FreeRun, free_run, moves
+from symid.estimation.independence import independent_share
 
 MOST_ITERATIONS = 30
+REFUTED = 0.01
+"""Probability by chance below which the values that predict best are given up for those that simulate best."""
 
 
 def with_values(fit: Fit, values: dict[str, float]) -> Fit:
@@ -43,19 +47,37 @@ def free_runs(
 ) -> dict[str, FreeRun]:
     """Free runs before and after of each window: ``baseline_train``, ``augmented_heldout`` and so on.
 
-    Before is whatever of `given` is best on that very window; after is what is best on the fitted one.
+    Before is whatever of `given` is best on that very window. After is the first of `better`, unless the fitted window
+    refutes it: what was fitted by free runs follows the random forces of that window, too.
     """
     before = {
         key: [free_run(f, data, settling if key == "train" else 0.0) for f in given] for key, data in windows.items()
     }
     after = [free_run(f, windows["train"], settling) for f in better]
-    best = min(range(len(after)), key=lambda i: _error(after[i]))
+    unknowns = len(better[0].values)
+    best = min(
+        (i for i in range(len(after)) if not i or refuted(after[0], after[i], unknowns)), key=lambda i: _error(after[i])
+    )
     runs = {f"baseline_{key}": min(found, key=_error) for key, found in before.items()} | {
         "augmented_train": after[best]
     }
     if "heldout" in windows:
         runs["augmented_heldout"] = free_run(better[best], windows["heldout"])
     return runs
+
+
+def refuted(run: FreeRun, fitted: FreeRun, unknowns: int) -> bool:
+    """Whether a run `fitted` to the window leaves less than chance explains (F test; Seber & Wild 1989, 5.3).
+
+    As many samples count as are independent in what is left.
+    """
+    if not np.isfinite(run.relative):
+        return True
+    left = np.split((fitted.simulated - fitted.recorded) / moves(fitted.recorded), np.cumsum(fitted.lengths)[:-1])
+    free = independent_share(left) * fitted.recorded.size - unknowns
+    ratio = ((run.relative / fitted.relative) ** 2 - 1) * free / unknowns if free > 0 else 0.0
+    print("F", ratio, free, unknowns, fdtrc(unknowns, max(free, 1), max(ratio, 0)))
+    return free > 0 and float(fdtrc(unknowns, free, max(ratio, 0.0))) < REFUTED
 
 
 def _error(run: FreeRun) -> float:

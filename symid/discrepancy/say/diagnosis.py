@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from html import escape
 from importlib import import_module
 from math import isfinite
@@ -170,7 +170,7 @@ class Diagnosis:
             ],
             "confirmed": self.confirmed,
             "false_alarm_probability": self.false_alarm_probability,
-            "proof": None if self.proof is None else vars(self.proof),
+            "proof": None if self.proof is None else asdict(self.proof),
             "fit": {"baseline": self._errors("baseline"), "augmented": self._errors("augmented")},
             "halves": [self._half(s) for s in self.halves],
             "verdicts_of_halves": [

@@ -225,8 +225,15 @@ def _proof(s: Story) -> list[str]:
         return ["In the held-out window nothing moves, so that it proves nothing.", *_chance(s)]
     if not s.effects or np.array_equal(before, after) or s.proof is None:
         return [f"The error of free simulation on the held-out window is {s.error(before)}.", *_chance(s)]
-    text = f"The error of free simulation on the held-out window goes from {s.error(before)} to {s.error(after)}"
-    return [text + _confirmation(s.proof) + ".", *_chance(s)]
+    errors = f"goes from {s.error(before)} to {s.error(after)}"
+    if s.proof.free_runs is None:
+        return [f"The error of free simulation on the held-out window {errors}{_confirmation(s.proof)}.", *_chance(s)]
+    more = "less" if s.proof.margin > 0 else "more"
+    return [
+        f"On the held-out window forecasts from sample to sample err {more}, by {100 * abs(s.proof.margin):.2g} %"
+        f"{_confirmation(s.proof)}. The error of free simulation, which holds all that random forces did, {errors}.",
+        *_chance(s),
+    ]
 
 
 def _confirmation(p: Proof) -> str:
@@ -235,6 +242,9 @@ def _confirmation(p: Proof) -> str:
         return f", which confirms the finding (probability {min(p.probability, 0.999):.3g} from {p.blocks} blocks)"
     if p.margin <= 0:
         return ": the held-out window does not confirm the finding"
+    if p.contradicted:
+        chance = f"probability {p.free_runs.probability:.2g} from {p.free_runs.blocks} blocks"
+        return f": not confirmed, because free simulation becomes worse than chance would make it ({chance})"
     longer = f"; about {p.needed:.2g} s like these would" if p.needed is not None and p.needed > p.seconds else ""
     chance = f"probability {p.probability:.2g} from {p.blocks} blocks{longer}"
     return f": not confirmed, because chance could do that ({chance})"

@@ -1,0 +1,57 @@
+"""How well a fitted model foretells each sample of other data from the samples before it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from symid.estimation.data import Data, observed_state
+from symid.estimation.fit import Fit, Fitter
+
+FORGOTTEN = 1.0
+"""Seconds, at the pace of a second, after which samples have corrected a state that a segment began with."""
+
+
+@dataclass(frozen=True, eq=False)
+class Forecasts:
+    """Time and log-density of the samples of a window, each foretold from those before it.
+
+    Attributes
+    ----------
+    time : (N,) [s]. density : (N,) natural logarithm; minus infinity where the prediction diverges.
+    lengths : samples of each segment. outputs : how many there are. pace : of the motion [s].
+    """
+
+    time: np.ndarray
+    density: np.ndarray
+    lengths: tuple[int, ...]
+    outputs: int
+    pace: float
+
+
+def forecasts(fit: Fit, data: Data) -> Forecasts:
+    """Forecasts of `data` with the values, Kalman gain, and noise that `fit` found in others.
+
+    Nothing is fitted: a segment begins with what its first sample shows of the state, and counts as soon as that
+    is forgotten.
+    """
+    fitter = Fitter.of(fit, data)
+    p = np.array([fit.values[k] for k in fitter.sim.parameters])
+    begin = np.array([observed_state(fit.model, e.recorded[0]) for e in data.segments])
+    runs = fitter.run(p, begin, fit.kalman_gain, sensitivities=False, process=fit.process)
+    m, step = len(data.sensor_noise), data.segments[0].step
+    constant = -0.5 * np.linalg.slogdet(2 * np.pi * fit.covariance)[1]
+    if data.filter is not None:
+        constant += m * data.filter.log_volume(step, fitter.sharpness(fit.process))[0]
+    time, density = [], []
+    for i, e in enumerate(data.segments):
+        first = min(int(FORGOTTEN * data.pace / step), len(e.time) // 2)
+        if runs is None:
+            left = np.full((len(e.time), m), np.inf)
+        else:
+            innovations = fitter.segments(fit.process)[i].recorded - runs[i].y
+            left = fit.whitening(innovations[:, :, None]).reshape(-1, m)
+        time.append(e.time[first:])
+        density.append(constant - 0.5 * np.sum(left[first:] ** 2, axis=1))
+    return Forecasts(np.concatenate(time), np.concatenate(density), tuple(map(len, time)), m, data.pace)

@@ -1,0 +1,32 @@
+"""Suspects tried on top of a fitted model: which are worth a fit, and from where it begins."""
+
+import numpy as np
+import pytest
+from driven_cart import cart, data_of, few, recorded
+
+from symid.discrepancy.locate.projection import Projection
+import symid.discrepancy.name.explore as steps
+from symid.discrepancy.name.explore import explore
+from symid.estimation.cold_start import fit_model
+from symid.mechanics import LIBRARY
+
+
+def test_hopeless_suspects_gain_nothing():
+    data = data_of(recorded(8))
+    fit = fit_model(cart(), data)
+    found = explore(fit, data, few())
+    assert found and max(c.score for c in found) < 5
+    # What the model's own unknowns say already is never an explanation.
+    own = [c for c in found if c.suspect.term.name in ("viscous_friction", "torsional_spring")]
+    assert all(abs(c.log_ratio) < 1.0 for c in own)
+
+
+def test_a_delay_that_no_value_of_a_wrong_model_survives_begins_from_nothing(monkeypatch):
+    data = data_of(recorded(term=LIBRARY["input_delay"].at("input"), values={"delay_s": 0.06}))
+    fit = fit_model(cart(), data)
+    late = next(s for s in few() if s.term.name == "input_delay")
+    monkeypatch.setattr(steps, "_here", lambda *a: -np.inf)
+    starts = steps._starts(fit, data, Projection(fit, data), late)
+    assert [s.afresh for s in starts] == [False, True]
+    begun = steps._refit(fit, data, starts[1], 6)
+    assert begun.fit.values[late.term.parameter_name("delay_s")] == pytest.approx(0.06, abs=0.005)

@@ -1,0 +1,63 @@
+"""Forecasts of data that were not fitted: their density is that of a Kalman filter, and the right model's is higher."""
+
+import numpy as np
+import pytest
+from driven_cart import TRUE, cart, data_of, recorded
+from scipy.linalg import expm
+from scipy.stats import norm
+
+from symid.discrepancy.prove.held_out import Proof, compare_forecasts
+from symid.estimation.cold_start import fit_model
+from symid.estimation.fit import Fitter
+from symid.estimation.forecast import FORGOTTEN, Forecasts, forecasts
+from symid.estimation.measurement import of_window
+
+
+def test_the_density_is_that_of_a_kalman_filter_written_here():
+    recording = recorded(seed=3)
+    fit = fit_model(cart(), data_of(recording))
+    held = of_window(cart(), recording, (40.0, 60.0), None, data_of(recording))
+    found = forecasts(fit, held)
+    (e,), step = held.segments, held.segments[0].step
+    k, c, m = fit.values["stiffness"], fit.values["damping"], 2.0
+    # States and the straight line that the input follows between two samples: x' = A x + B (u + s slope).
+    A = np.zeros((4, 4))
+    A[0, 1], A[1], A[2, 3] = 1.0, [-k / m, -c / m, -1.0, 0.0], 1.0
+    over, u = expm(A * step), e.inputs["shaker"]
+    x, left = np.array([e.recorded[0, 0], 0.0]), []
+    for i, y in enumerate(e.recorded[:, 0]):
+        left.append(y - x[0])
+        x = x + fit.kalman_gain[:, 0] * left[-1]
+        if i + 1 < len(u):
+            x = (over @ [*x, u[i], (u[i + 1] - u[i]) / step])[:2]
+    expected = norm.logpdf(left, scale=np.sqrt(fit.covariance[0, 0]))[int(FORGOTTEN / step) :]
+    assert np.allclose(found.density, expected, rtol=1e-3, atol=1e-3)
+    assert len(found.time) == found.lengths[0] and found.time[0] == pytest.approx(41.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_other_data_prefer_the_true_stiffness_to_a_wrong_one(seed):
+    recording = recorded(seed=seed)
+    data = data_of(recording)
+    fit = fit_model(cart(), data)
+    wrong = Fitter(cart(), data, fixed=("stiffness",)).fit(
+        fit.values | {"stiffness": 1.1 * TRUE["stiffness"]}, fit.initial, fit.process
+    )
+    held = of_window(cart(), recording, (40.0, 60.0), None, data)
+    proof = compare_forecasts(forecasts(wrong, held), forecasts(fit, held), None)
+    assert proof.confirmed and proof.margin > 0
+    assert not compare_forecasts(forecasts(fit, held), forecasts(wrong, held), None).confirmed
+
+
+def test_free_runs_that_become_worse_contradict_forecasts():
+    rng = np.random.default_rng(0)
+    time, density = np.arange(2000) * 0.02, rng.standard_normal(2000)
+    before, after = (
+        Forecasts(time, density + d, (2000,), 2, 1.0) for d in (0.0, 0.2 + 0.1 * rng.standard_normal(2000))
+    )
+    worse, unclear = (Proof(-0.3, p, 13, 40.0, None) for p in (0.01, 0.2))
+    assert compare_forecasts(before, after, unclear).confirmed
+    assert compare_forecasts(before, after, worse).contradicted
+    assert not compare_forecasts(before, after, worse).confirmed
+    # Two outputs whose errors fall alike: a log-density of 0.2 is a fall by exp(-0.1).
+    assert compare_forecasts(before, after, None).margin == pytest.approx(1 - np.exp(-0.1), abs=0.01)
