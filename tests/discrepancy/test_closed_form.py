@@ -70,7 +70,7 @@ def test_a_diagnosis_proposes_the_law_that_acts_with_its_numbers():
     for key, truth in (("a", 1.0), ("a_width", 0.02), ("a_centre", 0.03)):
         value, error = abs(found.proposal.values[key]), found.proposal.errors[key]
         assert value == pytest.approx(truth, abs=4 * error) and error < 0.05 * truth
-    assert found.proof.confirmed and found.proof.margin > 0.7
+    assert found.proof.confirmed and found.proof.free_runs.margin > 0.7
     assert found.improved is found.proposal.model
     said = formula(found.proposal)
     assert said.startswith("force = a exp(-((position - a centre)/a width)²) with a = ") and "mm" in said
