@@ -14,9 +14,9 @@ from symid.estimation.measurement import of_window
 
 
 def test_the_density_is_that_of_a_kalman_filter_written_here():
-    recording = recorded(seed=3)
-    fit = fit_model(cart(), data_of(recording))
-    held = of_window(cart(), recording, (40.0, 60.0), None, data_of(recording))
+    recording, model = recorded(seed=3), cart().with_holds(shaker="linear")
+    fit = fit_model(model, data_of(recording))
+    held = of_window(model, recording, (40.0, 60.0), None, data_of(recording))
     found = forecasts(fit, held)
     (e,), step = held.segments, held.segments[0].step
     k, c, m = fit.values["stiffness"], fit.values["damping"], 2.0
