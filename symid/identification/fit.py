@@ -41,9 +41,13 @@ def common_unit(units: Iterable[str]) -> str | None:
     return found.pop() if len(found) == 1 else None
 
 
-def rms_text(rms: float, unit: str | None, digits: int = 4) -> str:
-    """An RMS error with its unit, degrees for angles; `unit` None for outputs of different units together."""
-    return f"{rms:.{digits}g} (different units together)" if unit is None else quantity(rms, unit=unit, digits=digits)
+def rms_text(rms: float, unit: str | None, digits: int = 4, beside: float = 0.0) -> str:
+    """An RMS error with its unit, degrees for angles; `unit` None for outputs of different units together, `beside` an
+    error that it is compared with.
+    """
+    if unit is None:
+        return f"{rms:.{digits}g} (different units together)"
+    return quantity(rms, unit=unit, digits=digits, beside=beside)
 
 
 def fit_text(rms: Mapping[str, float], units: Mapping[str, str]) -> str:

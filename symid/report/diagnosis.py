@@ -12,6 +12,7 @@ from symid.discrepancy.say.rest import rest_words
 from symid.errors import RecordingError
 from symid.files import write_atomically
 from symid.identification.fit import common_unit, rms_text
+from symid.mechanics.laws import parameter_name
 from symid.model.show import latex_lines
 from symid.plots import plot_before_after, plot_latent, plot_rest, plot_scores, plot_spectra
 from symid.report.origin import CITATION, origin, written
@@ -174,23 +175,22 @@ def _fits(d: Diagnosis) -> str:
     for key, title in (("train", "fit window"), ("heldout", "held-out window, not used before")):
         if f"baseline_{key}" in d.runs:
             before, after = (d.runs[f"{k}_{key}"].rms for k in ("baseline", "augmented"))
-            rows.append(
-                [title, rms_text(before, unit), rms_text(after, unit), typeset(f"{100 * (1 - after / before):.1f}")]
-            )
+            rows.append([title, *_compared_errors(before, after, unit)])
     later = d.runs.get("augmented_heldout")
     if later is not None and len(later.lengths) > 1:
         before = d.runs["baseline_heldout"].of_segments()
         rows += [
-            [
-                f"  held out, segment from {t:.1f} s",
-                rms_text(b, unit),
-                rms_text(a, unit),
-                typeset(f"{100 * (1 - a / b):.1f}"),
-            ]
+            [f"  held out, segment from {t:.1f} s", *_compared_errors(b, a, unit)]
             for (t, b), (_, a) in zip(before, later.of_segments(), strict=True)
         ][:MOST]
     head = ["free simulation", "RMS error of the model as given", "of the improved model", "error removed [%]"]
     return table(head, rows) if d.named else table(head[:2], [row[:2] for row in rows])
+
+
+def _compared_errors(before: float, after: float, unit: str | None) -> list[str]:
+    """Both errors in one unit, and how much of the first is gone [%]."""
+    removed = typeset(f"{100 * (1 - after / before):.1f}")
+    return [rms_text(before, unit, beside=after), rms_text(after, unit, beside=before), removed]
 
 
 def _where(d: Diagnosis) -> list[str]:
@@ -198,7 +198,7 @@ def _where(d: Diagnosis) -> list[str]:
     if not before:
         return [
             paragraph(
-                "The model declares no process noise, so there is no place at which a missing force could be told.",
+                "The model declares no random forces (Noise), so what is missing is not drawn as a force over time.",
                 "note",
             )
         ]
@@ -282,11 +282,16 @@ def _odds(minus_log10_p: float) -> str:
 
 def _parameters(d: Diagnosis) -> str:
     rows = []
+    own = {
+        parameter_name(e.name, e.location, k): f"{_plain(e.name)}, {place_name(e.location)}: {_said(k)}"
+        for e in d.named
+        for k in e.parameters
+    }
     for name, value in d.values.items():
         part, before = d.improved.parameters[name], d.baseline.values.get(name)
         error = float(d.final.errors.get(name, float("nan")))
         given = "" if before is None else quantity(float(before), unit=part.unit, digits=4)
-        rows.append([(name, part.meaning), given, quantity(float(value), error, part.unit, digits=4)])
+        rows.append([(name, own.get(name, part.meaning)), given, quantity(float(value), error, part.unit, digits=4)])
     if not d.named:
         return table(["parameter", "value ± standard error"], [[name, value] for name, _, value in rows])
     return table(["parameter", "model as given", "improved ± standard error"], rows)

@@ -14,7 +14,8 @@ UNSURE = 100.0
 """A value with an error this many times larger is not worth digits."""
 PLAIN = 1e-4, 1e7
 """Numbers between these are written without a power of ten."""
-
+COMPARED = 1e-3
+"""Values that are compared have one unit down to this ratio; below it the smaller one would show no digits."""
 TINY = 1e-300
 """Numbers below this one, whose power of ten a double cannot hold, are written as 0."""
 
@@ -61,15 +62,17 @@ def with_error(value: float, error: float, digits: int = 3) -> str:
     return f"{_rounded(value, place):.{decimals}f} ± {_rounded(error, place):.{decimals}f}"
 
 
-def quantity(value: float, error: float = float("nan"), unit: str = "1", digits: int = 3) -> str:
+def quantity(value: float, error: float = float("nan"), unit: str = "1", digits: int = 3, beside: float = 0.0) -> str:
     """An SI value with its standard error in the unit that suits its size: ``"84.0 ± 3.0 ms"``, ``"5.2 ± 1.1 mN m"``.
 
     Parameters
     ----------
     unit : SI unit text, such as a part of a model states. Angles and their rates are told in degrees.
     digits : significant digits of a value whose error is not known.
+    beside : a value that it is compared with: both are told in the unit of the larger one, unless that is far larger.
     """
-    factor, text = _suitable(max(abs(value), error if isfinite(error) else 0.0), unit)
+    size = max(abs(value), error if isfinite(error) else 0.0)
+    factor, text = _suitable(max(size, beside) if size > COMPARED * beside else size, unit)
     return f"{with_error(value * factor, error * factor, digits)} {text}".strip()
 
 

@@ -36,6 +36,16 @@ def test_digits_follow_the_error(value, error, text):
     assert with_error(value, error) == text
 
 
+def test_values_that_are_compared_have_one_unit():
+    """28.3 mm to 976 µm hides from the eye by how much it fell."""
+    assert [quantity(a, unit="m", beside=b) for a, b in ((0.0283, 9.76e-4), (9.76e-4, 0.0283))] == [
+        "28.3 mm",
+        "0.976 mm",
+    ]
+    assert quantity(2e-6, unit="m", beside=0.5) == "2.00 µm" and quantity(0.0, unit="m", beside=0.01) == "0.00 m"
+    assert rms_text(np.radians(0.1), "rad", beside=np.radians(5.0)) == "0.1000 deg"
+
+
 @given(st.floats(-1e6, 1e6), st.floats(1e-6, 1e6))
 def test_a_printed_value_is_right_to_the_second_digit_of_its_error(value, error):
     text = with_error(value, error)

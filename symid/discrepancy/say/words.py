@@ -102,15 +102,19 @@ class Story:
     def model(self) -> Model:
         return self.base.model
 
-    def error(self, errors: np.ndarray) -> str:
-        """The rms errors (m,) of the outputs, as one number where they share a unit."""
+    def error(self, errors: np.ndarray, beside: np.ndarray | None = None) -> str:
+        """The rms errors (m,) of the outputs, as one number where they share a unit; in units that suit those `beside`,
+        with which they are compared.
+        """
+        others = np.zeros_like(errors) if beside is None else beside
         unit = common_unit(y.unit for y in self.model.outputs.values())
         if unit is not None:
-            return rms_text(float(np.sqrt(np.mean(np.square(errors)))), unit, digits=3)
+            rms, other = (float(np.sqrt(np.mean(np.square(e)))) for e in (errors, others))
+            return rms_text(rms, unit, digits=3, beside=other)
         return _listed(
             [
-                f"{quantity(e, unit=y.unit)} of {y.channel}"
-                for e, y in zip(errors, self.model.outputs.values(), strict=True)
+                f"{quantity(e, unit=y.unit, beside=o)} of {y.channel}"
+                for e, o, y in zip(errors, others, self.model.outputs.values(), strict=True)
             ]
         )
 
@@ -225,7 +229,7 @@ def _proof(s: Story) -> list[str]:
         return ["In the held-out window nothing moves, so that it proves nothing.", *_chance(s)]
     if not s.effects or np.array_equal(before, after) or s.proof is None:
         return [f"The error of free simulation on the held-out window is {s.error(before)}.", *_chance(s)]
-    errors = f"goes from {s.error(before)} to {s.error(after)}"
+    errors = f"goes from {s.error(before, after)} to {s.error(after, before)}"
     if s.proof.free_runs is None:
         return [f"The error of free simulation on the held-out window {errors}{_confirmation(s.proof)}.", *_chance(s)]
     more = "less" if s.proof.margin > 0 else "more"
