@@ -7,6 +7,8 @@ from math import inf, isnan
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from symid.errors import SymidError
 
 
@@ -79,6 +81,11 @@ def kind(value: Any, wanted: type | tuple[type, ...], what: str, error: type[Sym
         names = [k.__name__ for k in (wanted if isinstance(wanted, tuple) else (wanted,))]
         raise error(f"{what}: give a {' or a '.join(names)}, not {shown(value)}")
     return value
+
+
+def flag(value: Any, what: str, error: type[SymidError]) -> bool:
+    """`value` as a bool; a text such as "no" is none, which Python would take for yes."""
+    return bool(kind(value, (bool, np.bool_), what, error))
 
 
 def nearest(name: str, names: Iterable[str]) -> str:

@@ -92,6 +92,7 @@ def _check_parts(task: Task) -> None:
         part = getattr(task, name)
         if part is not None and not isinstance(part, str):
             checked.window(part, f"diagnose: {name}", DiagnosisError)
+    checked.flag(task.driven, "diagnose: driven", DiagnosisError)
     checked.number(task.settling, "diagnose: settling", DiagnosisError, least=0.0)
     if task.segment_length is not None:
         length = checked.number(task.segment_length, "diagnose: segment_length", DiagnosisError)

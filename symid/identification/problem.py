@@ -288,6 +288,7 @@ class Identification:
         """
         refuse_wrong_options(solver)
         seed = checked.whole(seed, "seed", SolveError)
+        checked.flag(check, "check", SolveError)
         if executor is not None and not (hasattr(executor, "submit") or hasattr(executor, "get_executor")):
             raise SolveError(f"executor={checked.shown(executor)}: give an executor of concurrent.futures, or a Client")
         self.transcription  # noqa: B018 - a problem that cannot be transcribed is refused before any start

@@ -72,6 +72,7 @@ def read_recording(
     >>> read_recording("walk.csv", columns={"time_s": "t", "hip_angle_deg": "Hip"})  # doctest: +SKIP
     """
     path = checked.path(path, "read_recording", RecordingError)
+    checked.flag(allow_gaps, "read_recording: allow_gaps", RecordingError)
     with faults_of_text(path):
         a_file(path)
     left: list[str] = []

@@ -66,6 +66,8 @@ class Episodes:
         **by_word: float,
     ):
         checked.whole(count, "episodes: the count", TranscriptionError, least=1)
+        checked.whole(seed, "episodes: the seed", TranscriptionError)
+        checked.flag(shared_initial_state, "episodes: shared_initial_state", TranscriptionError)
         if distribution not in DISTRIBUTIONS:
             raise TranscriptionError(f"episodes: no distribution '{distribution}'; known: {', '.join(DISTRIBUTIONS)}")
         for word, value in {"amplitude": amplitude, **by_word}.items():

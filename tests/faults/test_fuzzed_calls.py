@@ -143,7 +143,7 @@ def test_arguments_of_an_identification(name, value):
 
 
 @few
-@given(st.sampled_from(["starts", "seed", "time_limit_s", "max_iterations", "options"]), odd)
+@given(st.sampled_from(["starts", "seed", "check", "time_limit_s", "max_iterations", "options"]), odd)
 def test_arguments_of_a_solve(tmp_path, monkeypatch, name, value):
     monkeypatch.chdir(tmp_path)
     if not (name == "starts" and isinstance(value, (int, float)) and value > 3):  # that many are solved
@@ -159,6 +159,7 @@ def test_arguments_of_other_calls(data):
             [
                 lambda: si.Episodes(value, amplitude=more),
                 lambda: si.Episodes(2, torque=value, seed=more),
+                lambda: si.Episodes(2, push=1.0, seed=value, shared_initial_state=more),
                 lambda: si.Free(value, more),
                 lambda: si.Normal(value, more),
                 lambda: si.LogNormal(value, more),

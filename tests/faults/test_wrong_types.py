@@ -188,6 +188,20 @@ def test_arguments_of_a_wrong_type_are_refused(call, words):
         call()
 
 
+@pytest.mark.parametrize("value", ["no", 0, None, np.zeros(2), pd.DataFrame()])
+def test_what_is_neither_true_nor_false_is_refused(value):
+    """Python takes the text "no" for yes."""
+    calls = [
+        lambda: si.diagnose(pendulum(), RECORDING, fit_window=(0, 0.5), held_out=(0.5, 1), driven=value),
+        lambda: si.read_recording("r.csv", allow_gaps=value),
+        lambda: si.Identification(pendulum(), RECORDING).solve(check=value),
+        lambda: si.Episodes(2, push=1.0, shared_initial_state=value),
+    ]
+    for call in calls:
+        with pytest.raises(SymidError, match="(driven|allow_gaps|check|shared_initial_state): give a bool"):
+            call()
+
+
 def test_a_misspelt_option_of_a_solve_is_refused():
     with pytest.raises(SymidError, match="no option 'max_iter'; did you mean 'max_iterations'"):
         si.Optimization(cart(), duration=1).solve(max_iter=3)
