@@ -160,7 +160,7 @@ def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
             axes.plot(truth[name], y, "x", color=INK, ms=7, mew=1.6, zorder=5)
         axes.annotate(
             text.replace("-", "\N{MINUS SIGN}"),
-            (1.01, y),
+            (1.02, y),  # clear of an arrow head
             xycoords=("axes fraction", "data"),
             va="center",
             fontsize=8.5,
@@ -177,8 +177,9 @@ def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
 def _limits(value: np.ndarray, half: np.ndarray, others: list[float]) -> tuple[float, float]:
     """An axis that holds all values, and of their intervals as much as leaves the values apart."""
     shown = np.array([*value, *others, 0.0] if len(value) == 1 else [*value, *others])
-    span = max(np.ptp(shown), 1e-3 * np.abs(shown).max(), 1e-12)
     ends = np.nan_to_num(half)
+    shortest = ends[ends > 0].min() if ends.any() else 0.0  # what is hardly longer hides nothing
+    span = max(np.ptp(shown), 1e-3 * np.abs(shown).max(), 4.0 * shortest, 1e-12)
     low = max(min((value - ends).min(), shown.min()), shown.min() - 1.5 * span)
     high = min(max((value + ends).max(), shown.max()), shown.max() + 1.5 * span)
     margin = 0.06 * max(high - low, span)

@@ -93,6 +93,12 @@ def test_an_interval_far_larger_than_the_values_does_not_hide_them():
     assert -2 < low < 1 and 2 < high < 5
 
 
+def test_intervals_that_are_alike_are_whole():
+    """Though the values are nearer to each other than their errors."""
+    low, high = solution_figures._limits(np.array([-1.42e-3, -6e-4]), np.array([1.7e-3, 1.65e-3]), [])
+    assert low < -3.12e-3 and high > 1.05e-3
+
+
 @pytest.mark.parametrize("value", [np.array([0.0]), np.array([-1e-9]), np.array([3e7]), np.array([5.0, 5.0])])
 def test_every_value_lies_on_its_axis(value):
     low, high = solution_figures._limits(value, np.full(value.shape, np.nan), [])
