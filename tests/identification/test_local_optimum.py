@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from error_systems import oscillator, spring
-from small_systems import lorenz, van_der_pol
+from small_systems import van_der_pol
+from unseen_systems import lorenz
 from test_verify import swing
 
 import symid as si

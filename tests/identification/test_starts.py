@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import small_systems
 from more_systems import OTHERS
-from small_systems import PRACTISED, UNSEEN, lotka_volterra
+from small_systems import PRACTISED
 from unfamiliar_systems import UNFAMILIAR, flexible_joint, measured
+from unseen_systems import UNSEEN, lotka_volterra
 
 import symid as si
 from symid.identification import Solve
@@ -16,6 +17,7 @@ from symid.identification.starts.search import relaxed
 from symid.identification.worker import solve_here
 
 DRAWS = 200
+SYSTEMS = {f.__name__: f for f in (*PRACTISED, *UNSEEN)}
 DATA = Path(__file__).parents[2] / "data" / "standing_synthetic"
 
 
@@ -29,7 +31,7 @@ def failures(system, draws) -> dict[int, str]:
 
 @pytest.mark.parametrize("name", ["mass_spring_damper", "any_pendulum", "van_der_pol", "two_tanks", "dc_motor"])
 def test_the_default_start_leads_to_the_noise(name):
-    assert failures(getattr(small_systems, name), range(2)) == {}
+    assert failures(SYSTEMS[name], range(2)) == {}
 
 
 @pytest.mark.parametrize(
@@ -38,7 +40,7 @@ def test_the_default_start_leads_to_the_noise(name):
 )
 def test_where_simulations_lose_the_recording_other_starts_are_tried(name, drawn):
     """Draws that ended in another optimum before there were further starts, or were driven away by the barrier."""
-    assert failures(getattr(small_systems, name), [drawn]) == {}
+    assert failures(SYSTEMS[name], [drawn]) == {}
 
 
 @pytest.mark.parametrize(("size", "time"), [(1e-9, 1.0), (1e9, 1.0), (1.0, 1e-9), (1e6, 1e9)])

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 import sympy as sm
 from more_systems import declared, quarter_car
-from small_systems import System, cart_pole, duffing, log_uniform, mass_spring_damper, smooth, system
+from small_systems import System, cart_pole, log_uniform, mass_spring_damper, smooth, system
 from unfamiliar_systems import food_chain, measured
+from unseen_systems import duffing
 
 import symid as si
 from symid.plausibility import remarks

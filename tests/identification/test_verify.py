@@ -11,8 +11,9 @@ from scipy.integrate import solve_ivp
 
 import symid as si
 from more_systems import lateral_car
-from small_systems import any_pendulum, dc_motor, lotka_volterra, three_links
+from small_systems import any_pendulum, dc_motor, three_links
 from unfamiliar_systems import bicycle, measured, stiff_oscillator, stiff_pair
+from unseen_systems import lotka_volterra
 from symid.recording import Recording
 
 
