@@ -55,8 +55,8 @@ def test_free_runs_that_become_worse_contradict_forecasts():
     before, after = (
         Forecasts(time, density + d, (2000,), 2, 1.0) for d in (0.0, 0.2 + 0.1 * rng.standard_normal(2000))
     )
-    worse, unclear = (Proof(-0.3, p, 13, 40.0, None) for p in (0.01, 0.2))
-    assert compare_forecasts(before, after, unclear).confirmed
+    worse, unclear, little = (Proof(m, p, 13, 40.0, None) for m, p in ((-0.3, 0.01), (-0.3, 0.2), (-0.01, 0.01)))
+    assert compare_forecasts(before, after, unclear).confirmed and compare_forecasts(before, after, little).confirmed
     assert compare_forecasts(before, after, worse).contradicted
     assert not compare_forecasts(before, after, worse).confirmed
     # Two outputs whose errors fall alike: a log-density of 0.2 is a fall by exp(-0.1).

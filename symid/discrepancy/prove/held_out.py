@@ -44,8 +44,9 @@ class Proof:
 
     @property
     def contradicted(self) -> bool:
-        """Whether free runs become worse by more than chance does."""
-        return self.free_runs is not None and self.free_runs.probability <= 1 - POLICY.confirm
+        """Whether free runs lose more than forecasts gain, and not by chance."""
+        free = self.free_runs
+        return free is not None and free.probability <= 1 - POLICY.confirm and -free.margin > self.margin
 
 
 def compare(before: FreeRun, after: FreeRun) -> Proof:

@@ -233,6 +233,7 @@ def _proof(s: Story) -> list[str]:
     if s.proof.free_runs is None:
         return [f"The error of free simulation on the held-out window {errors}{_confirmation(s.proof)}.", *_chance(s)]
     more = "less" if s.proof.margin > 0 else "more"
+    errors = errors if s.proof.free_runs.margin > 0 else f"does not fall: it {errors}"
     return [
         f"On the held-out window forecasts from sample to sample err {more}, by {100 * abs(s.proof.margin):.2g} %"
         f"{_confirmation(s.proof)}. The error of free simulation, which holds all that random forces did, {errors}.",
@@ -248,7 +249,7 @@ def _confirmation(p: Proof) -> str:
         return ": the held-out window does not confirm the finding"
     if p.contradicted:
         chance = f"probability {p.free_runs.probability:.2g} from {p.free_runs.blocks} blocks"
-        return f": not confirmed, because free simulation becomes worse than chance would make it ({chance})"
+        return f": not confirmed, because free simulation loses more than that ({chance})"
     longer = f"; about {p.needed:.2g} s like these would" if p.needed is not None and p.needed > p.seconds else ""
     chance = f"probability {p.probability:.2g} from {p.blocks} blocks{longer}"
     return f": not confirmed, because chance could do that ({chance})"
