@@ -20,7 +20,8 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.evidence import tested
 from symid.discrepancy.say.diagnosis import Diagnosis, finding
 from symid.discrepancy.say.judge import judge
-from symid.discrepancy.say.words import Story, words
+from symid.discrepancy.say.story import Story
+from symid.discrepancy.say.words import words
 from symid.discrepancy.task import Part, Task, listed_suspects, check_options, task_of
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit

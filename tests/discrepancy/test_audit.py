@@ -14,7 +14,8 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.prove.halves import Half, HalfVerdict, _reason, _said, survivals, verdicts
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import law_name, place_name, sentence
-from symid.discrepancy.say.words import _finding, _verdicts_of_halves
+from symid.discrepancy.say.proof import verdicts_of_halves
+from symid.discrepancy.say.words import _finding
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data, Segment
 from symid.estimation.robust_errors import with_robust_errors
@@ -143,10 +144,10 @@ def test_a_suspect_that_explains_a_half_better_is_seen():
 def test_the_words_say_whether_the_halves_agree():
     wet = Suspect(LIBRARY["viscous_friction"].at("joint1"))
     agree, differ = HalfVerdict((0, 1), "unexplained"), HalfVerdict((1, 2), "missing_physics", wet)
-    assert _verdicts_of_halves(SimpleNamespace(verdict="unexplained", halves=(agree, agree))) == [
+    assert verdicts_of_halves(SimpleNamespace(verdict="unexplained", halves=(agree, agree))) == [
         "Either half alone leads to the same verdict."
     ]
-    assert _verdicts_of_halves(SimpleNamespace(verdict="unexplained", halves=(agree, differ))) == [
+    assert verdicts_of_halves(SimpleNamespace(verdict="unexplained", halves=(agree, differ))) == [
         "Taken alone, the second half leads to 'missing physics': another verdict than on the whole.",
         "On the second half alone viscous friction at joint 1 explains more than what was found.",
     ]
