@@ -71,7 +71,9 @@ def explore(
         worth = [s for s in chosen[POLICY.always_refitted :] if reach[s[0].suspect] > POLICY.beam_share * best]
         first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
         first.sort(key=lambda c: -c.log_ratio)
-        others = {s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast][:2] for s in chosen}
+        others = {
+            s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast and not t.afresh][:2] for s in chosen
+        }
         good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
         found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), good))
         rest = first[len(good) :]
@@ -129,9 +131,9 @@ def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> l
     finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
     finite = [v for here, v in finite if np.isfinite(here)][:2]
     forecast = max([s.forecast for s in found] + [_promise(fitter, fit, suspect)])
-    begun = [Start(forecast, suspect, v) for v in finite]
-    # Values that a wrong model liked may not hold it together with any size of what it lacks.
-    return found[:1] + (begun or [Start(forecast, suspect, v, afresh=True) for v in suspect.starts(off=False)[:1]])
+    # Values that a wrong model liked may hold it together with no size of what it lacks, or lead away from it.
+    afresh = Start(forecast, suspect, suspect.starts(off=False)[0], afresh=True)
+    return [*found[:1], *(Start(forecast, suspect, v) for v in finite), afresh]
 
 
 def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
