@@ -76,7 +76,6 @@ def refuted(run: FreeRun, fitted: FreeRun, unknowns: int) -> bool:
     left = np.split((fitted.simulated - fitted.recorded) / moves(fitted.recorded), np.cumsum(fitted.lengths)[:-1])
     free = independent_share(left) * fitted.recorded.size - unknowns
     ratio = ((run.relative / fitted.relative) ** 2 - 1) * free / unknowns if free > 0 else 0.0
-    print("F", ratio, free, unknowns, fdtrc(unknowns, max(free, 1), max(ratio, 0)))
     return free > 0 and float(fdtrc(unknowns, free, max(ratio, 0.0))) < REFUTED
 
 
