@@ -70,6 +70,8 @@ def explore(
         best = max((c.log_ratio for c in first), default=0.0)
         worth = [s for s in chosen[POLICY.always_refitted :] if reach[s[0].suspect] > POLICY.beam_share * best]
         first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
+        first += [c for c in pool.map(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first)) if c is not None]
+        first = list({c.suspect: c for c in sorted(first, key=lambda c: c.log_ratio)}.values())
         first.sort(key=lambda c: -c.log_ratio)
         others = {
             s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast and not t.afresh][:2] for s in chosen
@@ -103,6 +105,22 @@ def _begins_finite(starts: list[Start]) -> bool:
     return q is not None and all(s.values[q.key] != q.null for s in starts)
 
 
+def _misled(chosen: Sequence[list[Start]], first: Sequence[Hypothesis]) -> list[list[Start]]:
+    """Those that promise more than all suspects explain, and whose own fits kept little of it.
+
+    Values that a wrong model liked may lead away from what it lacks.
+    """
+    best = max((c.log_ratio for c in first), default=0.0)
+    own = {c.suspect: c.log_ratio for c in first}
+    return [
+        s
+        for s in chosen
+        if s[-1].afresh
+        and s[0].forecast > max(best, POLICY.worth_refitting)
+        and own.get(s[0].suspect, 0.0) <= KEPT * s[0].forecast
+    ]
+
+
 def by_score(found: Sequence[Hypothesis]) -> list[Hypothesis]:
     """Best first, all judged by the samples that the one with the least error lets count."""
     share = max(found, key=lambda c: c.log_ratio).share if found else 1.0
@@ -131,7 +149,7 @@ def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> l
     finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
     finite = [v for here, v in finite if np.isfinite(here)][:2]
     forecast = max([s.forecast for s in found] + [_promise(fitter, fit, suspect)])
-    # Values that a wrong model liked may hold it together with no size of what it lacks, or lead away from it.
+    # Values that a wrong model liked may hold it together with no size of what it lacks.
     afresh = Start(forecast, suspect, suspect.starts(off=False)[0], afresh=True)
     return [*found[:1], *(Start(forecast, suspect, v) for v in finite), afresh]
 
@@ -176,7 +194,8 @@ def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
     A law of which a slope at zero sees little also begins at one finite size.
     """
     best, least = None, 2 if starts[0].suspect.bypasses else 1
-    for tried, start in enumerate(starts, 1):
+    others = [s for s in starts[1:] if not s.afresh] or starts[1:]
+    for tried, start in enumerate([*starts[:1], *others], 1):
         new = _refit(fit, data, start, FIRST_ITERATIONS)
         if new is not None and (best is None or new.log_ratio > best.log_ratio):
             best = new
