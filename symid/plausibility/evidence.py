@@ -35,6 +35,8 @@ SAME = 1e-6
 """Relative difference of fitted parameters below which they are the same."""
 FLOOR = 1e-12
 """Least relative spread of errors in any direction, for accelerations that are always alike."""
+BLIND = 0.5
+"""Share of the parameters; of the article's network, whose weights begin at zero, 20 of 30 are blind."""
 LAGS = 5
 """Values within its bounds that are tried of a lag."""
 
@@ -149,14 +151,29 @@ class Witness:
         left = [float(np.mean(self._errors(given, p) ** 2)) for p in self._places]
         return [self._places[int(np.nanargmin(left))]] if np.isfinite(left).any() else []
 
+    @property
+    def is_blind(self) -> bool:
+        """Whether `BLIND` of the parameters do nothing at the first values and something elsewhere, as weights do.
+
+        What a fit of a network finds from there is one of many optima: it says nothing about the recording.
+        """
+        first, other = (np.abs(x).max(axis=(0, 1), initial=0.0) for x in self._few("slopes", self._first()[0]))
+        return bool(np.sum((first == 0) & (other > 0)) > BLIND * first.size)
+
     def _alike(self, which: str) -> bool:
         """Whether masses, or slopes by the parameters, are the same whatever the parameters are."""
-        reach = np.where(np.isfinite(self.upper - self.lower), self.upper - self.lower, 1.0)
-        columns = slice(0, len(self.order)) if which == "mass" else slice(self.kernel.n_local, None)
-        places = [np.where(np.isfinite(self.lower), self.lower, 0.0) + part * reach for part in PLACES]
-        local, data, constants = (x[:LAGS] if np.ndim(x) == 2 else x for x in self._arguments(Change(), places[0]))
-        one, other = (self._slopes(local, p, data, constants, columns) for p in (places[0], places[-1]))
+        one, other = self._few(which, self._within(PLACES[0]))
         return bool(np.allclose(one, other, rtol=1e-9, atol=1e-12 * np.abs(one).max(initial=0.0)))
+
+    def _within(self, part: float) -> FloatArray:
+        reach = np.where(np.isfinite(self.upper - self.lower), self.upper - self.lower, 1.0)
+        return np.where(np.isfinite(self.lower), self.lower, 0.0) + part * reach
+
+    def _few(self, which: str, p: FloatArray) -> list[FloatArray]:
+        """Masses, or slopes by the parameters, of a few samples: at `p`, and far within the bounds."""
+        columns = slice(0, len(self.order)) if which == "mass" else slice(self.kernel.n_local, None)
+        local, data, constants = (x[:LAGS] if np.ndim(x) == 2 else x for x in self._arguments(Change(), p))
+        return [self._slopes(local, q, data, constants, columns) for q in (p, self._within(PLACES[-1]))]
 
     def _given(self, change: Change, p: FloatArray):
         """Arguments of the kernel and sizes of the accelerations, and the covariance of these in their sizes; they

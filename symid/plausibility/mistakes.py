@@ -101,8 +101,8 @@ _KINDS = {
 def model_remarks(model: Model, recording: Recording, window: tuple[float, float] | None = None) -> list[str]:
     """A sentence on the mistake that the equations give away; none where they, or nothing, explain the motion.
 
-    Models with states that no channel shows (memories of controllers) and recordings without a stretch of samples
-    cannot be asked, and give no remark.
+    Models with states that no channel shows (memories of controllers), networks, and recordings without a stretch of
+    samples cannot be asked, and give no remark.
     """
     try:
         model = as_shown(model)
@@ -110,6 +110,8 @@ def model_remarks(model: Model, recording: Recording, window: tuple[float, float
         if motion is None:
             return []
         witness = Witness(model, motion)
+        if witness.is_blind:
+            return []
         given = witness.unexplained()
         if given <= MOSTLY and _slowed(witness):
             return [f"{recording.name}: {SLOW_MOTION}"]

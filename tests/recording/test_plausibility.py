@@ -14,6 +14,8 @@ import symid as si
 from symid.cases import read_case
 from symid.errors import RecordingWarning
 from symid.plausibility import body_remarks, channel_remarks, remarks
+from symid.plausibility.evidence import Witness
+from symid.plausibility.motion import motion_of
 from symid.recording import Recording, read_recording
 from symid.synthetic import BODY, standing_recording
 
@@ -86,9 +88,17 @@ def test_a_mistake_in_a_body_is_named(body, name):
     assert any(words in text for text in found), found
 
 
-def test_the_recording_that_ships_raises_no_remark():
+@pytest.mark.parametrize("law", [si.mechanics.PD(), si.mechanics.FullStatePD(), si.mechanics.NeuralNetwork()])
+def test_the_recording_that_ships_raises_no_remark(law):
     body = si.mechanics.DoubleLinkPendulum.from_json(DATA / "body.json")
-    assert remarks(person(body), read_recording(DATA / "recording.csv")) == []
+    assert remarks(person(body, law), read_recording(DATA / "recording.csv")) == []
+
+
+@pytest.mark.parametrize("law, blind", [(si.mechanics.NeuralNetwork(), True), (si.mechanics.FullStatePD(), False)])
+def test_a_network_is_not_asked_about_a_recording(law, blind):
+    body = si.mechanics.DoubleLinkPendulum.from_json(DATA / "body.json")
+    motion = motion_of(person(body, law), read_recording(DATA / "recording.csv"))
+    assert Witness(person(body, law), motion).is_blind == blind
 
 
 @pytest.mark.slow
