@@ -111,9 +111,10 @@ class Fitter:
     ----------
     fixed : parameters that keep their start value.
     near : a fit from which others begin here, with steps of the integrator as small as that one came to need.
+    tune : whether the sizes of noise, and the cutoff of a filter, are fitted; else they keep their values, too.
     """
 
-    def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), near: Fit | None = None):
+    def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), near: Fit | None = None, tune: bool = True):
         self.model, self.data = model, data
         self.sim = simulator(model)
         self.free = [p for p in self.sim.parameters if p not in fixed]
@@ -126,6 +127,7 @@ class Fitter:
         ratios = len(data.sensor_noise) - 1 if self.driven and data.ratios_free else 0
         self.tuned = [*range(self.noises)] if self.driven else []
         self.tuned += range(self.noises, self.noises + data.cutoff_free + ratios)
+        self.tuned = self.tuned if tune else []
         self.own = np.ones(data.cutoff_free + ratios)
         self.near, self.bounded = near, False
         self.step = data.segments[0].step
@@ -370,7 +372,7 @@ class Fitter:
                 where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
                 H[np.ix_(where, where)] += J.T @ J
                 g[where] += J.T @ r
-            if self.data.cutoff_free and tuned:
+            if self.data.cutoff_free and tuned and self.tuned:
                 _, slope, bend = self.data.filter.log_volume(self.step, self.sharpness(process))
                 samples, at = sum(s.size for s in innovations), q + self.tuned.index(self.noises)
                 H[at, at] += samples * (slope - bend)

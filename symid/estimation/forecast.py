@@ -10,7 +10,7 @@ from symid.estimation.data import Data, observed_state
 from symid.estimation.fit import Fit, Fitter
 
 FORGOTTEN = 1.0
-"""Seconds, at the pace of a second, after which samples have corrected a state that a segment began with."""
+"""Seconds at the pace of a second that are left out, which fitting the state with which a segment begins has met."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -19,7 +19,7 @@ class Forecasts:
 
     Attributes
     ----------
-    time : (N,) [s]. density : (N,) natural logarithm; minus infinity where the prediction diverges.
+    time : (N,) [s]. density : (N,) natural logarithm.
     lengths : samples of each segment. outputs : how many there are. pace : of the motion [s].
     """
 
@@ -33,25 +33,23 @@ class Forecasts:
 def forecasts(fit: Fit, data: Data) -> Forecasts:
     """Forecasts of `data` with the values, Kalman gain, and noise that `fit` found in others.
 
-    Nothing is fitted: a segment begins with what its first sample shows of the state, and counts as soon as that
-    is forgotten.
+    Only the states with which segments begin are fitted: the memory of a controller is seen slowly.
+
+    Raises
+    ------
+    DiagnosisError : the model cannot follow these data.
     """
-    fitter = Fitter.of(fit, data)
-    p = np.array([fit.values[k] for k in fitter.sim.parameters])
+    fitter = Fitter(fit.model, data, fixed=tuple(fit.values), near=fit, tune=False)
     begin = np.array([observed_state(fit.model, e.recorded[0]) for e in data.segments])
-    runs = fitter.run(p, begin, fit.kalman_gain, sensitivities=False, process=fit.process)
+    found = fitter.fit(fit.values, begin, fit.process, errors=False, kalman_gain=fit.kalman_gain)
     m, step = len(data.sensor_noise), data.segments[0].step
     constant = -0.5 * np.linalg.slogdet(2 * np.pi * fit.covariance)[1]
     if data.filter is not None:
         constant += m * data.filter.log_volume(step, fitter.sharpness(fit.process))[0]
     time, density = [], []
-    for i, e in enumerate(data.segments):
+    for e, innovations in zip(data.segments, found.innovations, strict=True):
         first = min(int(FORGOTTEN * data.pace / step), len(e.time) // 2)
-        if runs is None:
-            left = np.full((len(e.time), m), np.inf)
-        else:
-            innovations = fitter.segments(fit.process)[i].recorded - runs[i].y
-            left = fit.whitening(innovations[:, :, None]).reshape(-1, m)
+        left = fit.whitening(innovations[:, :, None]).reshape(-1, m)
         time.append(e.time[first:])
         density.append(constant - 0.5 * np.sum(left[first:] ** 2, axis=1))
     return Forecasts(np.concatenate(time), np.concatenate(density), tuple(map(len, time)), m, data.pace)

@@ -62,23 +62,23 @@ def compare(before: FreeRun, after: FreeRun) -> Proof:
 def compare_forecasts(before: Forecasts, after: Forecasts, free_runs: Proof | None) -> Proof:
     """Paired comparison of the forecasts of two models of the same data.
 
-    The margin is that of the geometric mean of the outputs' errors, of which the log-density is the logarithm.
+    The margin is that of the geometric mean of the outputs' errors, of which the log-density is the logarithm. Blocks
+    count by the signed ranks of what they gain (Conover & Iman 1981): a model may miss what happens but once.
     """
-    cut = _blocks(before)
-    with np.errstate(invalid="ignore"):
-        gains = after.density - before.density
-        ratios = np.array([float(gains[b].mean()) for b in cut])
-        margin = 1.0 - float(np.exp(-gains.mean() / before.outputs))
-    return replace(_proof(ratios, margin, before, cut), free_runs=free_runs)
+    cut, gains = _blocks(before), after.density - before.density
+    of_blocks = np.array([float(gains[b].mean()) for b in cut])
+    ranks = np.sign(of_blocks) * (1 + np.argsort(np.argsort(np.abs(of_blocks))))
+    margin = 1.0 - float(np.exp(-gains.mean() / before.outputs))
+    return replace(_proof(ranks, margin, before, cut), free_runs=free_runs)
 
 
-def _proof(ratios: np.ndarray, margin: float, run: FreeRun | Forecasts, cut: list[slice]) -> Proof:
-    """From one log-ratio a block: their mean has a Student t that counts neighbours as far as they are independent."""
+def _proof(gains: np.ndarray, margin: float, run: FreeRun | Forecasts, cut: list[slice]) -> Proof:
+    """From one gain a block: their mean has a Student t that counts neighbours as far as they are independent."""
     seconds = sum(float(run.time[b][-1] - run.time[b][0]) for b in cut)
-    n, mean = len(ratios), float(ratios.mean())
-    if n < 2 or not np.isfinite(ratios).all():
+    n, mean = len(gains), float(gains.mean())
+    if n < 2 or not np.isfinite(gains).all():
         return Proof(margin, 0.5, n, seconds, None)
-    spread, centred = float(ratios.std(ddof=1)), ratios - mean
+    spread, centred = float(gains.std(ddof=1)), gains - mean
     follow = float(np.clip(centred[1:] @ centred[:-1] / max(centred @ centred, 1e-300), 0.0, 0.9))
     effective = max(n * (1 - follow) / (1 + follow), 2.0)
     if spread < 1e-12:
