@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -46,13 +47,20 @@ MOST = 5
 
 def refuse_violations(facts: object, path: Path, schema: Mapping[str, Any] = SCHEMA) -> None:
     """DiagnosisError that lists what in a JSON file is not as its `schema` says, that of a case where none is given."""
-    from jsonschema import Draft202012Validator
+    from jsonschema import Draft202012Validator, validators
 
-    found = sorted(Draft202012Validator(schema).iter_errors(facts), key=lambda e: e.json_path)
+    finite = Draft202012Validator.TYPE_CHECKER.redefine("number", lambda _, x: _is_finite(x))
+    validator = validators.extend(Draft202012Validator, type_checker=finite)
+    found = sorted(validator(schema).iter_errors(facts), key=lambda e: e.json_path)
     if found:
         said = [f"{e.json_path.removeprefix('$').lstrip('.') or 'the whole'}: {_reason(e)}" for e in found[:MOST]]
         more = [f"and {len(found) - MOST} more"] if len(found) > MOST else []
         raise DiagnosisError(f"{path}: " + "; ".join(said + more))
+
+
+def _is_finite(x: object) -> bool:
+    """Whether x is a number, which NaN and Infinity are not, though Python reads them from JSON."""
+    return isinstance(x, int | float) and not isinstance(x, bool) and abs(x) < inf
 
 
 def _reason(error) -> str:

@@ -99,6 +99,8 @@ def test_plans_of_experiments(tmp_path):
     ("change", "said"),
     [
         ({"samples": 10**9}, "experiments.0..samples: must be at most 1e"),
+        ({"step_s": float("nan")}, "experiments.0..step_s: must be a number, found NaN"),
+        ({"inputs": {"push": [float("inf")] * 30}}, "must be a number, found Infinity"),
         ({"samples": 2, "step_s": 9e3}, "longer than 1,000,000 samples"),
         ({"inputs": {"push": [0.0]}}, "input 'push' has 1 values for 30 samples"),
         ({"answers": {}}, "the plan has no answer 'finding'; known: none"),
