@@ -56,7 +56,7 @@ def mat73(path: Path) -> None:
 def hdf5(path: Path) -> None:
     import h5py
 
-    with h5py.File(path, "w") as file:
+    with h5py.File(path, "w", libver="latest") as file:  # older versions keep no checksums of how numbers are stored
         for name in FRAME:
             file.create_dataset(name, data=FRAME[name], chunks=(16,), compression="gzip", fletcher32=True)
 
