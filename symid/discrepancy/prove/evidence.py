@@ -15,14 +15,14 @@ from symid.discrepancy.prove.certain import beyond_chance, honest
 from symid.discrepancy.prove.elsewhere import elsewhere
 from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
 from symid.discrepancy.prove.nameless import Nameless, improved, nameless
-from symid.discrepancy.prove.held_out import Proof, compare, compare_forecasts
+from symid.discrepancy.prove.held_out import Proof, compare, compare_predictions
 from symid.discrepancy.prove.nulls import largest, null_maxima
 from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_values
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError
 from symid.estimation.data import Data, segments_of
 from symid.estimation.fit import Fit
-from symid.estimation.forecast import forecasts
+from symid.estimation.prediction import predictions
 from symid.estimation.measurement import away_from_ends, of_window, restored
 from symid.estimation.free_run import FreeRun
 
@@ -98,7 +98,7 @@ def _proof(final: Fit, base: Fit, task: Task, data: Data, runs: dict[str, FreeRu
         return free
     try:
         held = of_window(task.model, task.recording, task.held_out, task.segment_length, data)
-        return compare_forecasts(forecasts(base, held), forecasts(final, held), free)
+        return compare_predictions(predictions(base, held), predictions(final, held), free)
     except DiagnosisError:
         return free  # too little of the window is left where a filter is undone
 

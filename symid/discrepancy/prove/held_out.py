@@ -1,8 +1,8 @@
-"""Do data that were not used agree? Two free runs, or two sets of forecasts, of the same data, block by block.
+"""Do data that were not used agree? Two free runs, or two sets of predictions, of the same data, block by block.
 
 Where random forces act, a free run holds all that they did, which buries what is compared: models are then judged by
 the log-density that each gave to the samples, each before it was seen (Dawid 1984, a proper score: Gneiting & Raftery
-2007). Forecasts look but a step ahead, so that they may take what a measurement did for physics: the free runs must
+2007). Predictions look but a step ahead, so that they may take what a measurement did for physics: the free runs must
 not speak against them.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 from scipy.special import stdtr, stdtrit
 
 from symid.discrepancy.policy import POLICY
-from symid.estimation.forecast import Forecasts
+from symid.estimation.prediction import Predictions
 from symid.estimation.free_run import FreeRun, moves
 
 
@@ -28,7 +28,7 @@ class Proof:
     probability : that it falls in the long run, from the scatter of the blocks.
     blocks, seconds : how many blocks there are, and how much time they cover.
     needed : seconds of such data that would confirm a fall like this one; None where there is none.
-    free_runs : of forecasts, what free runs say; None of free runs themselves.
+    free_runs : of predictions, what free runs say; None of free runs themselves.
     """
 
     margin: float
@@ -44,7 +44,7 @@ class Proof:
 
     @property
     def contradicted(self) -> bool:
-        """Whether free runs lose more than forecasts gain, and not by chance."""
+        """Whether free runs lose more than predictions gain, and not by chance."""
         free = self.free_runs
         return free is not None and free.probability <= 1 - POLICY.confirm and -free.margin > self.margin
 
@@ -59,8 +59,8 @@ def compare(before: FreeRun, after: FreeRun) -> Proof:
     return _proof(ratios, 1.0 - after.relative / before.relative, before, cut)
 
 
-def compare_forecasts(before: Forecasts, after: Forecasts, free_runs: Proof | None) -> Proof:
-    """Paired comparison of the forecasts of two models of the same data.
+def compare_predictions(before: Predictions, after: Predictions, free_runs: Proof | None) -> Proof:
+    """Paired comparison of the predictions of two models of the same data.
 
     The margin is that of the geometric mean of the outputs' errors, of which the log-density is the logarithm. Blocks
     count by the signed ranks of what they gain (Conover & Iman 1981): a model may miss what happens but once.
@@ -72,7 +72,7 @@ def compare_forecasts(before: Forecasts, after: Forecasts, free_runs: Proof | No
     return replace(_proof(ranks, margin, before, cut), free_runs=free_runs)
 
 
-def _proof(gains: np.ndarray, margin: float, run: FreeRun | Forecasts, cut: list[slice]) -> Proof:
+def _proof(gains: np.ndarray, margin: float, run: FreeRun | Predictions, cut: list[slice]) -> Proof:
     """From one gain a block: their mean has a Student t that counts neighbours as far as they are independent."""
     seconds = sum(float(run.time[b][-1] - run.time[b][0]) for b in cut)
     n, mean = len(gains), float(gains.mean())
@@ -96,7 +96,7 @@ def _needed(size: float, each: float) -> float:
     return blocks * each
 
 
-def _blocks(run: FreeRun | Forecasts) -> list[slice]:
+def _blocks(run: FreeRun | Predictions) -> list[slice]:
     """Segments, cut where they are longer than a block."""
     found, ends = [], np.cumsum(run.lengths)
     for a, b in zip([0, *ends[:-1]], ends, strict=True):

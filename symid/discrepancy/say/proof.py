@@ -35,7 +35,7 @@ def proof_words(s: Story) -> list[str]:
     more = "less" if s.proof.margin > 0 else "more"
     errors = errors if s.proof.free_runs.margin > 0 else f"does not fall: it {errors}"
     return [
-        f"On the held-out window forecasts from sample to sample err {more}, by {100 * abs(s.proof.margin):.2g} %"
+        f"On the held-out window predictions from sample to sample err {more}, by {100 * abs(s.proof.margin):.2g} %"
         f"{_confirmation(s.proof)}. The error of free simulation, which holds all that random forces did, {errors}.",
         *_chance(s),
     ]

@@ -1,4 +1,8 @@
-"""How well a fitted model foretells each sample of other data from the samples before it."""
+"""How well a fitted model predicts each sample of other data from the samples before it.
+
+The log-density of a sample given those before it is a proper score of a prediction (Dawid 1984; Gneiting &
+Raftery 2007), and is that of the innovations of a Kalman filter (Schweppe 1965).
+"""
 
 from __future__ import annotations
 
@@ -14,8 +18,8 @@ FORGOTTEN = 1.0
 
 
 @dataclass(frozen=True, eq=False)
-class Forecasts:
-    """Time and log-density of the samples of a window, each foretold from those before it.
+class Predictions:
+    """Time and log-density of the samples of a window, each predicted from those before it.
 
     Attributes
     ----------
@@ -30,8 +34,8 @@ class Forecasts:
     pace: float
 
 
-def forecasts(fit: Fit, data: Data) -> Forecasts:
-    """Forecasts of `data` with the values, Kalman gain, and noise that `fit` found in others.
+def predictions(fit: Fit, data: Data) -> Predictions:
+    """Predictions of `data` with the values, Kalman gain, and noise that `fit` found in others.
 
     Only the states with which segments begin are fitted: the memory of a controller is seen slowly.
 
@@ -52,4 +56,4 @@ def forecasts(fit: Fit, data: Data) -> Forecasts:
         left = fit.whitening(innovations[:, :, None]).reshape(-1, m)
         time.append(e.time[first:])
         density.append(constant - 0.5 * np.sum(left[first:] ** 2, axis=1))
-    return Forecasts(np.concatenate(time), np.concatenate(density), tuple(map(len, time)), m, data.pace)
+    return Predictions(np.concatenate(time), np.concatenate(density), tuple(map(len, time)), m, data.pace)
