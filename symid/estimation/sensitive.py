@@ -16,6 +16,9 @@ from symid.model import Model
 GROWTH = 30.0
 """A piece is followed as long as a difference of its states grows no more than so many times: beyond that, a fit of its
 parameters has many optima (Ribeiro et al. 2020). A free pendulum comes there after thirty wide swings."""
+LOST = 0.3
+"""A fit that leaves more than this part of a motion may move so differently that its growth says nothing of the
+recorded one: a pendulum that goes over the top another time. Halves of the pieces are asked then."""
 SHORTEST = 1.0
 """Pieces last at least so many seconds at the pace of one: shorter ones hide losses behind their initial states."""
 SMALL = 1e-6
@@ -33,8 +36,8 @@ def followed(
     near : whether a fit has found the motion, so that its pieces need not be shorter.
     """
     longest = length = max(e.time[-1] - e.time[0] for e in data.segments)
-    pieces = data
-    if _largest(fit, data) <= GROWTH:
+    pieces, sensitive = data, _largest(fit, data) > GROWTH
+    if not (sensitive or _lost(fit, data)):
         return None
     while length / 2 > SHORTEST * data.pace and not near(pieces, fit):
         length /= 2
@@ -43,7 +46,15 @@ def followed(
             fit = fit_model(model, pieces, dict(start))
         except SymidError:
             return None
+        sensitive = sensitive or _largest(fit, pieces) > GROWTH
+        if not sensitive:
+            return None
     return length if length < longest else None
+
+
+def _lost(fit: Fit, data: Data) -> bool:
+    moves = np.vstack([e.recorded for e in data.segments]).std(axis=0)
+    return bool(np.any(np.sqrt(np.mean(np.vstack(fit.innovations) ** 2, axis=0)) > LOST * moves))
 
 
 def _largest(fit: Fit, data: Data) -> float:

@@ -1,0 +1,70 @@
+"""Where a fit begins that nobody gave a start: motions that ring on for many periods, and that turn over."""
+
+import numpy as np
+import pytest
+import sympy as sm
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
+from scipy.ndimage import gaussian_filter1d
+
+import symid as si
+from symid.estimation.cold_start import fit_model
+from symid.estimation.data import Data, Segment
+from symid.estimation.sensitive import followed
+
+NOISE = 2e-3
+
+
+def driven(rates, seconds: float, step: float, size: float, smooth: int) -> Data:
+    """The angle of a body whose acceleration is `rates(x, v, input)`, with white noise of 2 mrad."""
+    rng, time = np.random.default_rng(1), np.arange(0, seconds, step)
+    push = size * gaussian_filter1d(rng.standard_normal(time.size), smooth)
+    between = CubicSpline(time, push)
+    x = (
+        solve_ivp(
+            lambda t, x: [x[1], rates(*x, between(t))],
+            (0, time[-1]),
+            [0.1, 0],
+            t_eval=time,
+            rtol=1e-8,
+            atol=1e-10,
+            max_step=step,
+        )
+        .y[:1]
+        .T
+    )
+    noisy = x + NOISE * rng.standard_normal(x.shape)
+    return Data((Segment(time, noisy, {"push": push}),), np.array([NOISE]), driven=False)
+
+
+def body(force) -> si.Model:
+    m = si.Model("body")
+    m.x, m.v, m.push = si.State(unit="rad"), si.State(unit="rad/s"), si.Input(unit="rad/s^2", hold="smooth")
+    m.k, m.c = si.Parameter(unit="1/s^2", bounds=(0, 100)), si.Parameter(unit="1/s", bounds=(0, 10))
+    m.kinematics = si.Equation(m.x.dot - m.v)
+    m.balance = si.Equation(m.v.dot + m.c * m.v + m.k * force(m.x.symbol) - m.push)
+    m.angle = si.Output(m.x)
+    return m
+
+
+@pytest.mark.parametrize("start", [{}, {"k": 4.0001, "c": 1e-8}])
+def test_an_oscillation_that_never_dies_out_is_fitted_in_all_its_length(start):
+    data = driven(lambda x, v, u: u - 4 * x, 150, 0.05, 1.0, 4)
+    fit = fit_model(body(lambda x: x), data, start)
+    assert fit.values["k"] == pytest.approx(4.0, abs=1e-4)
+    assert np.std(fit.innovations[0]) == pytest.approx(NOISE, rel=0.05)
+
+
+def test_a_pendulum_that_goes_over_the_top_is_followed_in_pieces_however_wrong_its_model():
+    """What it lacks lets it turn over at other times: its motion, far from the recorded one, is not sensitive."""
+    data = driven(lambda x, v, u: u - 24.5 * np.sin(x) - 0.33 * v - 0.8 * np.tanh(v / 0.01), 27, 0.01, 107.0, 30)
+    assert np.ptp(data.segments[0].recorded) > 4 * np.pi
+    model = body(sm.sin)
+    fit = fit_model(model, data)
+    assert np.std(fit.innovations[0]) > 1.0
+
+    def near(pieces: Data, fit) -> bool:
+        return bool(np.std(np.vstack(fit.innovations)) < 0.1)
+
+    lasts = followed(model, data, fit, {}, near)
+    assert lasts is not None and 1.0 < lasts < 10.0
