@@ -11,22 +11,24 @@ from symid.discrepancy.name.comb import comb
 from symid.model import Model
 from symid.simulation import Simulator, simulator
 
+LONG = 100.0
+"""A motion that lasts so many times its pace forgets how it began: what it answers to a clock is steady, as it is where
+samples correct the state. To simulate each frequency that tells itself from its neighbours took minutes there."""
+
 
 def scan(projection: Projection, suspect: Suspect, model: Model) -> list[tuple[float, dict[str, float]]]:
     """Forecasts over the grid of the scanned parameter, best first, with start values."""
     sim, found = simulator(model), []
     strength = suspect.strength.key
+    segments, pace = projection.data.segments, projection.data.pace
     if projection.data.driven and suspect.scanned.clock == "start":
         grid = slide(projection, suspect, sim)
-    elif projection.data.driven and suspect.scanned.clock == "frequency":
-        grid = sweep(projection, suspect, sim)
     elif suspect.scanned.clock == "frequency":
-        grid = comb(
-            projection,
-            suspect,
-            sim,
-            min(HIGHEST_FREQUENCY / projection.data.pace, 0.4 / projection.data.segments[0].step),
-        )
+        long = len(segments) == 1 and segments[0].time[-1] - segments[0].time[0] > LONG * pace
+        if projection.data.driven or long:
+            grid = sweep(projection, suspect, sim)
+        else:
+            grid = comb(projection, suspect, sim, min(HIGHEST_FREQUENCY / pace, 0.4 / segments[0].step))
     else:
         grid = suspect.grid(projection.data)
     for values in grid:

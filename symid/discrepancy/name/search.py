@@ -284,7 +284,7 @@ class Search:
         """Earlier suspects are left out in turn, and other good single ones tried in the place of the first."""
         kept, taken = list(found.suspects[1:]), {s.term for s in found.suspects}
         sets = [([s for s in found.suspects if s is not earlier], None) for earlier in found.suspects[:-1]]
-        rivals = [h for h in single if h.suspect.term not in taken and h.established == found.suspects[0].established]
+        rivals = [h for h in single if h.suspect.term not in taken and h.established >= found.suspects[0].established]
         sets += [([h.suspect, *kept], h.fit.values) for h in rivals[: POLICY.rivals]]
         tried = [hypothesis(chosen, found.fit, self.base, self.data, more) for chosen, more in sets]
         tried = [found, *(h for h in tried if h is not None)]
