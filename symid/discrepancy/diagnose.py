@@ -3,30 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
-from functools import cache
 
-from symid.discrepancy.locate.audit import audit
-from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
-from symid.discrepancy.locate.given import fitted_as_given
-from symid.discrepancy.model.dry import with_friction_speeds
-from symid.discrepancy.model.hypothesis import Hypothesis
-from symid.discrepancy.model.sizes import sizes_of
+from symid.discrepancy.explained import explained
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.model.suspects import suspects as suspects_of
-from symid.discrepancy.name.error_model import with_error_model
-from symid.discrepancy.name.jump import with_likeliest_jumps
-from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.evidence import tested
 from symid.discrepancy.say.diagnosis import Diagnosis, finding
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.say.story import Story
 from symid.discrepancy.say.words import words
-from symid.discrepancy.task import Part, Task, listed_suspects, check_options, task_of
-from symid.estimation.data import Data, segments_of
-from symid.estimation.fit import Fit
-from symid.estimation.measurement import fits_of, settled, sharpened_filter
-from symid.estimation.pieces import free_pieces, joined
+from symid.discrepancy.task import Part, listed_suspects, check_options, task_of
 from symid.estimation.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.model import Model
@@ -98,47 +83,19 @@ def diagnose(
         settling=settling,
         driven=driven,
     )
-    pieces = segments_of(task.model, task.recording, task.fit_window, task.segment_length)
-    whole = pieces if task.moved else joined(pieces)
-    pieces = pieces if task.moved else free_pieces(pieces, len(task.model.states))
 
-    def searched(base: Fit, data: Data) -> Search:
-        nothing = Hypothesis((), base, base, data)
-        flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
-        jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.constants]
-        return Search(base, data, pool, flexible, jumps, threads, progress)
-
-    # Locate: what the recording can be trusted for, and what the model as given leaves of it.
-    checked = audit(task.model, task.recording, whole, sensor_noise, filter)
-    given = task.model
-    task = replace(task, model=with_friction_speeds(given, pieces, checked.noise))
-    plain = Data(pieces, checked.noise, task.random, checked.rounding).thinned()
-
-    def fits(task: Task, plain: Data, start: dict[str, float]) -> list[tuple[Data, Fit]]:
-        window, c = (task.fit_window, task.segment_length), checked
-        return fits_of(task.model, task.recording, *window, plain, c.filter, c.inputs, start, c.known, c.stated)
-
-    def settle(fit: Fit, data: Data) -> tuple[Data, Fit]:
-        window, sharper = (task.fit_window, task.segment_length), sharpened_filter(fit, data)
-        return settled(fit.model, task.recording, *window, plain, sharper, fit.values, checked.stated)
-
-    task, plain, possible = fitted_as_given(task, plain, fits)
-    piece_seconds = task.segment_length if task.segment_length != segment_length else None
-    possible = [(data, with_likeliest_jumps(given, fit, data)) for data, fit in possible]
-    data, fit = possible[0]
-    pool = list(suspects_of(task.model, sizes_of(fit, data))) if named is None else named
-    progress(f"the model as given is fitted ({fit.iterations} iterations)")
-
-    # Name: the laws that explain it.
-    search, found, ranking = with_error_model(possible, searched, settle, progress)
+    # Locate and name: what the model as given leaves of the recording, and the laws that explain it.
+    by = explained(task, sensor_noise, filter, named, threads, progress)
+    search, ranking = by.search, by.ranking
 
     # Prove: what stands every test.
-    evidence = tested(search.settled(found), search, ranking, task, plain)
+    evidence = tested(search.settled(by.found), search, ranking, by.task, by.plain)
     progress("tested for a remainder")
 
     # Say: the verdict, and what a reader should know.
-    verdict, effects, equivalent = judge(evidence, search, checked)
+    verdict, effects, equivalent = judge(evidence, search, by.audit)
+    piece_seconds = by.task.segment_length if by.task.segment_length != segment_length else None
     text = words(
-        Story(verdict, effects, equivalent, ranking, evidence, checked, search.base, search.data, piece_seconds)
+        Story(verdict, effects, equivalent, ranking, evidence, by.audit, search.base, search.data, piece_seconds)
     )
-    return finding(verdict, effects, equivalent, ranking, search.base, evidence, checked, text)
+    return finding(verdict, effects, equivalent, ranking, search.base, evidence, by.audit, text)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.signal import welch
@@ -41,6 +41,8 @@ class Audit:
     cutoff : (m,) above this frequency the signal is empty, so it was low-pass filtered [Hz]; NaN where not.
     filter : the zero-phase filter that did it, as the spectra show it; None where none of the outputs was filtered.
     inputs : whether the inputs may have been filtered, too. known : whether the filter was stated.
+    floor : whether what is filtered ends in a floor: the rounding of its file after the filter, or the noise of a
+        sensor so fine beside the motion that it may be taken for that.
     rounding : (m,) step of the encoder [SI], 0 where values are not rounded visibly.
     """
 
@@ -51,6 +53,7 @@ class Audit:
     filter: ZeroPhase | None = None
     inputs: bool = False
     known: bool = False
+    floor: bool = False
 
     @property
     def filtered(self) -> bool:
@@ -67,27 +70,43 @@ def audit(
     """Sensor noise and `filter` as stated, or else from the recording; and where its spectrum is empty."""
     table = given if isinstance(given, Mapping) else recording.noise if given is None else {}
     names = [y.channel for y in model.outputs.values()]
+    pieces = [[e.recorded[:, i] for e in segments] for i in range(len(names))]
     step, pace = segments[0].step, pace_of(segments)
-    cutoff = np.array([_cutoff([e.recorded[:, i] for e in segments], step, pace) for i in range(len(names))])
-    rounding = np.array([_step(np.concatenate([e.recorded[:, i] for e in segments])) for i in range(len(names))])
-    known = filter is not None
-    filter = filter or _filter(model, segments, bool(np.isfinite(cutoff).any()))
+    ends = [_emptiness(x, step, pace) for x in pieces]
+    cutoff = np.array([end for end, _ in ends])
+    rounding = np.array([_step(np.concatenate(x)) for x in pieces])
+    known, empty = filter is not None, bool(np.isfinite(cutoff).any())
+    filter = filter or _filter(model, segments, empty)
     inputs = (
         filter is not None
         and not known
-        and any(np.isfinite(_cutoff([e.inputs[u] for e in segments], step, pace)) for u in model.inputs)
+        and any(np.isfinite(_emptiness([e.inputs[u] for e in segments], step, pace)[0]) for u in model.inputs)
     )
-    if isinstance(given, (int, float)):
-        noise, stated = np.full(len(names), float(given)), np.full(len(names), True)
-        return Audit(noise, stated, cutoff, rounding, filter, inputs, known)
-    pieces = {c: [e.recorded[:, i] for e in segments] for i, c in enumerate(names)}
-    found = {
-        c: white_noise(x) if filter is None else noise_before(x, step, filter)
-        for c, x in pieces.items()
-        if c not in table
-    }
-    noise = np.array([float(table[c]) if c in table else found[c] for c in names])
-    return Audit(noise, np.array([c in table for c in names]), cutoff, rounding, filter, inputs, known)
+    table = dict.fromkeys(names, given) if isinstance(given, (int, float)) else table
+    stated = np.array([c in table for c in names])
+    noise = np.array(
+        [float(table[c]) if c in table else _noise(x, step, filter) for c, x in zip(names, pieces, strict=True)]
+    )
+    floor = empty and not known and all(on_floor for end, on_floor in ends if np.isfinite(end))
+    return Audit(noise, stated, cutoff, rounding, filter, inputs, known, floor)
+
+
+def unfiltered(found: Audit, segments: tuple[Segment, ...]) -> Audit:
+    """The same recording, its floor taken for the sensors' noise and not for the rounding of what a filter left."""
+    pieces = [[e.recorded[:, i] for e in segments] for i in range(len(found.noise))]
+    noise = [_noise(x, segments[0].step, None) for x in pieces]
+    return replace(
+        found,
+        noise=np.where(found.stated, found.noise, noise),
+        cutoff=np.full(len(noise), np.nan),
+        filter=None,
+        inputs=False,
+        floor=False,
+    )
+
+
+def _noise(pieces: list[np.ndarray], step: float, filter: ZeroPhase | None) -> float:
+    return white_noise(pieces) if filter is None else noise_before(pieces, step, filter)
 
 
 def _filter(model: Model, segments: tuple[Segment, ...], empty: bool) -> ZeroPhase | None:
@@ -118,11 +137,14 @@ def _grid(levels: np.ndarray) -> float:
     return step if np.all(np.abs(counts - np.round(counts)) < 0.1) else 0.0
 
 
-def _cutoff(pieces: list[np.ndarray], step: float, pace: float) -> float:
-    """Frequency above which a signal is empty although its sampling would show noise there [Hz], or NaN."""
+def _emptiness(pieces: list[np.ndarray], step: float, pace: float) -> tuple[float, bool]:
+    """Frequency above which a signal is empty although its sampling would show noise there [Hz], or NaN.
+
+    And whether its spectrum ends in a floor there.
+    """
     x = max(pieces, key=len)
     if len(x) < 128:
-        return np.nan
+        return np.nan, False
     f, power = _spectrum(x, step, pace)
     total = np.cumsum(power[::-1])[::-1]
     middle, top, lower, upper = (
@@ -132,9 +154,10 @@ def _cutoff(pieces: list[np.ndarray], step: float, pace: float) -> float:
     floor = np.sqrt(top**2 * f[-1] / (total[1] * f[1] + 1e-300))
     # The rounding of a file after the filter leaves a floor, too: (step^2 / 12) over the whole band.
     of_sensor = lower < FLAT * upper and floor > DIGITS and top > 2 * _grid(_levels(x)) * np.sqrt(step / 6)
-    if of_sensor or (floor > ROUNDING and middle < FALLING * top):
-        return np.nan
-    return float(f[np.argmax(total < NOTHING**2 * total[1])])
+    ends = bool(middle < FALLING * top)
+    if of_sensor or (floor > ROUNDING and ends):
+        return np.nan, False
+    return float(f[np.argmax(total < NOTHING**2 * total[1])]), ends and floor > DIGITS
 
 
 def _spectrum(x: np.ndarray, step: float, pace: float) -> tuple[np.ndarray, np.ndarray]:

@@ -1,0 +1,120 @@
+"""The first two steps of a diagnosis, locate and name, under what the audit of a recording says of its measurement."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+
+from symid.discrepancy.locate.audit import Audit, audit, unfiltered
+from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
+from symid.discrepancy.locate.given import fitted_as_given
+from symid.discrepancy.model.dry import with_friction_speeds
+from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.model.sizes import sizes_of
+from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.model.suspects import suspects as suspects_of
+from symid.discrepancy.name.error_model import with_error_model
+from symid.discrepancy.name.jump import with_likeliest_jumps
+from symid.discrepancy.name.search import Search
+from symid.discrepancy.task import Task
+from symid.estimation.data import Data, Segment, segments_of
+from symid.estimation.fit import Fit
+from symid.estimation.free_run import free_run
+from symid.estimation.measurement import fits_of, settled, sharpened_filter
+from symid.estimation.pieces import free_pieces, joined
+from symid.estimation.zero_phase import ZeroPhase
+
+CLEARER = 0.7
+"""A floor is that of the sensors, and no filter was there, where a free run of what explains the recording without a
+filter leaves less than this part of the error: 0.001 of a positioning drive whose encoder resolves a millionth of its
+travel (tests/discrepancy/test_fine_sensors.py)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Explained:
+    """What explains a recording: the search and what it found, and each suspect alone.
+
+    Attributes
+    ----------
+    task, audit : under which it was explained. plain : the recording as it is, no filter undone.
+    """
+
+    task: Task
+    audit: Audit
+    plain: Data
+    search: Search
+    found: Hypothesis
+    ranking: list[Hypothesis]
+
+
+def explained(
+    task: Task,
+    sensor_noise: float | Mapping[str, float] | None,
+    filter: ZeroPhase | None,
+    named: Sequence[Suspect] | None,
+    threads: int,
+    progress: Callable[[str], None],
+) -> Explained:
+    """The laws that explain a recording, with a filter and without where a fine sensor may look like one.
+
+    Parameters
+    ----------
+    sensor_noise, filter : as for `diagnose`. named : what may be missing, None for every law of the library.
+
+    Raises
+    ------
+    DiagnosisError : the model cannot be fitted.
+    """
+    pieces = segments_of(task.model, task.recording, task.fit_window, task.segment_length)
+    whole = pieces if task.moved else joined(pieces)
+    checked = audit(task.model, task.recording, whole, sensor_noise, filter)
+    pieces = pieces if task.moved else tuple(free_pieces(pieces, len(task.model.states)))
+    first = _under(checked, task, pieces, named, threads, progress)
+    if not checked.floor:
+        return first
+    progress(
+        "what looks filtered ends in a floor, which may be the noise of a fine sensor; looking again without a filter"
+    )
+    other = _under(unfiltered(checked, whole), task, pieces, named, threads, progress)
+    return other if _error(other, other.plain) < CLEARER * _error(first, other.plain) else first
+
+
+def _error(of: Explained, plain: Data) -> float:
+    return free_run(of.found.fit, plain).relative
+
+
+def _under(
+    checked: Audit,
+    given: Task,
+    pieces: tuple[Segment, ...],
+    named: Sequence[Suspect] | None,
+    threads: int,
+    progress: Callable[[str], None],
+) -> Explained:
+    """The laws that explain a recording of which the audit is right."""
+    task = replace(given, model=with_friction_speeds(given.model, pieces, checked.noise))
+    plain = Data(pieces, checked.noise, task.random, checked.rounding).thinned()
+
+    def fits(task: Task, plain: Data, start: dict[str, float]) -> list[tuple[Data, Fit]]:
+        window, c = (task.fit_window, task.segment_length), checked
+        return fits_of(task.model, task.recording, *window, plain, c.filter, c.inputs, start, c.known, c.stated)
+
+    def settle(fit: Fit, data: Data) -> tuple[Data, Fit]:
+        window, sharper = (task.fit_window, task.segment_length), sharpened_filter(fit, data)
+        return settled(fit.model, task.recording, *window, plain, sharper, fit.values, checked.stated)
+
+    task, plain, possible = fitted_as_given(task, plain, fits)
+    possible = [(data, with_likeliest_jumps(given.model, fit, data)) for data, fit in possible]
+    data, fit = possible[0]
+    pool = list(suspects_of(task.model, sizes_of(fit, data))) if named is None else list(named)
+    progress(f"the model as given is fitted ({fit.iterations} iterations)")
+
+    def searched(base: Fit, data: Data) -> Search:
+        nothing = Hypothesis((), base, base, data)
+        flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
+        jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.model.constants]
+        return Search(base, data, pool, flexible, jumps, threads, progress)
+
+    search, found, ranking = with_error_model(possible, searched, settle, progress)
+    return Explained(task, checked, plain, search, found, ranking)
