@@ -105,6 +105,9 @@ def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
         if best != sharp and value < before:
             break
         best, width = (width if value > before else best), width / COARSE
+    near_sharp = sharp * float(np.sqrt(COARSE))  # between the sharpest and the last that was wider
+    if best == sharp and near_sharp < widest and score(near_sharp) > found.log_ratio:
+        best = near_sharp
     if best == sharp:
         return found
     ends = log(max(best / COARSE, sharp)), log(min(best * COARSE, widest))

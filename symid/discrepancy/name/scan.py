@@ -8,12 +8,14 @@ from scipy.signal import fftconvolve
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import HIGHEST_FREQUENCY, Suspect
 from symid.discrepancy.name.comb import comb
+from symid.estimation.kalman import linearised_along
+from symid.estimation.path import fitted_path
 from symid.model import Model
 from symid.simulation import Simulator, simulator
 
-LONG = 100.0
-"""A motion that lasts so many times its pace forgets how it began: what it answers to a clock is steady, as it is where
-samples correct the state. To simulate each frequency that tells itself from its neighbours took minutes there."""
+FORGOTTEN, DRIFTS = 5.0, 0.1
+"""A motion forgets how it began, and answers steadily to a clock, where all that is not a drift dies out over it by so
+many powers of e; what changes by less than this part over it drifts, as the angle of a shaft does."""
 
 
 def scan(projection: Projection, suspect: Suspect, model: Model) -> list[tuple[float, dict[str, float]]]:
@@ -24,8 +26,7 @@ def scan(projection: Projection, suspect: Suspect, model: Model) -> list[tuple[f
     if projection.data.driven and suspect.scanned.clock == "start":
         grid = slide(projection, suspect, sim)
     elif suspect.scanned.clock == "frequency":
-        long = len(segments) == 1 and segments[0].time[-1] - segments[0].time[0] > LONG * pace
-        if projection.data.driven or long:
+        if projection.data.driven or _forgets(projection):
             grid = sweep(projection, suspect, sim)
         else:
             grid = comb(projection, suspect, sim, min(HIGHEST_FREQUENCY / pace, 0.4 / segments[0].step))
@@ -45,6 +46,17 @@ def scan(projection: Projection, suspect: Suspect, model: Model) -> list[tuple[f
     low, high = suspect.strength.bounds
     found = [(g, v) for g, v in found if low <= v[strength] <= high]
     return sorted(found, key=lambda f: -f[0])
+
+
+def _forgets(projection: Projection) -> bool:
+    """Whether a motion in one piece is for the most part a steady answer to what acts on it."""
+    fit, segments = projection.fit, projection.data.segments
+    if len(segments) > 1:
+        return False
+    p = np.array([fit.values[k] for k in fit.simulator.parameters])
+    A, *_ = linearised_along(fit.simulator, p, fitted_path(fit, projection.data)).without_delay()
+    rates = np.linalg.eigvals(A) * float(segments[0].time[-1] - segments[0].time[0])
+    return bool(np.all((rates.real < -FORGOTTEN) | (np.abs(rates) < DRIFTS)))
 
 
 def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 4) -> list[dict[str, float]]:
@@ -84,7 +96,8 @@ def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
         if column is None:
             return []
         late = slice(n // 5, None)
-        basis = np.column_stack([np.cos(2 * np.pi * f * time), np.sin(2 * np.pi * f * time)])[late]
+        clock = 2 * np.pi * f * time
+        basis = np.column_stack([np.cos(clock), np.sin(clock), np.ones(n), time])[late]
         c, *_ = np.linalg.lstsq(basis, column.reshape(rest.shape)[late], rcond=None)
         answers.append(c[0] - 1j * c[1])
     size = 4 * n
