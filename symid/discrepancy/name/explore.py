@@ -67,7 +67,8 @@ def explore(
         chosen = [s for s in chosen if least <= 0 or reach[s[0].suspect] > KEPT * least]
         progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
         first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen[: POLICY.always_refitted]) if c is not None]
-        best = max((c.log_ratio for c in first), default=0.0)
+        # Where the model is far off, fits explain far more than any forecast, which counts in parts of its error.
+        best = min(max((c.log_ratio for c in first), default=0.0), max(reach.values(), default=0.0))
         worth = [s for s in chosen[POLICY.always_refitted :] if reach[s[0].suspect] > POLICY.beam_share * best]
         first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
         first += [c for c in pool.map(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first)) if c is not None]
