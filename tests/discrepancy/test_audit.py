@@ -141,6 +141,12 @@ def test_a_suspect_that_explains_a_half_better_is_seen():
     assert [v.rival for v in verdicts(*swings((1e-3, 1e-3)), rivals=[wet])] == [None, None]
 
 
+def test_values_that_bounds_hold_on_both_halves_do_not_differ_by_standard_errors():
+    held, free = ((0.001, 0.0), (0.01, 0.0)), ((0.001, 0.0), (0.01, 1e-3))
+    reasons = [_reason(tuple(Half((0.0, 1.0), 5.0, {"speed_rad_s": v}) for v in pair)) for pair in (held, free)]
+    assert reasons[0] == "" and "differs between the halves by 9" in reasons[1]
+
+
 def test_the_words_say_whether_the_halves_agree():
     wet = Suspect(LIBRARY["viscous_friction"].at("joint1"))
     agree, differ = HalfVerdict((0, 1), "unexplained"), HalfVerdict((1, 2), "missing_physics", wet)

@@ -26,6 +26,8 @@ FINER = 1.7, 1.3, 1.15
 COARSE, SHARP = 10.0, 0.003
 """Factor between the widths that are fitted first once friction is found, and the part of itself to which the best is
 found then: where a sensor is very good a few percent leave an error that can be seen."""
+BLUNTER = 1.5
+"""Factor at which a likelihood that rises from the sharpest width shows it."""
 ITERATIONS = 10
 """Of a fit with another width."""
 
@@ -105,9 +107,8 @@ def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
         if best != sharp and value < before:
             break
         best, width = (width if value > before else best), width / COARSE
-    near_sharp = sharp * float(np.sqrt(COARSE))  # between the sharpest and the last that was wider
-    if best == sharp and near_sharp < widest and score(near_sharp) > found.log_ratio:
-        best = near_sharp
+    if best == sharp and score(BLUNTER * sharp) > found.log_ratio:  # it may lie before the last that was wider
+        best = BLUNTER * sharp
     if best == sharp:
         return found
     ends = log(max(best / COARSE, sharp)), log(min(best * COARSE, widest))

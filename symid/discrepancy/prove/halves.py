@@ -154,8 +154,9 @@ def _reason(halves: tuple[Half, Half]) -> str:
             return f"the {which} half alone does not ask for it"
     for key in halves[0].parameters:
         (a, s), (b, r) = (h.parameters[key] for h in halves)
-        if abs(a - b) > POLICY.apart * hypot(s, r):
-            return f"its {_said(key)} differs between the halves by {abs(a - b) / hypot(s, r):.0f} standard errors"
+        error = hypot(s, r)  # zero where both are held by their bounds
+        if error and abs(a - b) > POLICY.apart * error:
+            return f"its {_said(key)} differs between the halves by {abs(a - b) / error:.0f} standard errors"
     return ""
 
 

@@ -1,0 +1,74 @@
+"""Machines of which the model as given is far off, or whose dry friction sets in over a width that nobody stated."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+from scipy.interpolate import CubicSpline
+from scipy.ndimage import gaussian_filter1d
+
+import symid as si
+
+GAIN, DRY_Nm, WIDTH = 0.96, 0.15, 0.002
+
+
+def drone() -> tuple[si.Model, si.Recording]:
+    """The climb of a drone whose rotors push 4 % less than commanded; a computer holds the command between samples."""
+    m = si.Model("drone")
+    m.height, m.climb = si.State(unit="m"), si.State(unit="m/s")
+    m.thrust = si.Input(unit="N", hold="zero")
+    m.mass, m.gravity = si.Constant(1.2, unit="kg"), si.Constant(9.81, unit="m/s^2")
+    m.drag = si.Parameter(unit="N*s/m", bounds=(0, 5))
+    m.moves = si.Equation(m.height.dot - m.climb)
+    m.balance = si.Equation(m.mass * m.climb.dot + m.drag * m.climb + m.mass * m.gravity - m.thrust)
+    m.barometer, m.rate = si.Output(m.height, channel="height"), si.Output(m.climb, channel="climb")
+    rng, step = np.random.default_rng(0), 0.05
+    time = np.arange(0, 60, step)
+    target = 5 + 2 * np.sign(np.sin(0.3 * time)) + np.sin(0.9 * time)
+    z, v, commands, states = 5.0, 0.0, [], []
+    decay = np.exp(-0.1 / 1.2 * step)
+    for r in target:
+        commands.append(1.2 * (9.81 + 1.2 * (r - z) - 1.6 * v) + 0.4 * rng.standard_normal())
+        states.append((z, v))
+        ends = (GAIN * commands[-1] - 1.2 * 9.81) / 0.1  # the speed at which drag balances it
+        z, v = z + ends * step + (v - ends) * (1 - decay) * 12, ends + (v - ends) * decay
+    noisy = np.array(states) + np.array([0.05, 0.03]) * rng.standard_normal((len(time), 2))
+    channels = {"thrust": np.array(commands), "height": noisy[:, 0], "climb": noisy[:, 1]}
+    return m, si.Recording("drone", time, channels, {"thrust": "N", "height": "m", "climb": "m/s"})
+
+
+def test_a_gain_is_named_however_far_off_the_model_is_without_it():
+    """It misses by metres: what the true gain explains is forty times what its slope at the start can promise."""
+    model, recording = drone()
+    found = si.diagnose(model, recording, fit_window=(0, 40), held_out=(40, 60), threads=1)
+    assert [str(e.name) for e in found.effects] == ["input_gain"] and found.confirmed
+    value, error = found.effects[0].parameters["gain"]
+    assert value == pytest.approx(GAIN, abs=3 * error) and error < 1e-3
+
+
+def test_dry_friction_that_sets_in_over_twice_the_sharpest_width_is_no_stribeck_friction():
+    m = si.Model("wheel")
+    m.angle, m.speed, m.torque = si.State(unit="rad"), si.State(unit="rad/s"), si.Input(unit="N*m")
+    m.inertia = si.Parameter(unit="kg*m^2", bounds=(0.001, 10))
+    m.viscous = si.Parameter(unit="N*m*s/rad", bounds=(0, 10))
+    m.moves = si.Equation(m.angle.dot - m.speed)
+    m.balance = si.Equation(m.inertia * m.speed.dot + m.viscous * m.speed - m.torque)
+    m.tachometer = si.Output(m.speed, channel="speed")
+    rng, time = np.random.default_rng(3), np.arange(0, 20, 0.005)
+    torque = 3 * gaussian_filter1d(rng.standard_normal(time.size), 8)
+    between = CubicSpline(time, torque)
+    speed = solve_ivp(
+        lambda t, w: (between(t) - 0.1 * w - DRY_Nm * np.tanh(w / WIDTH)) / 0.05,
+        (0, 20),
+        [0.0],
+        t_eval=time,
+        rtol=1e-8,
+        atol=1e-10,
+        max_step=0.005,
+    ).y[0]
+    channels = {"torque": torque, "speed": speed + 2e-3 * rng.standard_normal(time.size)}
+    recording = si.Recording("wheel", time, channels, {"torque": "N*m", "speed": "rad/s"})
+    friction = [s for s in si.suspects(m) if s.term.name in ("coulomb_friction", "stribeck_friction", "joint_drag")]
+    found = si.diagnose(m, recording, fit_window=(0, 12), held_out=(12, 20), suspects=friction, threads=1)
+    assert [str(e.name) for e in found.effects] == ["coulomb_friction"]
+    value, error = found.effects[0].parameters["torque_Nm"]
+    assert value == pytest.approx(DRY_Nm, abs=4 * error)
