@@ -10,7 +10,7 @@ import scipy
 
 from symid.model import Model, shown_states
 from symid.recording import Recording, spline_of
-from symid.units import FloatArray
+from symid.units import FloatArray, IntArray
 
 MOST = 4000
 """Samples that are looked at: more tell nothing new about a factor or a sign."""
@@ -123,10 +123,29 @@ def _thinned(motion: Motion) -> Motion:
     if every < 2 or min(motion.lengths) < FEWEST * every:
         return motion
     take = np.concatenate([np.arange(p.start, p.stop, every) for p in motion.pieces])
+    return replace(_taken(motion, take, tuple(-(-n // every) for n in motion.lengths)), step=motion.step * every)
+
+
+def thirds_of(motion: Motion, most: int) -> Motion:
+    """Of each piece the beginning, the middle and the end, about `most` samples together; the motion itself where it
+    has hardly more. A motion that dies away is strong in one of them.
+    """
+    share, take, lengths = most / motion.time.size, [], []
+    for piece in motion.pieces:
+        length = piece.stop - piece.start
+        each = max(FEWEST, int(share * length / 3))
+        if 3 * each >= length:
+            return motion
+        for start in (piece.start, (piece.start + piece.stop - each) // 2, piece.stop - each):
+            take.append(np.arange(start, start + each))
+            lengths.append(each)
+    return _taken(motion, np.concatenate(take), tuple(lengths))
+
+
+def _taken(motion: Motion, take: IntArray, lengths: tuple[int, ...]) -> Motion:
     return replace(
         motion,
-        step=motion.step * every,
-        lengths=tuple(-(-n // every) for n in motion.lengths),
+        lengths=lengths,
         time=motion.time[take],
         curves={c: x[:, take] for c, x in motion.curves.items()},
         inputs={c: u[take] for c, u in motion.inputs.items()},
