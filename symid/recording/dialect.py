@@ -62,7 +62,7 @@ def dialect_of(path: Path) -> Dialect:
         The file cannot be read, is empty or no text, has numbers where names are expected, or numbers that could be
         read in two ways. OSError is left to the caller.
     """
-    encoding, text = _head(path)
+    encoding, text = head_of(path)
     lines = text.splitlines(keepends=True)
     mark = _mark([line for line in lines if line.strip() and not _COMMENT.match(line)])
     rows = list(_cells(iter(lines), mark))
@@ -108,7 +108,7 @@ def best_header(rows: Sequence[Sequence[str]], number: re.Pattern = _NUMBER["."]
     return max(possible, key=lambda p: (sum(map(_ends_in_unit, rows[p])), p), default=None)
 
 
-def _head(path: Path) -> tuple[str, str]:
+def head_of(path: Path) -> tuple[str, str]:
     """Encoding and first whole lines. UTF-8, or UTF-16 by its mark, else Windows-1252: numbers are the same in it."""
     with open(path, "rb") as file:
         raw = file.read(_HEAD)

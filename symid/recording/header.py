@@ -11,12 +11,18 @@ from pathlib import Path
 from symid import checked
 from symid.errors import RecordingError, SymidError
 from symid.recording.dates import is_moment
-from symid.recording.dialect import bare, dialect_of
+from symid.recording.dialect import bare, dialect_of, head_of
 from symid.recording.names import LABELS, ROW_NUMBERS, Column, contradictions, measured_column
 from symid.units import HOW_NAMED, nearest
 
 MOST_NAMED = 12
 """Columns that a message lists."""
+AXES_BELOW = (
+    "this looks like a table of markers with their names in a line above the axes: write both into one line, such as "
+    "LASI_x_mm, beside a column time_s; read without a change are C3D, TRC, and CSV as Vicon Nexus exports it"
+)
+_AXIS = re.compile(r"[XYZxyz](?![A-Za-z0-9])")
+_SECTIONS = re.compile(r"\s*[A-Za-z ]+[,;\t]*\n[\d.]+[,;\t]*\n(.*\n)*?Frame[,;\t]Sub Frame[,;\t]")
 MAP_THEM = f"{HOW_NAMED}; or map the columns: read_recording(columns=...), --columns MAP.toml"
 
 
@@ -69,6 +75,12 @@ def is_dated(path: Path) -> bool:
     return bool(first) and any(map(is_moment, first[0]))
 
 
+def is_of_sections(path: Path) -> bool:
+    """Whether a text file holds sections as Vicon Nexus writes them, each with its kind and its rate first."""
+    with faults_of_text(path):
+        return bool(_SECTIONS.match("\n".join(head_of(path)[1].splitlines())))
+
+
 def require_file(path: Path) -> None:
     """RecordingError with the nearest names where there is no such file."""
     if not path.exists():
@@ -104,6 +116,8 @@ def _parse(cells: list[str], first_row: list[str]) -> tuple[list[Column], list[s
     problems += no_time(cells, columns, refused=bool(problems))
     if not problems and not any(c.unit and c.name != "time" for c in columns):
         problems.append("there is no channel besides time")
+    if len([text for text in cells if _AXIS.match(text)]) > len("xyz"):
+        return columns, problems, f"; {AXES_BELOW}"
     return columns, problems, f"; {MAP_THEM}" if without_unit else ""
 
 

@@ -14,7 +14,7 @@ from symid import checked
 from symid.errors import RecordingError, RecordingWarning
 from symid.recording.cells import NO_WEIGHT, read_table
 from symid.files import a_file
-from symid.recording.header import faults_of_text, file_rows, is_dated, read_header, require_file
+from symid.recording.header import faults_of_text, file_rows, is_dated, is_of_sections, read_header, require_file
 from symid.recording.names import CELSIUS, Column
 from symid.recording.recording import Recording
 from symid.recording.remarks import remarks_on
@@ -39,6 +39,7 @@ def read_recording(
 
     ========================== ============================================================================
     .csv, .tsv, .txt           one row a sample below a line of names; marks, decimals and encoding are found
+                               (sections of Vicon Nexus, too, with markers as ``<marker>_x``)
     .xlsx, .parquet            likewise; the first sheet that holds a table
     .c3d, .trc                 markers, as ``<marker>_x`` in m, and analog channels
     .mot, .sto                 tables of OpenSim
@@ -92,7 +93,7 @@ def read_recording(
 
 def _has_reader(path: Path) -> bool:
     if path.suffix.lower() in PLAIN:
-        return False
+        return is_of_sections(path)
     from symid.recording.readers import READERS
 
     return path.suffix.lower() in READERS

@@ -71,8 +71,15 @@ def trc(path: Path) -> None:
     path.write_text(head + "\n".join(f"{i}\t{t:.2f}\t{i}\t{2 * i}\t3" for i, t in enumerate(TIME, 1)))
 
 
+def nexus(path: Path) -> None:
+    head = "\n100\n,,A:ANK,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n"
+    rows = "".join(f"{i},0,{i},{2 * i}.5,3\n" for i in range(1, 41))
+    path.write_text(f"Trajectories{head}{rows}\nModel Outputs{head.replace('ANK', 'AnkleAngles')}{rows}")
+
+
 WRITERS = {
     "r.csv": lambda path: FRAME.to_csv(path, index=False),
+    "nexus.csv": nexus,
     "r.tsv": lambda path: FRAME.to_csv(path, index=False, sep="\t"),
     "r.xlsx": lambda path: FRAME.to_excel(path, index=False),
     "r.parquet": lambda path: FRAME.to_parquet(path),

@@ -64,3 +64,37 @@ def columns_of(name: str, values, unit: str | None = None) -> Iterator[RawColumn
         stem = name
     for i, row in enumerate(array if array.shape[0] < array.shape[1] else array.T, 1):
         yield RawColumn(f"{stem}_{i}{name.removeprefix(stem)}", row.astype(float), unit)
+
+
+def lines_of(path: Path) -> list[str]:
+    """Lines of a text file, without their ends."""
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
+    for encoding in ("utf-8-sig", "cp1252"):  # the second for names only, numbers are the same in both
+        try:
+            return raw.decode(encoding).splitlines()
+        except UnicodeDecodeError:
+            continue
+    raise RecordingError(f"{path}: is not a text file")
+
+
+def numbers_below(path: Path, lines: list[str], start: int, names: list[str], mark: str | None) -> np.ndarray:
+    """(N, columns) the table below the header; an empty cell is NaN, a row of another length is refused."""
+    rows = []
+    for line, text in enumerate(lines[start:], start + 1):
+        if not text.strip():
+            continue
+        cells = text.rstrip("\r\n").split(mark)
+        while mark and len(cells) > len(names) and not cells[-1].strip():
+            cells.pop()
+        if len(cells) != len(names):
+            raise RecordingError(f"{path}: line {line} has {len(cells)} cells, the header names {len(names)} columns")
+        try:
+            rows.append([number_of(cell) if cell.strip() else np.nan for cell in cells])
+        except ValueError as error:
+            raise RecordingError(f"{path}: line {line}: {error}") from None
+    if not rows:
+        raise RecordingError(f"{path}: there is a header but no row with samples")
+    return np.array(rows)

@@ -12,14 +12,17 @@ import numpy as np
 from symid.errors import RecordingError
 from symid.recording.dialect import MISSING, Dialect, are_units, bare, best_header, dialect_of
 from symid.recording.dates import seconds_of
-from symid.recording.header import faults_of_text
+from symid.recording.header import faults_of_text, is_of_sections
 from symid.recording.names import LABELS
 from symid.recording.readers.limits import refuse_huge, refuse_huge_zip
+from symid.recording.readers.nexus import read_sections
 from symid.recording.readers.raw import RawColumn, cannot_be_read, library
 
 
 def read_delimited(path: Path) -> list[RawColumn]:
     """Text, its cells parted by whatever makes them numbers: see `symid.recording.dialect`."""
+    if is_of_sections(path):
+        return read_sections(path)
     with faults_of_text(path):
         found = dialect_of(path)
         rows = list(found.rows(path))
