@@ -71,11 +71,12 @@ def explore(
         best = min(max((c.log_ratio for c in first), default=0.0), max(reach.values(), default=0.0))
         worth = [s for s in chosen[POLICY.always_refitted :] if reach[s[0].suspect] > POLICY.beam_share * best]
         first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
+        first += [c for c in pool.map(lambda s: _begin(fit, data, s), _unseen(starts, first)) if c is not None]
         first += [c for c in pool.map(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first)) if c is not None]
         first = list({c.suspect: c for c in sorted(first, key=lambda c: c.log_ratio)}.values())
         first.sort(key=lambda c: -c.log_ratio)
         others = {
-            s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast and not t.afresh][:2] for s in chosen
+            s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast and not t.afresh][:2] for s in starts
         }
         good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
         found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), good))
@@ -104,6 +105,18 @@ def _reaches(starts: Sequence[list[Start]]) -> dict[Suspect, float]:
 def _begins_finite(starts: list[Start]) -> bool:
     q = starts[0].suspect.strength
     return q is not None and all(s.values[q.key] != q.null for s in starts)
+
+
+def _unseen(starts: Sequence[list[Start]], first: Sequence[Hypothesis]) -> list[list[Start]]:
+    """Delays and lags of which a slope at zero sees too little to be fitted, where one alike explains much."""
+    best = max((c.log_ratio for c in first), default=0.0)
+    leading = [c.suspect for c in first if c.log_ratio > max(POLICY.beam_share * best, POLICY.worth_refitting)]
+    fitted = {c.suspect for c in first}
+    return [
+        s
+        for s in starts
+        if s[0].suspect.bypasses and s[0].suspect not in fitted and any(is_alike(s[0].suspect, c) for c in leading)
+    ]
 
 
 def _misled(chosen: Sequence[list[Start]], first: Sequence[Hypothesis]) -> list[list[Start]]:
