@@ -16,6 +16,9 @@ from symid.model import Model
 GROWTH = 30.0
 """A piece is followed as long as a difference of its states grows no more than so many times: beyond that, a fit of its
 parameters has many optima (Ribeiro et al. 2020). A free pendulum comes there after thirty wide swings."""
+MOST_GROWTH = 1e3
+"""Pieces that a fit has found may grow by so much. In eight seconds of an inverted pendulum whose motor follows a
+recording the last steps of its encoders grew until they looked like a law."""
 LOST = 0.3
 """A fit that leaves more than this part of a motion may move so differently that its growth says nothing of the
 recorded one: a pendulum that goes over the top another time. Halves of the pieces are asked then."""
@@ -39,7 +42,7 @@ def followed(
     pieces, sensitive = data, _largest(fit, data) > GROWTH
     if not (sensitive or _lost(fit, data)):
         return None
-    while length / 2 > SHORTEST * data.pace and not near(pieces, fit):
+    while length / 2 > SHORTEST * data.pace and not (near(pieces, fit) and _largest(fit, pieces) <= MOST_GROWTH):
         length /= 2
         pieces = data.with_segments(part for e in data.segments for part in cut(e, length))
         try:
