@@ -21,6 +21,10 @@ from symid.estimation.fit import Fit, Fitter
 from symid.estimation.measurement import has_settled, with_memory
 
 
+FEW = 5
+"""So many suspects tell which of two ways to undo a filter is right: these differ by far less than models do."""
+
+
 def with_error_model(
     possible: list[tuple[Data, Fit]],
     searched: Callable[[Fit, Data], Search],
@@ -77,11 +81,17 @@ def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:
 
 
 def _likeliest(searches: list[Search]) -> Search:
-    """The one whose data the model fits best, with whatever single suspect it lacks."""
-    if len(searches) == 1:
-        return searches[0]
+    """The one whose data the model fits best, with whatever single suspect it lacks.
 
-    return max(searches, key=lambda s: max([s.base.loglik2, *(h.fit.loglik2 for h in s.states_alone)]))
+    Of all suspects those that explain most of the first data are tried on the others.
+    """
+    first, *others = searches
+    if not others:
+        return first
+    best = [h.suspect for h in first.states_alone[:FEW]]
+    found = [first.states_alone, *(s.alone(best) for s in others)]
+    most = [max([s.base.loglik2, *(h.fit.loglik2 for h in tried)]) for s, tried in zip(searches, found, strict=True)]
+    return searches[most.index(max(most))]
 
 
 def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:

@@ -55,8 +55,11 @@ class Search:
     @cached_property
     def states_alone(self) -> list[Hypothesis]:
         """Each suspect that follows no clock, alone."""
-        nothing = Hypothesis((), self.base, self.base, self.data)
-        return self._explored(nothing, [s for s in self.pool if s.kind != "clock"])
+        return self.alone([s for s in self.pool if s.kind != "clock"])
+
+    def alone(self, suspects: Sequence[Suspect]) -> list[Hypothesis]:
+        """Each of these suspects alone, best first."""
+        return self._explored(Hypothesis((), self.base, self.base, self.data), suspects)
 
     @cached_property
     def single(self) -> list[Hypothesis]:
