@@ -21,7 +21,7 @@ from symid.estimation.fit import Fit, Fitter
 from symid.estimation.measurement import has_settled, with_memory
 
 
-FEW = 5
+FEW = 3
 """So many suspects tell which of two ways to undo a filter is right: these differ by far less than models do."""
 
 
