@@ -45,7 +45,7 @@ def diagnose(folder: Path) -> int:
         from symid.discrepancy import suspects
 
         few = lambda model, sizes: [s for s in suspects(model, sizes) if s.term.name == "viscous_friction"]  # noqa: E731
-        import_module("symid.discrepancy.diagnose").suspects_of = few
+        import_module("symid.discrepancy.explained").suspects_of = few
 
     made_small("diagnose", one_suspect)
     outputs = [str(folder / name) for name in OUTPUTS["diagnose"]]

@@ -129,7 +129,9 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
 def plot_scores(diagnosis: Diagnosis) -> Picture:
     """How far each single suspect stays behind the best one; at the dashed line all is chance."""
     shown = sorted(diagnosis.ranking, key=lambda c: -c.score)[:MOST_SUSPECTS]
-    figure = Picture(figsize=(9.5, 0.34 * max(len(shown), 2) + 1.2), layout="constrained")
+    names = [law_name(c.suspect.term.name, c.suspect.term.location).replace(" at ", "\nat ") for c in shown]
+    row = 0.42 if any("\n" in name for name in names) else 0.34  # inches; two lines of 8 points fit into the first
+    figure = Picture(figsize=(9.5, row * max(len(shown), 2) + 1.2), layout="constrained")
     axes = figure.subplots()
     best = shown[0].score
     behind, places = np.array([best - c.score for c in shown]), np.arange(len(shown))
@@ -155,8 +157,7 @@ def plot_scores(diagnosis: Diagnosis) -> Picture:
             fontsize=8,
             color=INK,
         )
-    names = [law_name(c.suspect.term.name, c.suspect.term.location).replace(" at ", "\nat ") for c in shown]
-    axes.set_yticks(places, names, fontsize=8, linespacing=0.9)
+    axes.set_yticks(places, names, fontsize=8, linespacing=1.0)
     axes.set(xlim=(-POLICY.equivalent / 4, far), ylim=(len(shown) - 0.4, -0.6))
     decades = int(np.log10(far))
     ticks = [0, *(10**k for k in range(decades, 0, -1 if decades < 4 else -2))]

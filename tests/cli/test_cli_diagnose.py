@@ -46,7 +46,7 @@ def finding(folder):
 def quick(monkeypatch):
     """The commands with few suspects: what they do with a finding is the same."""
     monkeypatch.setattr(
-        import_module("symid.discrepancy.diagnose"),
+        import_module("symid.discrepancy.explained"),
         "suspects_of",
         lambda model, sizes: [s for s in suspects(model, sizes) if s.term.name == "sensor_offset"],
     )

@@ -229,6 +229,7 @@ def test_a_value_that_is_not_determined_says_so():
     assert (
         law_name("gravity_tilt", "global") == "gravity tilt"
         and law_name("viscous_friction", "hip") == "viscous friction at the hip"
+        and law_name("bouc_wen_hysteresis", "rail") == "Bouc-Wen hysteresis at the rail"
     )
 
 

@@ -51,7 +51,7 @@ def rig(tmp_path_factory):
 @pytest.fixture
 def quick(monkeypatch):
     monkeypatch.setattr(
-        import_module("symid.discrepancy.diagnose"),
+        import_module("symid.discrepancy.explained"),
         "suspects_of",
         lambda model, sizes: [
             s for s in suspects(model, sizes) if s.term.name in ("coulomb_friction", "sensor_offset")

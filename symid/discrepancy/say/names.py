@@ -29,9 +29,13 @@ def place_name(location: str) -> str:
 def law_name(name: str, location: str = "") -> str:
     """A law as a person says it, with its place: "viscous friction at joint 1"."""
     said = name.replace("_", " ")
+    for lower, proper in _PROPER.items():
+        said = said.replace(lower, proper)
     return said if location in ("", "global", "input", "base") else f"{said} at {place_name(location)}"
 
 
+_PROPER = {"bouc wen": "Bouc-Wen", "coulomb": "Coulomb", "stribeck": "Stribeck"}
+"""Names of people in those of laws."""
 _STRAIGHT = {"torque": "force", "angle": "position", "turns": "moves", "inertia": "mass"}
 """Words of the laws, for a place that moves along a line."""
 
