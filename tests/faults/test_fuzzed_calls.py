@@ -92,7 +92,7 @@ def test_arguments_of_a_diagnosis(name, value):
         return
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(import_module("symid.discrepancy.diagnose"), "fitted_as_given", reached)
+        patch.setattr(import_module("symid.discrepancy.explained"), "fitted_as_given", reached)
         told(si.diagnose, **arguments | {name: value})
 
 
@@ -209,7 +209,7 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("SYMID_STANDING", str(tmp_path / "none"))
     takes_long = {
-        "symid.discrepancy.diagnose": ["fitted_as_given"],
+        "symid.discrepancy.explained": ["fitted_as_given"],
         "symid.conceal": ["draw_case"],
         "symid.cli.bench": ["_solves", "_part", "_load", "_growth", "_formulations"],
         "symid.fetch": ["_downloaded", "_listed"],
