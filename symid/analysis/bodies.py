@@ -10,8 +10,11 @@ from math import inf
 import numpy as np
 
 from symid.errors import DiagnosisError
-from symid.estimation.data import Data, segments_of, swing
+from symid.estimation.data import Data
+from symid.estimation.swings import swing
+from symid.estimation.windows import segments_of
 from symid.estimation.fit import Fit, Fitter
+from symid.estimation.normal_equations import covariance_of, normal_equations
 from symid.mechanics import rig_model
 from symid.mechanics.combined import combined_of
 from symid.model import Model
@@ -146,9 +149,8 @@ def _covariance(fit: Fit, data: Data) -> np.ndarray:
     """(q, q) of the parameters of a fit [SI]."""
     fitter = Fitter(fit.model, data)
     p = np.array([fit.values[k] for k in fitter.sim.parameters])
-    H, _, q = fitter.normal(p, fit.initial, fit.kalman_gain, fit.process, fit.initial)
-    d = np.sqrt(np.maximum(np.diag(H), 1e-300))
-    return (np.linalg.pinv(H / np.outer(d, d), rcond=1e-13) / np.outer(d, d))[:q, :q]
+    H, _, q = normal_equations(fitter, p, fit.initial, fit.kalman_gain, fit.process, fit.initial)
+    return covariance_of(H)[:q, :q]
 
 
 def bodies_words(found: Sequence[Determined], unknown: Sequence[str]) -> str:

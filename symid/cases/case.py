@@ -16,7 +16,8 @@ from symid.discrepancy.diagnose import diagnose
 from symid.discrepancy.say.diagnosis import Diagnosis
 from symid.analysis.bodies import bodies_words, determined, rig_with_unknown_bodies, unknown_bodies
 from symid.errors import DiagnosisError, RecordingError, SymidError
-from symid.estimation.data import piece_length, segments_of
+from symid.estimation.swings import piece_length
+from symid.estimation.windows import segments_of
 from symid.estimation.zero_phase import ZeroPhase
 from symid.files import read_json
 from symid.mechanics import model_of

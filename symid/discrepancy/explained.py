@@ -18,7 +18,9 @@ from symid.discrepancy.name.error_model import with_error_model
 from symid.discrepancy.name.jump import with_likeliest_jumps
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.task import Task
-from symid.estimation.data import Data, Segment, segments_of
+from symid.estimation.data import Data
+from symid.estimation.segment import Segment
+from symid.estimation.windows import segments_of
 from symid.estimation.fit import Fit
 from symid.estimation.free_run import free_run
 from symid.estimation.measurement import fits_of, settled, sharpened_filter

@@ -1,10 +1,6 @@
 """Fit a model to data by prediction errors: Gauss-Newton on exact sensitivities.
 
-Random forces that act on the system cannot be simulated, but each sample tells what they did:
-the state is moved by a Kalman gain after every sample (Ljung 1999, ch. 7; Mehra 1971), and the
-remaining innovations are white if the model is right. Without random forces the gain is zero and
-the fit is plain output error. The covariance of the innovations is concentrated out, so that
--N log det of it is twice the log-likelihood.
+Without random forces the Kalman gain of the predictor is zero, and the fit is plain output error.
 """
 
 from __future__ import annotations
@@ -15,18 +11,17 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.data import Data, Segment
-from symid.estimation.growth import growth, growth_normal, runs_away
-from symid.estimation.kalman import kalman_gain, linearised_along
+from symid.estimation.data import Data
+from symid.estimation.growth import growth, runs_away
+from symid.estimation.normal_equations import covariance_of, normal_equations
+from symid.estimation.predictor import Predictor
 from symid.estimation.step import damped_step
-from symid.estimation.whitening import Whitening, whitening_of
+from symid.estimation.whitening import Whitening
 from symid.model import Model
 from symid.simulation import Simulator, simulator
 
 TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
-LONGEST_STEP = 0.02
-"""First longest step of the integrator [s], of a motion with the pace of a second."""
 SEEN, MOST_SUBSTEPS = 3.0, 32
 """What the integrator may cost of twice the log-likelihood; its steps are halved until then. A systematic error that
 the likelihood sees looks like physics. The error of every step stays in a shaft that turns freely, and the corners of
@@ -37,8 +32,6 @@ SHARPEST = 4.0
 """A filter is sharp within this factor of what the spectra show: its cutoff of order 2 within a factor of 1.4."""
 FARTHEST = 10.0
 """The noise of a sensor is within this factor of what the highest frequencies show."""
-REACH = 0.03
-"""The motion at the start of a segment is continued backwards for so long [s], for signals that are late."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +97,7 @@ def seen(change: np.ndarray, left: np.ndarray) -> bool:
     return bool(np.any(np.sum(change**2, axis=0) > SEEN * np.mean(left**2, axis=0)))
 
 
-class Fitter:
+class Fitter(Predictor):
     """Fits of one model to one set of data.
 
     Parameters
@@ -115,106 +108,15 @@ class Fitter:
     """
 
     def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), near: Fit | None = None, tune: bool = True):
-        self.model, self.data = model, data
-        self.sim = simulator(model)
-        self.free = [p for p in self.sim.parameters if p not in fixed]
+        super().__init__(model, data, fixed, near.substeps if near else 1)
         self.bounds = np.array([model.parameters[p].bounds for p in self.sim.parameters], dtype=float).reshape(-1, 2)
-        self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
-        self.driven = data.driven and bool(model.noises)
-        self.noises = len(model.noises)
-        self.sharpness_at = self.noises if data.cutoff_free else None
-        self.ratios_at = slice(self.noises + data.cutoff_free, None)
         ratios = len(data.sensor_noise) - 1 if self.driven and data.ratios_free else 0
-        self.tuned = [*range(self.noises)] if self.driven else []
-        self.tuned += range(self.noises, self.noises + data.cutoff_free + ratios)
-        self.tuned = self.tuned if tune else []
+        tuned = [*range(self.noises)] if self.driven else []
+        tuned += range(self.noises, self.noises + data.cutoff_free + ratios)
+        self.tuned = tuned if tune else []
         self.own = np.ones(data.cutoff_free + ratios)
         self.near, self.bounded = near, False
-        self.step = data.segments[0].step
-        longest = LONGEST_STEP * data.pace
-        self.substeps = max(near.substeps if near else 1, int(np.ceil(self.step / (1.01 * longest))))
 
-    # ---- one evaluation --------------------------------------------------------------
-    def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs", process=()):
-        """Trajectories of all segments, or None if one diverged."""
-        out = []
-        for e, start in zip(self.segments(process), x0, strict=True):
-            t = e.simulate(
-                self.sim,
-                p,
-                start,
-                gain,
-                substeps=self.substeps,
-                keep=keep,
-                sensitivity=self.free if sensitivities else (),
-                initial_sensitivity=self.sim.states if sensitivities else (),
-                history=self._history(p, start, e),
-            )
-            if t.diverged:
-                return None
-            out.append(t)
-        return out
-
-    def _history(self, p, start, segment):
-        """States just before an segment of a motion without random forces, where something reads them late."""
-        if self.driven or not self.model.delays:
-            return None
-        x = segment.head(3).simulate(self.sim, p, start, substeps=self.substeps, keep="states").x
-        if not np.isfinite(x).all():
-            return None
-        ago = np.linspace(-REACH * self.data.pace, 0.0, 7)[:, None]
-        slope, bend = (4 * x[1] - 3 * x[0] - x[2]) / (2 * self.step), (x[2] - 2 * x[1] + x[0]) / self.step**2
-        return segment.time[0] + ago[:, 0], x[0] + ago * slope + ago**2 / 2 * bend
-
-    def segments(self, process) -> tuple[Segment, ...]:
-        """The segments at the sharpness that stands behind the noises in `process`."""
-        sharpness = self.sharpness(process)
-        return self.data.segments if sharpness == 1.0 else tuple(e.sharpened(sharpness) for e in self.data.segments)
-
-    def sharpness(self, process) -> float:
-        return float(process[self.sharpness_at]) if self.sharpness_at is not None and len(process) else 1.0
-
-    def sensors(self, process) -> np.ndarray:
-        """(m,) standard deviations of the sensors' noise."""
-        ratios = process[self.ratios_at]
-        return self.data.sensor_noise * np.append(1.0, ratios) if len(ratios) else self.data.sensor_noise
-
-    def innovations(self, runs, process=()) -> list[np.ndarray]:
-        return [e.recorded - t.y for e, t in zip(self.segments(process), runs, strict=True)]
-
-    def score(self, innovations, process=()) -> tuple[float, Whitening]:
-        """Twice the log-likelihood, and what whitens the innovations."""
-        whitening = whitening_of(innovations, self.data.memory)
-        if not self.driven:
-            # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
-            whitening = whitening.apart((1e-6 * self.data.sensor_noise) ** 2)
-        sign, logdet = np.linalg.slogdet(whitening.covariance)
-        if self.data.filter is not None:
-            logdet -= 2 * len(whitening.covariance) * self.data.filter.log_volume(self.step, self.sharpness(process))[0]
-        return (-self.data.samples * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), whitening
-
-    def evaluate(self, p, x0, gain, process=()) -> float:
-        return self._followed(p, x0, gain, process, keep="outputs")[0]
-
-    def _followed(self, p, x0, gain, process, keep: str):
-        """Twice the log-likelihood, -inf where a run diverges, and the runs."""
-        runs = self.run(p, x0, gain, sensitivities=False, process=process, keep=keep)
-        return (-np.inf if runs is None else self.score(self.innovations(runs, process), process)[0]), runs
-
-    def kalman_gain(self, p, process, path):
-        """Kalman gain at these values, linearised along a path of states; None without random forces."""
-        if not self.driven:
-            return None
-        return kalman_gain(
-            linearised_along(self.sim, p, path), self.step, process[: self.noises], self.sensors(process)
-        )
-
-    def path(self, p, x0, gain) -> np.ndarray:
-        """States along the trajectories, or the initial states if those diverge."""
-        runs = self.run(p, x0, gain, False, keep="states") if self.driven else None
-        return np.vstack([t.x for t in runs]) if runs else x0
-
-    # ---- the iteration ---------------------------------------------------------------
     def fit(
         self,
         start: dict[str, float],
@@ -246,7 +148,7 @@ class Fitter:
         """Move `at` uphill; how many iterations that took, and whether it converged."""
         damping, converged, k = 1e-3, False, 0
         for k in range(1, iterations + 1):
-            system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path)
+            system = normal_equations(self, at.p, at.x0, at.kalman_gain, at.process, at.path)
             if system is None:
                 break
             new, step, damping = self._improved(at, system, damping)
@@ -281,7 +183,7 @@ class Fitter:
         """
         try:
             at = self._begin(start, initial, process, None)
-            system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path, tuned=False)
+            system = normal_equations(self, at.p, at.x0, at.kalman_gain, at.process, at.path)
         except SymidError:
             return -np.inf
         if system is None:
@@ -350,70 +252,15 @@ class Fitter:
         process1[self.ratios_at] = np.clip(process1[self.ratios_at], 1 / FARTHEST, FARTHEST)
         return p1, x0 + step[-E * n :].reshape(E, n), process1
 
-    def normal(self, p, x0, gain, process, path, tuned: bool = True):
-        """Normal equations of shared unknowns (parameters, log noise if `tuned`) and initial states."""
-        runs = self.run(p, x0, gain, sensitivities=True, process=process)
-        if runs is None:
-            return None
-        innovations = self.innovations(runs, process)
-        _, whitening = self.score(innovations, process)
-        noise = (
-            self.tuned_columns(p, x0, gain, process, path, innovations)
-            if tuned and self.tuned
-            else [np.zeros((*s.shape, 0)) for s in innovations]
-        )
-        q, n, w, E = len(self.free), x0.shape[1], noise[0].shape[2], len(runs)
-        size = q + w + E * n
-        H, g = np.zeros((size, size)), np.zeros(size)
-        with np.errstate(over="ignore", invalid="ignore"):
-            for i, (t, s, extra) in enumerate(zip(runs, innovations, noise, strict=True)):
-                J = whitening(np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2))
-                r = whitening(s[:, :, None])[:, 0]
-                where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
-                H[np.ix_(where, where)] += J.T @ J
-                g[where] += J.T @ r
-            if self.data.cutoff_free and tuned and self.tuned:
-                _, slope, bend = self.data.filter.log_volume(self.step, self.sharpness(process))
-                samples, at = sum(s.size for s in innovations), q + self.tuned.index(self.noises)
-                H[at, at] += samples * (slope - bend)
-                g[at] += samples * slope
-            if self.bounded:
-                own, pull = growth_normal(self, p, path)
-                H[:q, :q] += own
-                g[:q] += pull
-        # Sensitivities of an unstable predictor overflow before the run itself does.
-        return (H, g, q) if np.isfinite(H).all() and np.isfinite(g).all() else None
-
-    def tuned_columns(self, p, x0, gain, process, path, innovations):
-        """Change of the innovations per unit of the logarithm of what is tuned, by differences."""
-        linear, columns = linearised_along(self.sim, p, path) if self.driven else None, []
-        for j in self.tuned:
-            more = process.copy()
-            more[j] *= np.exp(0.1)
-            moved = (
-                gain
-                if j == self.sharpness_at
-                else kalman_gain(linear, self.step, more[: self.noises], self.sensors(more))
-            )
-            other = self.run(p, x0, moved, False, process=more)
-            columns.append(
-                [np.zeros_like(s) for s in innovations]
-                if other is None
-                else [(a - b) / 0.1 for a, b in zip(self.innovations(other, more), innovations, strict=True)]
-            )
-        return [np.stack([c[i] for c in columns], axis=2) for i in range(len(innovations))]
-
     def _result(self, at: _Point, iterations: int, converged: bool, errors_too: bool) -> Fit:
-        system = self.normal(at.p, at.x0, at.kalman_gain, at.process, at.path) if errors_too else None
+        system = normal_equations(self, at.p, at.x0, at.kalman_gain, at.process, at.path) if errors_too else None
         innovations = self.innovations(
             self.run(at.p, at.x0, at.kalman_gain, sensitivities=False, process=at.process), at.process
         )
         loglik2, whitening = self.score(innovations, at.process)
         errors = {}
         if system is not None:
-            H, _, _ = system
-            d = np.sqrt(np.maximum(np.diag(H), 1e-300))
-            inverse = np.linalg.pinv(H / np.outer(d, d), rcond=1e-13) / np.outer(d, d)
+            inverse = covariance_of(system[0])
             errors = dict.fromkeys(self.sim.parameters, 0.0)
             errors |= {k: float(np.sqrt(max(inverse[i, i], 0.0))) for i, k in enumerate(self.free)}
         values = dict(zip(self.sim.parameters, map(float, at.p), strict=True))

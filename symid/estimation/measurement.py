@@ -12,7 +12,9 @@ import numpy as np
 from symid.errors import DiagnosisError
 from symid.estimation.between_samples import with_likeliest_curves
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import FEWEST, Data, Segment, segments_of
+from symid.estimation.data import Data
+from symid.estimation.segment import FEWEST, Segment
+from symid.estimation.windows import segments_of
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.pieces import free_pieces
 from symid.estimation.smoothing import Smoothing

@@ -8,7 +8,8 @@ import numpy as np
 
 from symid.errors import SymidError
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data, Segment
+from symid.estimation.data import Data
+from symid.estimation.segment import Segment
 from symid.estimation.fit import Fit
 from symid.estimation.pieces import cut
 from symid.model import Model

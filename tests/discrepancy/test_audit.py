@@ -17,7 +17,8 @@ from symid.discrepancy.say.names import law_name, place_name, sentence
 from symid.discrepancy.say.proof import verdicts_of_halves
 from symid.discrepancy.say.words import _finding
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data, Segment
+from symid.estimation.data import Data
+from symid.estimation.segment import Segment
 from symid.estimation.robust_errors import with_robust_errors
 from symid.mechanics import LIBRARY, rig_model
 from symid.recording import Recording

@@ -18,7 +18,7 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.certain import sure
 from symid.errors import DiagnosisError
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import segments_between
+from symid.estimation.windows import segments_between
 from symid.estimation.kalman import HOLD, kalman_gain
 from symid.mechanics import LIBRARY
 from symid.model import Equation, Input, Law, LawParameter, Model, Output, Parameter, State

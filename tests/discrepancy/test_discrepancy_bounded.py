@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from driven_cart import SENSOR, TRUE, cart, data_of, recorded
 
-from symid.estimation.data import Data, Segment
+from symid.estimation.data import Data
+from symid.estimation.segment import Segment
 from symid.estimation.fit import Fitter
 from symid.estimation.growth import growth, growth_normal, runs_away
 

@@ -17,7 +17,8 @@ from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.experiment import DRIVEN, FREE, experiments, likelihood_ratio
 from symid.discrepancy.prove.plan import plan_of
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data, segments_between, segments_of
+from symid.estimation.data import Data
+from symid.estimation.windows import segments_between, segments_of
 from symid.mechanics import LIBRARY, rig_model
 from symid.recording import read_recording
 from symid.simulation import synthetic_recording

@@ -13,7 +13,8 @@ from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.policy import POLICY
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data, segments_between
+from symid.estimation.data import Data
+from symid.estimation.windows import segments_between
 from symid.estimation.fit import Fitter
 from symid.mechanics import LIBRARY
 from symid.model import Law, LawParameter

@@ -5,7 +5,9 @@ import pytest
 
 import symid as si
 from symid.discrepancy.locate.audit import audit
-from symid.estimation.data import Data, pace_of, segments_of
+from symid.estimation.data import Data
+from symid.estimation.swings import pace_of
+from symid.estimation.windows import segments_of
 from symid.mechanics.feedback import torques_along
 from symid.simulation import simulator
 

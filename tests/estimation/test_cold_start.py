@@ -9,7 +9,8 @@ from scipy.ndimage import gaussian_filter1d
 
 import symid as si
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data, Segment
+from symid.estimation.data import Data
+from symid.estimation.segment import Segment
 from symid.estimation.sensitive import followed
 
 NOISE = 2e-3

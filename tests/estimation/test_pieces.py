@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 import symid as si
 from symid.discrepancy.model.dry import PARTS, with_friction_speeds
-from symid.estimation.data import Segment
+from symid.estimation.segment import Segment
 from symid.estimation.pieces import FEW, MANY, free_pieces
 from symid.mechanics import LIBRARY
 

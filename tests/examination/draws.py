@@ -22,7 +22,8 @@ from symid.conceal.conceal import Concealed, conceal
 from symid.discrepancy.model.hypothesis import hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data, segments_of
+from symid.estimation.data import Data
+from symid.estimation.windows import segments_of
 from symid.mechanics import LIBRARY
 from symid.simulation import simulator
 

@@ -15,7 +15,10 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.name.comb import comb
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data, Segment, piece_length, segments_of
+from symid.estimation.data import Data
+from symid.estimation.segment import Segment
+from symid.estimation.swings import piece_length
+from symid.estimation.windows import segments_of
 from symid.mechanics import LIBRARY, rig_model
 from symid.recording import Recording, read_recording
 from symid.simulation import simulator

@@ -11,7 +11,8 @@ from symid.cases import diagnose_case, rig_case
 from symid.discrepancy import suspects
 from symid.errors import RecordingError
 from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data, segments_of
+from symid.estimation.data import Data
+from symid.estimation.windows import segments_of
 from symid.mechanics import LIBRARY, rig_model
 from symid.mechanics.combined import combined_of
 from symid.simulation import synthetic_recording

@@ -9,7 +9,8 @@ import numpy as np
 from scipy.signal import welch
 
 from symid.estimation.cutoff import estimated_filter
-from symid.estimation.data import Segment, pace_of
+from symid.estimation.segment import Segment
+from symid.estimation.swings import pace_of
 from symid.estimation.sensor_noise import noise_before, white_noise
 from symid.estimation.zero_phase import ZeroPhase
 from symid.model import Model

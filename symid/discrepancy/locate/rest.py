@@ -11,7 +11,8 @@ from symid.discrepancy.locate.flexible import along
 from symid.discrepancy.locate.flexible_law import chosen_blocks, numbers
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
-from symid.estimation.data import Data, swing
+from symid.estimation.data import Data
+from symid.estimation.swings import swing
 from symid.estimation.fit import Fit
 from symid.estimation.independence import independent_share
 from symid.estimation.path import fitted_path

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from symid.estimation.data import Segment, swing
+from symid.estimation.segment import Segment
+from symid.estimation.swings import swing
 from symid.mechanics.laws import coordinate_unit
 from symid.mechanics.places import coordinate
 from symid.model import Constant, Model, Port

@@ -11,7 +11,8 @@ import numpy as np
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.data import Data, Segment
+from symid.estimation.data import Data
+from symid.estimation.segment import Segment
 from symid.estimation.fit import Fit, Fitter
 from symid.estimation.kalman import HOLD
 from symid.estimation.path import fitted_path

@@ -11,7 +11,7 @@ import numpy as np
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.prove.experiment import PAUSE, Experiment, as_recording, course, forces_of, sensed, start_of
 from symid.errors import DiagnosisError
-from symid.estimation.data import Segment
+from symid.estimation.segment import Segment
 from symid.mechanics import LIBRARY
 from symid.mechanics.places import with_places
 from symid.model import Model

@@ -1,0 +1,128 @@
+"""Predict each sample of data from those before it, and say how likely that makes them.
+
+Random forces that act on the system cannot be simulated, but each sample tells what they did:
+the state is moved by a Kalman gain after every sample (Ljung 1999, ch. 7; Mehra 1971), and the
+remaining innovations are white if the model is right. Without random forces the gain is zero and
+a prediction is a simulation. The covariance of the innovations is concentrated out, so that
+-N log det of it is twice the log-likelihood.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from symid.estimation.data import Data
+from symid.estimation.kalman import kalman_gain, linearised_along
+from symid.estimation.segment import Segment
+from symid.estimation.whitening import Whitening, whitening_of
+from symid.model import Model
+from symid.simulation import simulator
+
+LONGEST_STEP = 0.02
+"""First longest step of the integrator [s], of a motion with the pace of a second."""
+REACH = 0.03
+"""The motion at the start of a segment is continued backwards for so long [s], for signals that are late."""
+
+
+class Predictor:
+    """Predictions of one set of data by one model, at whatever values.
+
+    Parameters
+    ----------
+    fixed : parameters that keep their value: nobody asks for slopes by them.
+    substeps : of the integrator in each sample, at least.
+    """
+
+    def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), substeps: int = 1):
+        self.model, self.data = model, data
+        self.sim = simulator(model)
+        self.free = [p for p in self.sim.parameters if p not in fixed]
+        self.index = np.array([self.sim.parameters.index(p) for p in self.free], dtype=int)
+        self.driven = data.driven and bool(model.noises)
+        self.noises = len(model.noises)
+        self.sharpness_at = self.noises if data.cutoff_free else None
+        self.ratios_at = slice(self.noises + data.cutoff_free, None)
+        self.step = data.segments[0].step
+        longest = LONGEST_STEP * data.pace
+        self.substeps = max(substeps, int(np.ceil(self.step / (1.01 * longest))))
+
+    def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs", process=()):
+        """Trajectories of all segments, or None if one diverged."""
+        out = []
+        for e, start in zip(self.segments(process), x0, strict=True):
+            t = e.simulate(
+                self.sim,
+                p,
+                start,
+                gain,
+                substeps=self.substeps,
+                keep=keep,
+                sensitivity=self.free if sensitivities else (),
+                initial_sensitivity=self.sim.states if sensitivities else (),
+                history=self._history(p, start, e),
+            )
+            if t.diverged:
+                return None
+            out.append(t)
+        return out
+
+    def _history(self, p, start, segment):
+        """States just before an segment of a motion without random forces, where something reads them late."""
+        if self.driven or not self.model.delays:
+            return None
+        x = segment.head(3).simulate(self.sim, p, start, substeps=self.substeps, keep="states").x
+        if not np.isfinite(x).all():
+            return None
+        ago = np.linspace(-REACH * self.data.pace, 0.0, 7)[:, None]
+        slope, bend = (4 * x[1] - 3 * x[0] - x[2]) / (2 * self.step), (x[2] - 2 * x[1] + x[0]) / self.step**2
+        return segment.time[0] + ago[:, 0], x[0] + ago * slope + ago**2 / 2 * bend
+
+    def segments(self, process) -> tuple[Segment, ...]:
+        """The segments at the sharpness that stands behind the noises in `process`."""
+        sharpness = self.sharpness(process)
+        return self.data.segments if sharpness == 1.0 else tuple(e.sharpened(sharpness) for e in self.data.segments)
+
+    def sharpness(self, process) -> float:
+        return float(process[self.sharpness_at]) if self.sharpness_at is not None and len(process) else 1.0
+
+    def sensors(self, process) -> np.ndarray:
+        """(m,) standard deviations of the sensors' noise."""
+        ratios = process[self.ratios_at]
+        return self.data.sensor_noise * np.append(1.0, ratios) if len(ratios) else self.data.sensor_noise
+
+    def innovations(self, runs, process=()) -> list[np.ndarray]:
+        return [e.recorded - t.y for e, t in zip(self.segments(process), runs, strict=True)]
+
+    def score(self, innovations, process=()) -> tuple[float, Whitening]:
+        """Twice the log-likelihood, and what whitens the innovations."""
+        whitening = whitening_of(innovations, self.data.memory)
+        if not self.driven:
+            # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
+            whitening = whitening.apart((1e-6 * self.data.sensor_noise) ** 2)
+        sign, logdet = np.linalg.slogdet(whitening.covariance)
+        if self.data.filter is not None:
+            logdet -= 2 * len(whitening.covariance) * self.data.filter.log_volume(self.step, self.sharpness(process))[0]
+        return (-self.data.samples * logdet if sign > 0 and np.isfinite(logdet) else -np.inf), whitening
+
+    def evaluate(self, p, x0, gain, process=()) -> float:
+        return self._followed(p, x0, gain, process, keep="outputs")[0]
+
+    def _followed(self, p, x0, gain, process, keep: str):
+        """Twice the log-likelihood, -inf where a run diverges, and the runs."""
+        runs = self.run(p, x0, gain, sensitivities=False, process=process, keep=keep)
+        return (-np.inf if runs is None else self.score(self.innovations(runs, process), process)[0]), runs
+
+    def kalman_gain(self, p, process, path):
+        """Kalman gain at these values, linearised along a path of states; None without random forces."""
+        if not self.driven:
+            return None
+        return kalman_gain(
+            linearised_along(self.sim, p, path), self.step, process[: self.noises], self.sensors(process)
+        )
+
+    def path(self, p, x0, gain) -> np.ndarray:
+        """States along the trajectories, or the initial states if those diverge."""
+        runs = self.run(p, x0, gain, False, keep="states") if self.driven else None
+        return np.vstack([t.x for t in runs]) if runs else x0

@@ -1,0 +1,127 @@
+"""A segment of a recording, and its simulation from a state of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from symid.simulation import Simulator, Trajectory
+
+FEWEST = 8
+"""Samples of the shortest segment."""
+
+
+@dataclass(frozen=True, eq=False)
+class Segment:
+    """One stretch of recording.
+
+    Attributes
+    ----------
+    time : (N,) [s].
+    recorded : (N, m) in the order of the model's outputs, SI.
+    inputs : channel -> ((N - 1) ratio + 1,) SI.
+    ratio : samples of the inputs for each of the outputs, more than one where only some outputs are compared.
+    undone : (N, m) the part of `recorded` that undoing a filter added, where its cutoff is to be estimated.
+    """
+
+    time: np.ndarray
+    recorded: np.ndarray
+    inputs: Mapping[str, np.ndarray]
+    ratio: int = 1
+    undone: np.ndarray | None = None
+
+    @property
+    def step(self) -> float:
+        return float(np.median(np.diff(self.time)))
+
+    def head(self, n: int) -> Segment:
+        """The first `n` samples."""
+        return self.part(slice(n))
+
+    def part(self, rows: slice) -> Segment:
+        """Some of the samples, of inputs as well as of outputs."""
+        first, last, every = rows.indices(len(self.time))
+        fine = slice(first * self.ratio, (last - 1) * self.ratio + 1, every)
+        keep = np.ascontiguousarray
+        return Segment(
+            keep(self.time[rows]),
+            keep(self.recorded[rows]),
+            {k: keep(v[fine]) for k, v in self.inputs.items()},
+            self.ratio,
+            None if self.undone is None else keep(self.undone[rows]),
+        )
+
+    def sparser(self, every: int) -> Segment:
+        """Every so-many-th sample of the outputs, all samples of the inputs."""
+        rows = slice(None, None, every)
+        time = np.ascontiguousarray(self.time[rows])
+        fine = (len(time) - 1) * every * self.ratio + 1
+        return Segment(
+            time,
+            np.ascontiguousarray(self.recorded[rows]),
+            {k: v[:fine] for k, v in self.inputs.items()},
+            every * self.ratio,
+            None if self.undone is None else np.ascontiguousarray(self.undone[rows]),
+        )
+
+    def sharpened(self, sharpness: float) -> Segment:
+        """The segment with so many times the part that undoing a filter added."""
+        if self.undone is None or sharpness == 1.0:
+            return self
+        return replace(self, recorded=self.recorded + (sharpness - 1) * self.undone, undone=sharpness * self.undone)
+
+    def simulate(
+        self,
+        simulator: Simulator,
+        parameters,
+        initial_state,
+        gain: np.ndarray | None = None,
+        *,
+        substeps: int = 1,
+        **options,
+    ) -> Trajectory:
+        """A run over this segment, corrected by its samples where there is a `gain`, reported at its samples.
+
+        Parameters
+        ----------
+        substeps : of the integrator in each sample of the outputs; at least one in each of the inputs.
+        options : of `Simulator.simulate`.
+        """
+        if self.ratio == 1:
+            return simulator.simulate(
+                parameters,
+                initial_state,
+                self.time,
+                self.inputs,
+                gain=gain,
+                recorded=self.recorded,
+                substeps=substeps,
+                **options,
+            )
+        n = (len(self.time) - 1) * self.ratio + 1
+        recorded = np.full((n, self.recorded.shape[1]), np.nan)
+        recorded[:: self.ratio] = self.recorded
+        time = np.interp(np.arange(n) / self.ratio, np.arange(len(self.time)), self.time)
+        run = simulator.simulate(
+            parameters,
+            initial_state,
+            time,
+            self.inputs,
+            gain=_between(gain, self.ratio),
+            recorded=recorded,
+            substeps=-(-substeps // self.ratio),
+            **options,
+        )
+        return run.every(self.ratio)
+
+
+def _between(gain: np.ndarray | None, ratio: int) -> np.ndarray | None:
+    """Gains for states at earlier samples (1 + k, n, m), for those at samples of the inputs, by interpolation."""
+    if gain is None or gain.ndim == 2:
+        return gain
+    at = np.arange((len(gain) - 1) * ratio + 1) / ratio
+    low = np.minimum(at.astype(int), len(gain) - 2)
+    part = (at - low)[:, None, None]
+    return (1 - part) * gain[low] + part * gain[low + 1]
