@@ -112,7 +112,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _plan(finding, source: Path, arguments: argparse.Namespace) -> None:
     """Write the experiments, with what `symid simulate` needs to build the model again."""
-    from symid.discrepancy.prove.plan import plan_of
+    from symid.discrepancy.design.plan import plan_of
     from symid.files import read_json, write_json
 
     if source.is_dir():

@@ -105,7 +105,7 @@ def run(arguments: argparse.Namespace) -> int:
 def _planned(arguments: argparse.Namespace) -> int:
     """Make the recording of a planned experiment."""
     from symid.cases.plan import refuse_no_plan
-    from symid.discrepancy.prove.plan import recording_of
+    from symid.discrepancy.design.plan import recording_of
     from symid.files import read_json, write_atomically
     from symid.synthetic import csv_text
 

@@ -2,7 +2,7 @@
 
 from symid.discrepancy.diagnose import diagnose
 from symid.discrepancy.model.suspects import Suspect, suspects
+from symid.discrepancy.say.answer import read_answer
 from symid.discrepancy.say.diagnosis import Diagnosis, Effect
-from symid.discrepancy.say.saved import read_answer
 
 __all__ = ["Diagnosis", "Effect", "Suspect", "diagnose", "read_answer", "suspects"]

@@ -14,8 +14,9 @@ from symid.cli import main
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import hypothesis
 from symid.discrepancy.policy import POLICY
-from symid.discrepancy.prove.experiment import DRIVEN, FREE, experiments, likelihood_ratio
-from symid.discrepancy.prove.plan import plan_of
+from symid.discrepancy.design.changes import DRIVEN, FREE
+from symid.discrepancy.design.experiment import experiments, likelihood_ratio
+from symid.discrepancy.design.plan import plan_of
 from symid.estimation.cold_start import fit_model
 from symid.estimation.data import Data
 from symid.estimation.windows import segments_between, segments_of

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.discrepancy.locate.flexible import along
-from symid.discrepancy.locate.flexible_law import chosen_blocks, numbers
+from symid.discrepancy.locate.spline_parts import chosen_blocks, numbers
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
 from symid.estimation.data import Data

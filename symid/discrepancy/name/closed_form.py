@@ -10,7 +10,8 @@ import numpy as np
 from scipy.optimize import minimize
 
 from symid.discrepancy.locate.flexible import along
-from symid.discrepancy.locate.flexible_law import FlexibleLaw, names_of
+from symid.discrepancy.locate.flexible_law import FlexibleLaw
+from symid.discrepancy.locate.spline_parts import names_of
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.hypothesis import extended

@@ -4,28 +4,27 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
-from html import escape
+from dataclasses import dataclass
 from importlib import import_module
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 
 from symid.analysis.bodies import Determined
 from symid.errors import DiagnosisError
+from symid.discrepancy.design.experiment import Experiment, experiments
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.locate.rest import Rest
 from symid.discrepancy.model.hypothesis import Hypothesis
-from symid.discrepancy.name.closed_form import Proposal, proposal_table
+from symid.discrepancy.name.closed_form import Proposal
 from symid.discrepancy.prove.evidence import Evidence
-from symid.discrepancy.prove.experiment import Experiment, experiments
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.prove.held_out import Proof
+from symid.discrepancy.say.answer import answer_of
+from symid.discrepancy.say.html import html_of
 from symid.estimation.data import Data
 from symid.estimation.fit import Fit
 from symid.estimation.free_run import FreeRun
@@ -33,9 +32,7 @@ from symid.files import write_atomically
 from symid.identification.fit import common_unit
 from symid.mechanics.laws import parameter_name
 from symid.model import Model
-from symid.units import column_name, quantity
-
-FORMAT = 1
+from symid.units import column_name
 
 
 @dataclass(frozen=True)
@@ -147,59 +144,7 @@ class Diagnosis:
 
     def answer(self) -> dict[str, Any]:
         """The finding as plain numbers and text, in the answer format."""
-        return {
-            "format": FORMAT,
-            "verdict": self.verdict,
-            "effects": [
-                {
-                    "name": e.name,
-                    "location": e.location,
-                    "time_window_s": None if e.window is None else list(e.window),
-                    "parameters": {k: _value(*v) for k, v in e.parameters.items()},
-                }
-                for e in self.effects
-            ],
-            "ranking": self._ranking(),
-            "equivalent": [
-                {
-                    "name": c.suspect.term.name,
-                    "location": c.suspect.term.location,
-                    "why": f"explains the recording almost as well (score {c.score:.1f})",
-                }
-                for c in self.equivalent
-            ],
-            "confirmed": self.confirmed,
-            "false_alarm_probability": self.false_alarm_probability,
-            "proof": None if self.proof is None else asdict(self.proof),
-            "fit": {"baseline": self._errors("baseline"), "augmented": self._errors("augmented")},
-            "halves": [self._half(s) for s in self.halves],
-            "verdicts_of_halves": [
-                {
-                    "span_s": list(v.span),
-                    "verdict": v.verdict,
-                    "better_explained_by": None
-                    if v.rival is None
-                    else {"name": v.rival.term.name, "location": v.rival.term.location},
-                }
-                for v in self.verdicts_of_halves
-            ],
-            "recording": self._recording(),
-            "remainder": [
-                {
-                    "location": t.place,
-                    "what": t.what,
-                    "gain": t.log_ratio,
-                    "degrees_of_freedom": t.size,
-                    "minus_log10_probability": min(t.minus_log10_p, 300.0),
-                }
-                for t in self.remainder[:3]
-            ],
-            "rest": None if self.rest is None else self.rest.table(),
-            "proposal": None if self.proposal is None else proposal_table(self.proposal),
-            "flexible_law": None if self.flexible is None else self.flexible.table(),
-            "bodies": [vars(b) for b in self.bodies],
-            "words": self.words,
-        }
+        return answer_of(self)
 
     @property
     def named(self) -> tuple[Effect, ...]:
@@ -215,64 +160,6 @@ class Diagnosis:
     def unit(self) -> str:
         """SI unit of all outputs, or "mixed"."""
         return common_unit(y.unit for y in self.baseline.model.outputs.values()) or "mixed"
-
-    def _errors(self, when: str) -> dict[str, Any]:
-        """RMS errors of free runs in the outputs' unit, by segment and by channel; radians under the old keys, too."""
-        channels = [y.channel for y in self.baseline.model.outputs.values()]
-        found: dict[str, Any] = {"unit": self.unit}
-        for part in ("train", "heldout"):
-            run = self.runs.get(f"{when}_{part}")
-            if run is None:
-                continue
-            pieces = [r for _, r in run.of_segments()]
-            errors = np.sqrt(np.mean((run.simulated - run.recorded) ** 2, axis=0))
-            found |= {
-                f"{part}_rms": run.rms,
-                f"{part}_rms_by_channel": dict(zip(channels, map(float, errors), strict=True)),
-            }
-            found |= {f"{part}_rms_of_segments": pieces} if len(pieces) > 1 else {}
-            if self.unit == "rad":
-                found |= {f"{part}_rms_rad": run.rms} | (
-                    {f"{part}_rms_rad_of_segments": pieces} if len(pieces) > 1 else {}
-                )
-        return found
-
-    @staticmethod
-    def _half(s: Survival) -> dict[str, Any]:
-        return {
-            "name": s.name,
-            "location": s.location,
-            "survives": not s.reason,
-            "reason": s.reason or None,
-            "halves": [
-                {
-                    "span_s": list(h.span),
-                    "score": h.score if isfinite(h.score) else None,
-                    "parameters": {k: _value(*v) for k, v in h.parameters.items()},
-                }
-                for h in s.halves
-            ],
-        }
-
-    def _recording(self) -> dict[str, Any]:
-        names = [y.channel for y in self.improved.outputs.values()]
-        return {
-            "sensor_noise": dict(zip(names, map(float, self.audit.noise), strict=True)),
-            "sensor_noise_stated": bool(self.audit.stated.all()),
-            "filtered_above_Hz": {
-                k: f for k, f in zip(names, map(float, self.audit.cutoff), strict=True) if isfinite(f)
-            },
-        }
-
-    def _ranking(self) -> list[dict[str, Any]]:
-        """The effects that were found, then the other suspects by score."""
-        found = [{"name": e.name, "location": e.location, "score": e.log_ratio} for e in self.effects]
-        taken = {(e["name"], e["location"]) for e in found}
-        return found + [
-            {"name": t.name, "location": t.location, "score": c.score}
-            for c in self.ranking
-            if ((t := c.suspect.term).name, t.location) not in taken
-        ]
 
     def report(self, path: str | Path) -> Path:
         """Write a self-contained HTML report with figures.
@@ -333,29 +220,7 @@ class Diagnosis:
         return f"<Diagnosis: {self.verdict}{': ' * bool(found)}{found}>"
 
     def _repr_html_(self) -> str:
-        cell = "style='text-align:left;padding:2px 14px 2px 0'"
-        rows = [["effect", "place", "value (± standard error)"]] if self.effects else []
-        rows += [
-            [
-                e.name.replace("_", " "),
-                e.location,
-                ", ".join(f"{k}: {quantity(*v, self.unit_of(e, k))}" for k, v in e.parameters.items()) or e.sentence,
-            ]
-            for e in self.effects
-        ]
-        table = "".join(
-            "<tr>" + "".join(f"<{kind} {cell}>{escape(x)}</{kind}>" for x in row) + "</tr>"
-            for row, kind in zip(rows, ["th"] + ["td"] * len(rows), strict=False)
-        )
-        verdict = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}[
-            self.verdict
-        ]
-        said = "".join(f"<p>{escape(line)}</p>" for line in self.words.split("\n"))
-        return (
-            f"<div style='max-width:46em'><p><b>{verdict}</b> &middot; {escape(self.baseline.model.name)}</p>{said}"
-            + (f"<table>{table}</table>" if rows else "")
-            + "</div>"
-        )
+        return html_of(self)
 
     def unit_of(self, effect: Effect, key: str) -> str:
         """Unit of one parameter of an effect, as the improved model declares it; "1" for what is no parameter of it.
@@ -366,10 +231,6 @@ class Diagnosis:
         """
         part = self.improved.parameters.get(parameter_name(effect.name, effect.location, key))
         return "1" if part is None else part.unit
-
-
-def _value(value: float, error: float) -> dict[str, float | None]:
-    return {"value": value, "std_error": error if isfinite(error) else None}
 
 
 def finding(

@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
+from symid.discrepancy.design.experiment import Experiment
+from symid.discrepancy.design.simulated import PAUSE, as_recording, course, forces_of, sensed, start_of
 from symid.discrepancy.model.hypothesis import Hypothesis
-from symid.discrepancy.prove.experiment import PAUSE, Experiment, as_recording, course, forces_of, sensed, start_of
 from symid.errors import DiagnosisError
 from symid.estimation.segment import Segment
 from symid.mechanics import LIBRARY

@@ -1,0 +1,1 @@
+"""Which experiment would tell answers apart that a recording does not."""
