@@ -14,7 +14,7 @@ from nlp_problems import hs071, one_variable, tracking
 from symid.errors import MachineError, SolveError
 from symid.ipopt_solver import aside
 from symid.ipopt_solver import solve as ipopt_solver
-from symid.ipopt_solver import solve_nlp
+from symid.ipopt_solver import solve_nlp, through_cyipopt
 from symid.ipopt_solver.kept import put_together, taken_apart
 from symid.ipopt_solver.status import STATUS, explain
 
@@ -61,7 +61,7 @@ def test_why_cyipopt_is_not_there_is_told(monkeypatch, error, kind, words):
 
     real = builtins.__import__
     ipopt_solver._runner.cache_clear()
-    monkeypatch.setattr(ipopt_solver, "_extensions", lambda: [])
+    monkeypatch.setattr(through_cyipopt, "extensions", lambda: [])
     monkeypatch.setattr(builtins, "__import__", refuse)
     with pytest.raises(kind, match=words):
         solve_nlp(hs071())

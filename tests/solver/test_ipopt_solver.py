@@ -10,7 +10,7 @@ from nlp_problems import HS071_OBJECTIVE, HS071_SOLUTION, hs071, one_variable, t
 
 from symid.deadline import TimeUp, deadline, remaining
 from symid.errors import SolveError
-from symid.ipopt_solver import bounded, solve_nlp
+from symid.ipopt_solver import bounded, solve_nlp, through_cyipopt
 from symid.ipopt_solver import solve as ipopt_solver
 from symid.nlp import check_optimality
 
@@ -21,7 +21,7 @@ pytest.importorskip("cyipopt", reason="cyipopt is absent: run `python -m symid.s
 def either_way(request, monkeypatch):
     """Run a test through Ipopt's C interface and through cyipopt."""
     if request.param == "cyipopt":
-        monkeypatch.setattr(ipopt_solver, "_runner", lambda interface: ("cyipopt", ipopt_solver._run_cyipopt))
+        monkeypatch.setattr(ipopt_solver, "_runner", lambda interface: ("cyipopt", through_cyipopt.solve))
     elif ipopt_solver._runner("auto")[0] == "cyipopt":
         pytest.skip("this cyipopt hides Ipopt's C interface")
 
