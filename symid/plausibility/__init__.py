@@ -6,7 +6,8 @@ model's own equations, which explain the recorded accelerations far better once 
 
 from symid.plausibility.body import body_remarks
 from symid.plausibility.channels import channel_remarks
-from symid.plausibility.evidence import Change, unexplained
+from symid.plausibility.equations import Change
+from symid.plausibility.evidence import unexplained
 from symid.plausibility.mistakes import model_remarks
 from symid.plausibility.motion import Motion, motion_of
 from symid.plausibility.remarks import remarks

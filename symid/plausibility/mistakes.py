@@ -10,7 +10,8 @@ import numpy as np
 from symid.errors import SymidError
 from symid.model import Model, as_shown, shown_states
 from symid.plausibility.body import is_a_person
-from symid.plausibility.evidence import Change, Witness
+from symid.plausibility.equations import Change
+from symid.plausibility.evidence import Witness
 from symid.plausibility.motion import Motion, foretold, thirds_of, motion_of
 from symid.recording import Recording
 from symid.units import STANDARD_GRAVITY
