@@ -26,7 +26,10 @@ ROOT = Path(__file__).parents[1]
 PARTS = {
     "transcription": ("symid/transcription", "transcription model/test_conditions.py"),
     "estimation": ("symid/estimation", "estimation discrepancy/test_audit.py"),
-    "covariance": ("symid/identification/covariance.py", "identification/test_covariance.py"),
+    "covariance": (
+        "symid/identification/covariance.py",
+        "identification/test_covariance.py identification/test_determined_effects.py",
+    ),
     "codegen": ("symid/codegen", "codegen"),
 }
 """Part -> its code, and the tests that should notice."""

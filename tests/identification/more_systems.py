@@ -2,7 +2,7 @@
 
 import numpy as np
 import sympy as sm
-from small_systems import System, log_uniform, smooth, system
+from drawn_systems import System, log_uniform, smooth, system
 
 import symid as si
 

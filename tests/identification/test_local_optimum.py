@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from error_systems import oscillator, spring
-from small_systems import van_der_pol
 from unseen_systems import lorenz
 from test_verify import swing
+from small_systems import van_der_pol
 
 import symid as si
 from symid.estimation.shooting import Shooting

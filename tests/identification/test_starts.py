@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 import small_systems
 from more_systems import OTHERS
-from small_systems import PRACTISED
-from unfamiliar_systems import UNFAMILIAR, flexible_joint, measured
 from unseen_systems import UNSEEN, lotka_volterra
+from small_systems import PRACTISED
+from ugly_noise import measured
+from unfamiliar_systems import UNFAMILIAR, flexible_joint
 
 import symid as si
 from symid.identification import Solve

@@ -12,7 +12,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from unfamiliar_systems import NOISES, UNFAMILIAR, measured
+from ugly_noise import NOISES, measured
+from unfamiliar_systems import UNFAMILIAR
 
 from symid.identification.verify import COARSE, mesh_error
 

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 import sympy as sm
 from more_systems import declared, quarter_car
-from small_systems import System, cart_pole, log_uniform, mass_spring_damper, smooth, system
-from unfamiliar_systems import food_chain, measured
 from unseen_systems import duffing
+from drawn_systems import System, log_uniform, smooth, system
+from small_systems import cart_pole, mass_spring_damper
+from ugly_noise import measured
+from unfamiliar_systems import food_chain
 
 import symid as si
 from symid.plausibility import remarks

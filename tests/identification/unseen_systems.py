@@ -1,7 +1,7 @@
 """Small systems that were tried after the default start was made on those of `small_systems`."""
 
 import numpy as np
-from small_systems import System, log_uniform, smooth, system
+from drawn_systems import System, log_uniform, smooth, system
 
 import symid as si
 

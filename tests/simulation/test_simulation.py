@@ -5,33 +5,17 @@ from functools import partial
 import numpy as np
 import pytest
 import sympy as sm
+from oscillators import VALUES, oscillator
 from scipy.linalg import expm
 
 from symid.errors import CodegenError, SymidError
-from symid.model import Constant, Equation, Input, Model, Noise, Output, Parameter, State
-from symid.simulation import PlatformProtocol, synthetic_recording
+from symid.model import Equation, Input, Model, Output, Parameter, State
 from symid.simulation import Simulator as AnySimulator
 
 
 @pytest.fixture(params=["c", "numpy"])
 def Simulator(request):
     return partial(AnySimulator, backend=request.param)
-
-
-def oscillator(lag: float | None = None, hold: str = "smooth") -> Model:
-    m = Model("oscillator")
-    m.angle, m.rate = State(unit="rad"), State(unit="rad/s")
-    m.push, m.jolt = Input(unit="N*m", hold=hold), Noise(unit="N*m")
-    m.inertia = Constant(2.0, unit="kg*m^2")
-    m.stiffness, m.damping = Parameter(unit="N*m/rad"), Parameter(unit="N*m*s/rad")
-    if lag is not None:
-        m.lag = Parameter(unit="s")
-    late = m.delayed(m.angle, m.lag) if lag is not None else m.angle
-    m.kinematics = Equation(m.angle.dot - m.rate)
-    m.balance = Equation(m.inertia * m.rate.dot + m.damping * m.rate + m.stiffness * late - m.push - m.jolt)
-    m.seen = Output(m.angle)
-    m.torque = Output(m.stiffness * late + m.damping * m.rate, unit="N*m")
-    return m
 
 
 def double_pendulum() -> Model:
@@ -49,9 +33,6 @@ def double_pendulum() -> Model:
 
 def central(run, values, key, h):
     return (run(values | {key: values[key] + h}) - run(values | {key: values[key] - h})) / (2 * h)
-
-
-VALUES = {"stiffness": 18.0, "damping": 0.6}
 
 
 def test_linear_system_matches_the_matrix_exponential(Simulator):
@@ -248,32 +229,6 @@ def test_models_that_cannot_be_simulated(Simulator):
     m.rule = Equation(m.x.dot + m.y)
     with pytest.raises(CodegenError, match="1 equations for 2 states"):
         Simulator(m)
-
-
-def test_platform_motion_is_that_of_the_article():
-    t = np.arange(0, 300, 0.01)
-    position, velocity, acceleration = PlatformProtocol().motion(t, 3)
-    assert 0.5 < acceleration.std() < 0.64 and 3.0 < np.abs(acceleration).max() < 4.6
-    assert np.abs(position).max() < 0.0501
-    np.testing.assert_allclose(np.gradient(position, t)[1:-1], velocity[1:-1], atol=2e-3)
-    np.testing.assert_array_equal(acceleration, PlatformProtocol().acceleration(t, 3))
-    assert not np.array_equal(acceleration, PlatformProtocol().acceleration(t, 4))
-
-
-def test_synthetic_recording_is_seeded_and_noisy():
-    noise = dict(process_noise={"jolt": 1.0}, sensor_noise={"angle": 0.01})
-
-    def make(seed):
-        return synthetic_recording(oscillator(), VALUES, duration=30, rate=50, seed=seed, **noise)
-
-    a, b, c = make(1), make(1), make(2)
-    assert len(a) == 1501 and a.time[0] == 0
-    np.testing.assert_array_equal(a["angle"], b["angle"])
-    assert not np.array_equal(a["angle"], c["angle"])
-    with pytest.raises(SymidError, match="no process noise 'jult'"):
-        synthetic_recording(oscillator(), VALUES, duration=5, rate=50, seed=1, process_noise={"jult": 1.0})
-    with pytest.raises(SymidError, match="diverges"):
-        synthetic_recording(oscillator(), {"stiffness": -50.0, "damping": 0.0}, duration=60, rate=50, seed=1)
 
 
 def test_corrections_of_the_past_reach_delayed_signals_and_sensitivities(Simulator):
