@@ -26,7 +26,7 @@ _IN_WORDS = re.compile(
     r"(milli|micro|kilo)?(sec(ond)?|minute|hour|newton|met(er|re)|radian|degree|volt|watt|gram|kelvin)s?"
 )
 
-# A name's last word says what is measured, so an angle in metres is seen at the door.
+# A name's last word says what is measured, so an angle in metres is refused when it is read.
 _UNITS_OF_QUANTITY = {
     "time": {"s"},
     "angle": {"rad"},
