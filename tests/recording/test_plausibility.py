@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import sympy as sm
-from conftest import ROOT
+from conftest import ROOT, pendulum, pendulum_recording
 from mistakes import BODIES, RECORDINGS, only_one
 
 import symid as si
@@ -99,6 +99,20 @@ def test_a_network_is_not_asked_about_a_recording(law, blind):
     body = si.mechanics.DoubleLinkPendulum.from_json(DATA / "body.json")
     motion = motion_of(person(body, law), read_recording(DATA / "recording.csv"))
     assert Witness(person(body, law), motion).is_blind == blind
+
+
+@pytest.mark.parametrize("damping, strength", [(0.1, 0.0), (0.4, 1.0), (0.2, 0.3)])
+@pytest.mark.parametrize("channel, factor", [("angle", 180 / np.pi), ("angle", -1.0), ("drive", -1.0)])
+def test_a_first_look_at_few_samples_changes_no_remark(monkeypatch, damping, strength, channel, factor):
+    """Also of a motion that dies away, of which the beginning alone tells much."""
+    recording = pendulum_recording(damping=damping, duration=80.0, noise=1e-3, strength=strength)
+    bad = replace(recording, channels=dict(recording.channels) | {channel: factor * recording[channel]})
+    found = []
+    for few in (250, 10**9):
+        monkeypatch.setattr("symid.plausibility.mistakes.FEW", few)
+        found.append(remarks(pendulum(), bad))
+    assert found[0] == found[1]
+    assert strength == 0.0 or any("far better if" in text for text in found[0])
 
 
 @pytest.mark.slow
