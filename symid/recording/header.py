@@ -22,7 +22,7 @@ AXES_BELOW = (
     "LASI_x_mm, beside a column time_s; read without a change are C3D, TRC, and CSV as Vicon Nexus exports it"
 )
 _AXIS = re.compile(r"[XYZxyz](?![A-Za-z0-9])")
-_SECTIONS = re.compile(r"\s*[A-Za-z ]+[,;\t]*\n[\d.]+[,;\t]*\n(.*\n)*?Frame[,;\t]Sub Frame[,;\t]")
+_SECTIONS = re.compile(r"\s*[A-Za-z][A-Za-z ]*[,;\t]*\n[\d.]+[,;\t]*\n(.*\n)*?Frame[,;\t]Sub Frame[,;\t]")
 MAP_THEM = f"{HOW_NAMED}; or map the columns: read_recording(columns=...), --columns MAP.toml"
 
 

@@ -108,3 +108,10 @@ def test_axes_below_names_in_another_file_are_explained(read):
     rows = "".join(f"{i},{0.01 * i:.2f},1,2,3,4,5,{i}\n" for i in range(40))
     with pytest.raises(RecordingError, match="names in a line above the axes.*LASI_x_mm.*Vicon Nexus"):
         read(head + rows)
+
+
+@pytest.mark.parametrize("text", [" " * 60000, "a " * 30000, "a\n1\n" + "b,\n" * 20000, "a\n" + "1." * 30000])
+def test_a_look_for_sections_takes_no_longer_than_reading(read, text):
+    """A pattern that tries each place of blanks against each other would take minutes."""
+    with pytest.raises(RecordingError):
+        read(text)
