@@ -179,6 +179,7 @@ def test_reasons_name_the_quantity_without_its_unit():
     [
         ("joint1", "joint 1"),
         ("sensor:link2", "the sensor of link 2"),
+        ("a1-a2", "a1-a2"),
         ("ankle", "the ankle"),
         ("sensor:hip", "the sensor of the hip"),
         ("global", "the whole system"),

@@ -15,7 +15,7 @@ from symid.units import quantity
 def place_name(location: str) -> str:
     """A place as a person says it: "joint 1", "the ankle", "the sensor of link 2"."""
     kind, _, rest = location.rpartition(":")
-    noun = re.sub(r"([a-z])(\d+)$", r"\1 \2", rest).replace("_", " ")
+    noun = re.sub(r"^(\w*[a-z]{2})(\d+)$", r"\1 \2", rest).replace("_", " ")
     noun = noun if noun[-1:].isdigit() else f"the {noun}"
     return (
         f"the {kind} {rest}"
