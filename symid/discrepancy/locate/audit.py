@@ -88,7 +88,7 @@ def audit(
     noise = np.array(
         [float(table[c]) if c in table else _noise(x, step, filter) for c, x in zip(names, pieces, strict=True)]
     )
-    floor = empty and not known and all(on_floor for end, on_floor in ends if np.isfinite(end))
+    floor = filter is not None and empty and not known and all(on_floor for end, on_floor in ends if np.isfinite(end))
     return Audit(noise, stated, cutoff, rounding, filter, inputs, known, floor)
 
 

@@ -13,7 +13,7 @@ from symid.estimation.path import fitted_path
 from symid.model import Model
 from symid.simulation import Simulator, simulator
 
-FORGOTTEN, DRIFTS = 5.0, 0.1
+DECAYED, DRIFTS = 5.0, 0.1
 """A motion forgets how it began, and answers steadily to a clock, where all that is not a drift dies out over it by so
 many powers of e; what changes by less than this part over it drifts, as the angle of a shaft does."""
 
@@ -56,7 +56,7 @@ def _forgets(projection: Projection) -> bool:
     p = np.array([fit.values[k] for k in fit.simulator.parameters])
     A, *_ = linearised_along(fit.simulator, p, fitted_path(fit, projection.data)).without_delay()
     rates = np.linalg.eigvals(A) * float(segments[0].time[-1] - segments[0].time[0])
-    return bool(np.all((rates.real < -FORGOTTEN) | (np.abs(rates) < DRIFTS)))
+    return bool(np.all((rates.real < -DECAYED) | (np.abs(rates) < DRIFTS)))
 
 
 def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 4) -> list[dict[str, float]]:
