@@ -99,7 +99,7 @@ def _columns(model: Model, values: Mapping[str, float], data: Data, start: np.nd
     """Parameter -> change of the outputs per its own size in a few swings, less what the states at the start can do."""
     few = [s.head(max(8, int(SWINGS * swing(s) / s.step))) for s in data.segments[:SEGMENTS]]
     fitter = Fitter(model, data.with_segments(few))
-    runs = fitter.run(np.array([values[k] for k in fitter.sim.parameters]), start[:SEGMENTS], None, sensitivities=True)
+    runs = fitter.run(values, start[:SEGMENTS], None, sensitivities=True)
     if runs is None:
         raise DiagnosisError(f"{model.name}: its motion with {dict(values)} diverges; give more of its numbers")
     q, blocks = len(fitter.free), []

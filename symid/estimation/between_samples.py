@@ -37,8 +37,7 @@ def with_holds_of(fit: Fit, base: Fit, data: Data) -> Fit:
 
 def _differs(straight: Fitter, curved: Fitter, fit: Fit) -> bool:
     """Whether the likelihood sees the difference."""
-    p = np.array([fit.values[k] for k in straight.sim.parameters])
-    runs = [f.run(p, fit.initial, fit.kalman_gain, False, process=fit.process) for f in (straight, curved)]
+    runs = [f.run(fit.values, fit.initial, fit.kalman_gain, False, process=fit.process) for f in (straight, curved)]
     if None in runs:
         return False
     return seen(np.vstack([a.y - b.y for a, b in zip(*runs, strict=True)]), np.vstack(fit.innovations))

@@ -11,7 +11,7 @@ HOLD, MOST_HOLDS = 0.01, 8
 """Random forces last about this long [s], or this part of a sample: shorter ones within a sample look all alike."""
 
 
-def linearised_along(simulator: Simulator, values: np.ndarray, states: np.ndarray, points: int = 16) -> Linearised:
+def linearised_along(simulator: Simulator, values, states: np.ndarray, points: int = 16) -> Linearised:
     """The mean of the linearisations at `points` states of a trajectory (statistical linearisation)."""
     rows = states[np.isfinite(states).all(axis=1)]
     rows = rows[np.linspace(0, len(rows) - 1, points).astype(int)] if len(rows) else states[:1]

@@ -49,7 +49,7 @@ class Predictor:
         self.substeps = max(substeps, int(np.ceil(self.step / (1.01 * longest))))
 
     def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs", process=()):
-        """Trajectories of all segments, or None if one diverged."""
+        """Trajectories of all segments, or None if one diverged; `p` are values in the order of `sim`, or by name."""
         out = []
         for e, start in zip(self.segments(process), x0, strict=True):
             t = e.simulate(

@@ -23,8 +23,7 @@ def with_robust_errors(fit: Fit, data: Data) -> Fit:
     squares add up to the variance. Blocks are segments, or stretches of a long one.
     """
     fitter = Fitter.of(fit, data)
-    p = np.array([fit.values[k] for k in fitter.sim.parameters])
-    runs = fitter.run(p, fit.initial, fit.kalman_gain, sensitivities=True)
+    runs = fitter.run(fit.values, fit.initial, fit.kalman_gain, sensitivities=True)
     if runs is None or not fitter.free or not fit.errors:
         return fit
     whiten, q, m = fit.whitening, len(fitter.free), len(fit.whitening.covariance)

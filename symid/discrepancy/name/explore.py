@@ -170,8 +170,8 @@ def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> l
 
 def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
     """Twice the log-likelihood with the suspect at these values and nothing refitted."""
-    p = np.array([(fit.values | suspect.named(values))[k] for k in fitter.sim.parameters])
-    return fitter.evaluate(p, extended(fit.initial, fitter.sim), padded(fit.kalman_gain, fitter.sim))
+    initial, gain = extended(fit.initial, fitter.sim), padded(fit.kalman_gain, fitter.sim)
+    return fitter.evaluate(fit.values | suspect.named(values), initial, gain)
 
 
 def _promise(fitter: Fitter, fit: Fit, suspect: Suspect) -> float:

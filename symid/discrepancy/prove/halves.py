@@ -124,8 +124,7 @@ def _states(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
         n = len(data.segments) // 2
         return fit.initial[:n], fit.initial[n:]
     fitter = Fitter.of(fit, data)
-    p = np.array([fit.values[k] for k in fitter.sim.parameters])
-    (run,) = fitter.run(p, fit.initial, fit.kalman_gain, sensitivities=False, keep="states")
+    (run,) = fitter.run(fit.values, fit.initial, fit.kalman_gain, sensitivities=False, keep="states")
     return fit.initial, run.x[[len(run.x) // 2]]
 
 
