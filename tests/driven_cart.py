@@ -3,8 +3,8 @@
 import numpy as np
 
 from symid.discrepancy import Suspect, diagnose, suspects
-from symid.estimation.data import Data
-from symid.estimation.windows import segments_between
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_between
 from symid.model import Constant, Equation, Input, Model, Noise, Output, Parameter, Port, State
 from symid.simulation import synthetic_recording
 

@@ -139,7 +139,7 @@ def outcome(finder: Changed | None, tests: list[str], limit_s: float, cache: str
 
 
 def mutants(code: Path) -> list[tuple[Path, int, str]]:
-    files = sorted(code.glob("*.py")) if code.is_dir() else [code]
+    files = sorted(code.rglob("*.py")) if code.is_dir() else [code]
     return [(file, *place) for file in files for place in places(ast.parse(file.read_text()))]
 
 

@@ -16,9 +16,9 @@ import pandas as pd
 
 from symid.analysis.eigenvalues import growth, slopes_at
 from symid.errors import SymidError
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.windows import segments_of
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_of
 from symid.identification import Identification
 from symid.identification.starts.search import noisy_rows
 from symid.ipopt_solver import solve_nlp

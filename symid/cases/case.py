@@ -16,9 +16,9 @@ from symid.discrepancy.diagnose import diagnose
 from symid.discrepancy.say.diagnosis import Diagnosis
 from symid.analysis.bodies import bodies_words, determined, rig_with_unknown_bodies, unknown_bodies
 from symid.errors import DiagnosisError, RecordingError, SymidError
-from symid.estimation.swings import piece_length
-from symid.estimation.windows import segments_of
-from symid.estimation.zero_phase import ZeroPhase
+from symid.estimation.signals.swings import piece_length
+from symid.estimation.signals.windows import segments_of
+from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.files import read_json
 from symid.mechanics import model_of
 from symid.mechanics.rig import BASES

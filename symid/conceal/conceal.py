@@ -10,8 +10,8 @@ import numpy as np
 from symid.conceal.fit import FreeFit, fit_free, simulate_free
 from symid.conceal.setup import SWAY, Setup
 from symid.errors import SymidError
-from symid.estimation.segment import Segment
-from symid.estimation.windows import segments_between
+from symid.estimation.signals.segment import Segment
+from symid.estimation.signals.windows import segments_between
 from symid.mechanics import CANONICAL
 from symid.model import Model, Term
 from symid.recording import Recording

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from symid.errors import SymidError
-from symid.estimation.segment import Segment
+from symid.estimation.signals.segment import Segment
 from symid.model import Model
 from symid.simulation import simulator
 

@@ -12,7 +12,7 @@ from symid.discrepancy.say.judge import judge
 from symid.discrepancy.say.story import Story
 from symid.discrepancy.say.words import words
 from symid.discrepancy.task import Part, listed_suspects, check_options, task_of
-from symid.estimation.zero_phase import ZeroPhase
+from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.model import Model
 from symid.progress import kept_alive

@@ -18,14 +18,14 @@ from symid.discrepancy.name.error_model import with_error_model
 from symid.discrepancy.name.jump import with_likeliest_jumps
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.task import Task
-from symid.estimation.data import Data
-from symid.estimation.segment import Segment
-from symid.estimation.windows import segments_of
-from symid.estimation.fit import Fit
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
+from symid.estimation.signals.windows import segments_of
+from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import free_run
 from symid.estimation.measurement import fits_of, settled, sharpened_filter
-from symid.estimation.pieces import free_pieces, joined
-from symid.estimation.zero_phase import ZeroPhase
+from symid.estimation.signals.pieces import free_pieces, joined
+from symid.estimation.sensors.zero_phase import ZeroPhase
 
 CLEARER = 0.7
 """A floor is that of the sensors, and no filter was there, where a free run of what explains the recording without a

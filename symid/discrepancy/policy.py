@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from symid.estimation.robust_errors import BLOCK
+from symid.estimation.fitting.robust_errors import BLOCK
 
 
 @dataclass(frozen=True)

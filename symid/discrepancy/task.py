@@ -10,8 +10,8 @@ import numpy as np
 from symid import checked
 from symid.errors import DiagnosisError
 from symid.discrepancy.model.suspects import Suspect
-from symid.estimation.missing import without_missing
-from symid.estimation.zero_phase import ZeroPhase
+from symid.estimation.signals.missing import without_missing
+from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.mechanics.places import with_places
 from symid.model import Model

@@ -11,16 +11,16 @@ import numpy as np
 
 from symid.errors import DiagnosisError
 from symid.estimation.between_samples import with_likeliest_curves
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.segment import FEWEST, Segment
-from symid.estimation.windows import segments_of
-from symid.estimation.fit import Fit, Fitter
-from symid.estimation.pieces import free_pieces
-from symid.estimation.smoothing import Smoothing
-from symid.estimation.sensor_noise import noise_before
-from symid.estimation.whitening import remembered, whitening_of
-from symid.estimation.zero_phase import ZeroPhase
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import FEWEST, Segment
+from symid.estimation.signals.windows import segments_of
+from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.signals.pieces import free_pieces
+from symid.estimation.sensors.smoothing import Smoothing
+from symid.estimation.sensors.sensor_noise import noise_before
+from symid.estimation.sensors.whitening import remembered, whitening_of
+from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symid.estimation.data import Data, observed_state
-from symid.estimation.fit import Fit, Fitter
+from symid.estimation.signals.data import Data, observed_state
+from symid.estimation.fitting.fit import Fit, Fitter
 
 FORGOTTEN = 1.0
 """Seconds at the pace of a second that are left out, which fitting the state with which a segment begins has met."""

@@ -28,7 +28,7 @@ from symid.conceal.fit import fit_free, simulate_free
 from symid.conceal.magnitudes import OTHER, RANGES, draw_terms, draw_values
 from symid.conceal.shipped import SHIPPED, shipped_case
 from symid.conceal.write import csv_text, next_name, sealed_document
-from symid.estimation.windows import segments_between
+from symid.estimation.signals.windows import segments_between
 from symid.mechanics import CANONICAL, LIBRARY
 
 SHORT_RIG = ("rig", [("sensor_offset", "sensor:link1", {"offset_rad": 0.004})], (3, 0))

@@ -13,7 +13,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.closed_form import closed_form
 from symid.discrepancy.prove.nameless import nameless
 from symid.discrepancy.say.rest import formula
-from symid.estimation.cold_start import fit_model
+from symid.estimation.fitting.cold_start import fit_model
 from symid.mechanics import rig_model
 from symid.mechanics.dictionary import Shape, closed_law, shapes_of, unit_quotient
 

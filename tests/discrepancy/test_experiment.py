@@ -17,9 +17,9 @@ from symid.discrepancy.policy import POLICY
 from symid.discrepancy.design.changes import DRIVEN, FREE
 from symid.discrepancy.design.experiment import experiments, likelihood_ratio
 from symid.discrepancy.design.plan import plan_of
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.windows import segments_between, segments_of
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_between, segments_of
 from symid.mechanics import LIBRARY, rig_model
 from symid.recording import read_recording
 from symid.simulation import synthetic_recording

@@ -7,7 +7,7 @@ from driven_cart import cart, data_of, few, recorded
 from symid.discrepancy.locate.projection import Projection
 import symid.discrepancy.name.explore as steps
 from symid.discrepancy.name.explore import explore
-from symid.estimation.cold_start import fit_model
+from symid.estimation.fitting.cold_start import fit_model
 from symid.mechanics import LIBRARY
 
 

@@ -9,7 +9,7 @@ from scipy.signal import butter, filtfilt
 
 import symid as si
 from symid.discrepancy.locate.audit import audit, unfiltered
-from symid.estimation.windows import segments_of
+from symid.estimation.signals.windows import segments_of
 
 STEP_m, DRY_N, MASS_kg, VISCOUS = 1e-6, 20.3, 95.0, 203.0
 

@@ -12,10 +12,10 @@ from symid.discrepancy import suspects
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.policy import POLICY
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.windows import segments_between
-from symid.estimation.fit import Fitter
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_between
+from symid.estimation.fitting.fit import Fitter
 from symid.mechanics import LIBRARY
 from symid.model import Law, LawParameter
 

@@ -7,7 +7,7 @@ from symid.discrepancy.locate.modulation import modulated
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import remainder
 from symid.discrepancy.policy import POLICY
-from symid.estimation.cold_start import fit_model
+from symid.estimation.fitting.cold_start import fit_model
 from symid.model import Law, LawParameter
 
 

@@ -5,9 +5,9 @@ import pytest
 
 import symid as si
 from symid.discrepancy.locate.audit import audit
-from symid.estimation.data import Data
-from symid.estimation.swings import pace_of
-from symid.estimation.windows import segments_of
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.swings import pace_of
+from symid.estimation.signals.windows import segments_of
 from symid.mechanics.feedback import torques_along
 from symid.simulation import simulator
 

@@ -15,7 +15,7 @@ from symid.discrepancy.prove.held_out import compare
 from symid.discrepancy.prove.nulls import _signs, false_alarm_probability
 from symid.discrepancy.prove.opponents import refuted
 from symid.estimation.free_run import FreeRun
-from symid.estimation.independence import independent_share
+from symid.estimation.sensors.independence import independent_share
 
 
 def run(error, lengths=None):

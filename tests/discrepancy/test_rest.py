@@ -10,9 +10,9 @@ import symid as si
 from symid.discrepancy.locate.flexible_law import flexible_law
 from symid.discrepancy.locate.rest import rest_of
 from symid.discrepancy.say.rest import rest_words
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.windows import segments_between
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_between
 from symid.estimation.free_run import free_run
 from symid.mechanics import LIBRARY, rig_model
 from symid.mechanics.places import other_signals, places, with_places

@@ -5,9 +5,9 @@ import pytest
 
 import symid as si
 from symid.estimation.between_samples import with_likeliest_curves
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.windows import segments_of
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_of
 from symid.simulation import simulator
 
 RATE_HZ, NOISE_M = 30.0, 3e-5

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from driven_cart import TRUE, cart, data_of, recorded
 
-from symid.estimation import bias
-from symid.estimation.bias import REPEATS, unbiased
-from symid.estimation.cold_start import fit_model
+from symid.estimation.fitting import bias
+from symid.estimation.fitting.bias import REPEATS, unbiased
+from symid.estimation.fitting.cold_start import fit_model
 
 
 @cache

@@ -8,10 +8,10 @@ from scipy.interpolate import CubicSpline
 from scipy.ndimage import gaussian_filter1d
 
 import symid as si
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.segment import Segment
-from symid.estimation.sensitive import followed
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
+from symid.estimation.fitting.sensitive import followed
 
 NOISE = 2e-3
 

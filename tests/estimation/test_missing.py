@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import symid as si
-from symid.estimation.missing import BRIDGED, without_missing
+from symid.estimation.signals.missing import BRIDGED, without_missing
 
 TIME = np.arange(100) * 0.1
 

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 import symid as si
 from symid.discrepancy.model.dry import PARTS, with_friction_speeds
-from symid.estimation.segment import Segment
-from symid.estimation.pieces import FEW, MANY, free_pieces
+from symid.estimation.signals.segment import Segment
+from symid.estimation.signals.pieces import FEW, MANY, free_pieces
 from symid.mechanics import LIBRARY
 
 STEP, PERIOD = 0.02, 1.3

@@ -7,8 +7,8 @@ from scipy.linalg import expm
 from scipy.stats import norm
 
 from symid.discrepancy.prove.held_out import Proof, compare_predictions
-from symid.estimation.cold_start import fit_model
-from symid.estimation.fit import Fitter
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.fitting.fit import Fitter
 from symid.estimation.prediction import FORGOTTEN, Predictions, predictions
 from symid.estimation.measurement import of_window
 

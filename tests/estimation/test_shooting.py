@@ -7,7 +7,7 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.errors import SymidError
-from symid.estimation.shooting import DIVERGED, SQUARABLE, computable
+from symid.identification.starts.shooting import DIVERGED, SQUARABLE, computable
 
 
 def test_what_cannot_be_squared_is_replaced_and_nothing_else():

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from scipy.signal import butter, filtfilt, lfilter, savgol_filter
 
-from symid.estimation.cutoff import estimated_filter
-from symid.estimation.sensor_noise import noise_before
-from symid.estimation.smoothing import Smoothing
+from symid.estimation.sensors.cutoff import estimated_filter
+from symid.estimation.sensors.sensor_noise import noise_before
+from symid.estimation.sensors.smoothing import Smoothing
 
 STEP, N = 0.01, 4000
 

@@ -21,9 +21,9 @@ from symid.conceal import draw_case, write_case
 from symid.conceal.conceal import Concealed, conceal
 from symid.discrepancy.model.hypothesis import hypothesis
 from symid.discrepancy.model.suspects import Suspect
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.windows import segments_of
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_of
 from symid.mechanics import LIBRARY
 from symid.simulation import simulator
 

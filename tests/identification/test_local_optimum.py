@@ -8,7 +8,7 @@ from test_verify import swing
 from small_systems import van_der_pol
 
 import symid as si
-from symid.estimation.shooting import Shooting
+from symid.identification.starts.shooting import Shooting
 from symid.mechanics import PD, FullStatePD
 from symid.recording.smooth import left_by_smoother
 from symid.synthetic import BODY, GAINS, standing_recording

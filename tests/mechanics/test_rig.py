@@ -14,11 +14,11 @@ from symid.discrepancy import Suspect, diagnose, suspects
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.name.comb import comb
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.segment import Segment
-from symid.estimation.swings import piece_length
-from symid.estimation.windows import segments_of
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
+from symid.estimation.signals.swings import piece_length
+from symid.estimation.signals.windows import segments_of
 from symid.mechanics import LIBRARY, rig_model
 from symid.recording import Recording, read_recording
 from symid.simulation import simulator

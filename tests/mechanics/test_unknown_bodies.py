@@ -10,9 +10,9 @@ from symid.analysis.bodies import bodies_words, determined, rig_with_unknown_bod
 from symid.cases import diagnose_case, rig_case
 from symid.discrepancy import suspects
 from symid.errors import RecordingError
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.windows import segments_of
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_of
 from symid.mechanics import LIBRARY, rig_model
 from symid.mechanics.combined import combined_of
 from symid.simulation import synthetic_recording

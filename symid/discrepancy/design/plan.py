@@ -12,7 +12,7 @@ from symid.discrepancy.design.experiment import Experiment
 from symid.discrepancy.design.simulated import PAUSE, as_recording, course, forces_of, sensed, start_of
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import DiagnosisError
-from symid.estimation.segment import Segment
+from symid.estimation.signals.segment import Segment
 from symid.mechanics import LIBRARY
 from symid.mechanics.places import with_places
 from symid.model import Model

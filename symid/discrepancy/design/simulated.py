@@ -11,11 +11,11 @@ import numpy as np
 from symid.discrepancy.design.changes import Design
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import SymidError
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit
-from symid.estimation.kalman import HOLD
-from symid.estimation.path import fitted_path
-from symid.estimation.segment import Segment
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.kalman import HOLD
+from symid.estimation.fitting.path import fitted_path
+from symid.estimation.signals.segment import Segment
 from symid.model import Model
 from symid.recording import Recording
 from symid.simulation import Simulator

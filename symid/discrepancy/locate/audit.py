@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.signal import welch
 
-from symid.estimation.cutoff import estimated_filter
-from symid.estimation.segment import Segment
-from symid.estimation.swings import pace_of
-from symid.estimation.sensor_noise import noise_before, white_noise
-from symid.estimation.zero_phase import ZeroPhase
+from symid.estimation.sensors.cutoff import estimated_filter
+from symid.estimation.signals.segment import Segment
+from symid.estimation.signals.swings import pace_of
+from symid.estimation.sensors.sensor_noise import noise_before, white_noise
+from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
 

@@ -12,9 +12,9 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.spline_parts import candidate_blocks, chosen_blocks, names_of, numbers
 from symid.discrepancy.model.hypothesis import extended
 from symid.errors import SymidError
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit, Fitter
-from symid.estimation.independence import independent_share
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.sensors.independence import independent_share
 from symid.mechanics.places import places
 from symid.mechanics.spline_law import Block, spline_law
 from symid.model import Model, Port, Term

@@ -10,10 +10,10 @@ import numpy as np
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit
-from symid.estimation.pieces import cut
-from symid.estimation.sensitive import followed
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.signals.pieces import cut
+from symid.estimation.fitting.sensitive import followed
 from symid.identification import Identification
 from symid.identification.starts.default import default_start
 

@@ -13,9 +13,9 @@ from math import comb
 import numpy as np
 from scipy.linalg import expm
 
-from symid.estimation.fit import Fit
+from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import FreeRun
-from symid.estimation.kalman import linearised_along
+from symid.estimation.fitting.kalman import linearised_along
 from symid.model import Model, Noise
 
 WANDERS = (0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)

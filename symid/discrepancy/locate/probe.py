@@ -8,7 +8,7 @@ import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.hypothesis import padded
-from symid.estimation.segment import Segment
+from symid.estimation.signals.segment import Segment
 from symid.mechanics.places import places
 from symid.model import Input, Model, Parameter, Port
 from symid.simulation import simulator

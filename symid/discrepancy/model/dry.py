@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from symid.estimation.segment import Segment
-from symid.estimation.swings import swing
+from symid.estimation.signals.segment import Segment
+from symid.estimation.signals.swings import swing
 from symid.mechanics.laws import coordinate_unit
 from symid.mechanics.places import coordinate
 from symid.model import Constant, Model, Port

@@ -11,8 +11,8 @@ import numpy as np
 
 from symid.discrepancy.model.sizes import Sizes
 from symid.errors import ModelError
-from symid.estimation.data import Data
-from symid.estimation.segment import Segment
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
 from symid.mechanics import CANONICAL
 from symid.mechanics import suspects as terms_of
 from symid.mechanics.places import with_places

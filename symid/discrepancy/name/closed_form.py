@@ -17,9 +17,9 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.hypothesis import extended
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
-from symid.estimation.fit import Fit, Fitter
-from symid.estimation.independence import independent_share
-from symid.estimation.path import fitted_path
+from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.sensors.independence import independent_share
+from symid.estimation.fitting.path import fitted_path
 from symid.mechanics.dictionary import Shape, closed_expression, closed_law, shapes_of
 from symid.model import Law, Model, Port, Term
 

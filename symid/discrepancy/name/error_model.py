@@ -14,10 +14,10 @@ from math import inf, log
 
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.search import Search
-from symid.errors import DiagnosisError
+from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit, Fitter
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.measurement import has_settled, with_memory
 
 
@@ -52,7 +52,7 @@ def with_error_model(
         progress("with what was found the cutoff of the filter moves; looking again")
         try:
             search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched)
-        except DiagnosisError:
+        except SymidError:
             pass  # the model with what was found cannot be begun anew: the cutoff stays where it was
     data, explained = with_memory(found.fit, search.data)
     more = _gain(data, explained, search.data, found.fit)
@@ -115,6 +115,6 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
     fits = [fitter.again(base)]
     try:
         fits.append(fitter.again(near))
-    except DiagnosisError:
+    except SymidError:
         pass  # without what was found these values need not hold the model together
     return max(fits, key=lambda fit: fit.loglik2)

@@ -14,9 +14,9 @@ from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.scan import scan
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit, Fitter
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit, Fitter
 
 FIRST_ITERATIONS, CONVERGING_ITERATIONS = 6, 20
 SMALL = 0.15

@@ -15,8 +15,8 @@ from symid.discrepancy.model.dry import widths
 from symid.discrepancy.model.hypothesis import Hypothesis, polished, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit
 from symid.mechanics.terms import LIBRARY
 from symid.model import Constant, Model
 from symid.simulation import simulator

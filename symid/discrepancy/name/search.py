@@ -17,8 +17,8 @@ from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.jump import with_fitted_jumps
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit
 
 
 @dataclass(eq=False)

@@ -12,9 +12,9 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.halves import survivals
 from symid.discrepancy.prove.nulls import false_alarm_probability
-from symid.estimation.bias import unbiased
-from symid.estimation.fit import Fit
-from symid.estimation.robust_errors import with_robust_errors
+from symid.estimation.fitting.bias import unbiased
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.robust_errors import with_robust_errors
 
 
 def honest(found: Hypothesis, white: bool, threads: int) -> Hypothesis:

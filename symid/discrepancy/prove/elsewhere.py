@@ -9,8 +9,8 @@ import numpy as np
 from symid.discrepancy.locate.remainder import Test, located, remainder
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit, Fitter
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.free_run import FreeRun, with_states_of
 
 ITERATIONS = 40

@@ -20,9 +20,9 @@ from symid.discrepancy.prove.nulls import largest, null_maxima
 from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_values
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError
-from symid.estimation.data import Data
-from symid.estimation.windows import segments_of
-from symid.estimation.fit import Fit
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_of
+from symid.estimation.fitting.fit import Fit
 from symid.estimation.prediction import predictions
 from symid.estimation.measurement import away_from_ends, of_window, restored
 from symid.estimation.free_run import FreeRun

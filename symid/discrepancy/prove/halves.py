@@ -13,9 +13,9 @@ from symid.discrepancy.model.hypothesis import penalty, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.policy import POLICY
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit, Fitter
-from symid.estimation.robust_errors import with_robust_errors
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.robust_errors import with_robust_errors
 
 ITERATIONS = 15
 _UNITS = ("Nm", "Nms", "N", "rad", "rad2", "rad3", "s", "s2", "Hz", "kg", "m", "m2")

@@ -6,7 +6,7 @@ import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.policy import POLICY
-from symid.estimation.fit import Fit
+from symid.estimation.fitting.fit import Fit
 
 _EULER = 0.5772156649
 

@@ -25,8 +25,8 @@ from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.answer import answer_of
 from symid.discrepancy.say.html import html_of
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import FreeRun
 from symid.files import write_atomically
 from symid.identification.fit import common_unit

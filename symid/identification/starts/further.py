@@ -10,8 +10,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from symid.estimation.bounds import guesses
-from symid.estimation.shooting import Shooting, can_shoot
+from symid.identification.starts.bounds import guesses
+from symid.identification.starts.shooting import Shooting, can_shoot
 from symid.identification.sensitivity import outputs_and_targets
 from symid.identification.starts.default import equation_error, smooth_motion
 from symid.recording.smooth import left_by_smoother

@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symid.estimation.loop import Loop
+from symid.identification.starts.loop import Loop
 from symid.identification.starts.default import equation_error, random_start
 from symid.ipopt_solver import Iteration, solve_nlp
 from symid.nlp import soften

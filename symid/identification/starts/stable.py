@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy
 
-from symid.estimation.loop import Loop
+from symid.identification.starts.loop import Loop
 from symid.identification.starts.search import evolve, one_relaxed
 from symid.simulation import Trajectory, simulator
 from symid.threads import one_blas_thread

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.data import Data, observed_state
-from symid.estimation.fit import Fit, Fitter
-from symid.estimation.kalman import linearised_along
+from symid.estimation.signals.data import Data, observed_state
+from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.kalman import linearised_along
 from symid.model import Model
 from symid.simulation import simulator
 

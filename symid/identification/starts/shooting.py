@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import scipy
 
-from symid.estimation.bounds import parameter_bounds
+from symid.identification.starts.bounds import parameter_bounds
 from symid.simulation import Trajectory, simulator
 from symid.transcription import Measured, Transcription
 from symid.transcription.scales import RANGE

@@ -7,7 +7,7 @@ from math import comb
 
 import numpy as np
 
-from symid.estimation.zero_phase import ZeroPhase
+from symid.estimation.sensors.zero_phase import ZeroPhase
 
 ORDER = 6
 """Differences of this order leave noise and hardly any motion."""

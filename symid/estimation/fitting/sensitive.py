@@ -7,11 +7,11 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.cold_start import fit_model
-from symid.estimation.data import Data
-from symid.estimation.segment import Segment
-from symid.estimation.fit import Fit
-from symid.estimation.pieces import cut
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.signals.pieces import cut
 from symid.model import Model
 
 GROWTH = 30.0

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import brentq
 from scipy.signal import savgol_coeffs
 
-from symid.estimation.zero_phase import ROLL_OFF, ZeroPhase
+from symid.estimation.sensors.zero_phase import ROLL_OFF, ZeroPhase
 
 LEAST_GAIN = 1e-6
 """Beyond its first zero the gain changes its sign; there nothing is kept, and this stands for it."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from symid.estimation.growth import growth_normal
-from symid.estimation.kalman import kalman_gain, linearised_along
+from symid.estimation.fitting.growth import growth_normal
+from symid.estimation.fitting.kalman import kalman_gain, linearised_along
 
 
 def normal_equations(fitter, p, x0, gain, process, path):

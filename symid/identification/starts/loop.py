@@ -8,8 +8,8 @@ import numpy as np
 import scipy
 
 from symid.errors import SolveError
-from symid.estimation.bounds import parameter_bounds
-from symid.estimation.shooting import computable, root_weights
+from symid.identification.starts.bounds import parameter_bounds
+from symid.identification.starts.shooting import computable, root_weights
 from symid.simulation import Trajectory, simulator
 from symid.transcription import Transcription
 

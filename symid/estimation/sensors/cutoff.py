@@ -16,8 +16,8 @@ import numpy as np
 from scipy.optimize import minimize, minimize_scalar, nnls
 from scipy.signal import csd, welch
 
-from symid.estimation.smoothing import Smoothing
-from symid.estimation.zero_phase import ZeroPhase
+from symid.estimation.sensors.smoothing import Smoothing
+from symid.estimation.sensors.zero_phase import ZeroPhase
 
 ORDERS = (2, 3, 4)
 RATES = (1, 2, 4)

@@ -12,8 +12,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from symid.estimation.segment import FEWEST, Segment
-from symid.estimation.swings import piece_length, swing
+from symid.estimation.signals.segment import FEWEST, Segment
+from symid.estimation.signals.swings import piece_length, swing
 
 FEW, MANY = 3.0, 15.0
 """Pieces of more than one coordinate keep their length between so many swings."""

@@ -14,9 +14,9 @@ from dataclasses import replace
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.data import Data
-from symid.estimation.fit import Fit, Fitter
-from symid.estimation.kalman import held
+from symid.estimation.signals.data import Data
+from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.kalman import held
 
 REPEATS = 8
 ITERATIONS = 8

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from symid.errors import DiagnosisError
-from symid.estimation.segment import FEWEST, Segment
+from symid.estimation.signals.segment import FEWEST, Segment
 from symid.model import Model
 from symid.recording import Recording
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from symid.estimation.segment import FEWEST, Segment
+from symid.estimation.signals.segment import FEWEST, Segment
 
 SWINGS = 5
 """Swings of one piece of a motion that nothing drives: a few show losses, many bury the parameters in chaos."""

@@ -1,0 +1,1 @@
+"""What sensors add to a motion, and what filters take from it: noise, its memory, zero-phase filters, smoothing."""

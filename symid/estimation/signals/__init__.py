@@ -1,0 +1,1 @@
+"""What is compared: segments of a recording, their windows and pieces, and how fast they move."""
