@@ -62,7 +62,7 @@ def _later(q: float, v: float, force: float, h: float) -> tuple[float, float]:
 def test_the_floor_of_an_encoder_may_be_the_rounding_of_a_file_after_a_filter(driven):
     pieces = segments_of(positioning(), driven, driven.interval)
     found = audit(positioning(), driven, pieces, None)
-    assert found.filtered and found.floor
+    assert found.filtered and found.doubtful
     plain = unfiltered(found, pieces)
     assert not plain.filtered and plain.filter is None and plain.noise[0] == pytest.approx(1e-6, rel=0.5)
 

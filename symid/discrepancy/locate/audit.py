@@ -12,6 +12,7 @@ from symid.estimation.sensors.cutoff import estimated_filter
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.swings import pace_of
 from symid.estimation.sensors.sensor_noise import noise_before, white_noise
+from symid.estimation.sensors.smoothing import Smoothing
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
@@ -42,8 +43,8 @@ class Audit:
     cutoff : (m,) above this frequency the signal is empty, so it was low-pass filtered [Hz]; NaN where not.
     filter : the zero-phase filter that did it, as the spectra show it; None where none of the outputs was filtered.
     inputs : whether the inputs may have been filtered, too. known : whether the filter was stated.
-    floor : whether what is filtered ends in a floor: the rounding of its file after the filter, or the noise of a
-        sensor so fine beside the motion that it may be taken for that.
+    doubtful : whether there may have been no filter: what it left ends in a floor, which may be the rounding of its
+        file or the noise of a fine sensor; or it is a smoothing, whose zeros in the spectrum a slow motion may feign.
     rounding : (m,) step of the encoder [SI], 0 where values are not rounded visibly.
     """
 
@@ -54,7 +55,7 @@ class Audit:
     filter: ZeroPhase | None = None
     inputs: bool = False
     known: bool = False
-    floor: bool = False
+    doubtful: bool = False
 
     @property
     def filtered(self) -> bool:
@@ -88,12 +89,13 @@ def audit(
     noise = np.array(
         [float(table[c]) if c in table else _noise(x, step, filter) for c, x in zip(names, pieces, strict=True)]
     )
-    floor = filter is not None and empty and not known and all(on_floor for end, on_floor in ends if np.isfinite(end))
-    return Audit(noise, stated, cutoff, rounding, filter, inputs, known, floor)
+    on_floor = empty and all(floor for end, floor in ends if np.isfinite(end))
+    doubtful = filter is not None and not known and (on_floor or isinstance(filter, Smoothing))
+    return Audit(noise, stated, cutoff, rounding, filter, inputs, known, doubtful)
 
 
 def unfiltered(found: Audit, segments: tuple[Segment, ...]) -> Audit:
-    """The same recording, its floor taken for the sensors' noise and not for the rounding of what a filter left."""
+    """The same recording, taken as if nothing had filtered it: its floor is the sensors' noise."""
     pieces = [[e.recorded[:, i] for e in segments] for i in range(len(found.noise))]
     noise = [_noise(x, segments[0].step, None) for x in pieces]
     return replace(
@@ -102,7 +104,7 @@ def unfiltered(found: Audit, segments: tuple[Segment, ...]) -> Audit:
         cutoff=np.full(len(noise), np.nan),
         filter=None,
         inputs=False,
-        floor=False,
+        doubtful=False,
     )
 
 
