@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
+import numpy as np
+
 from symid.discrepancy.locate.audit import Audit, audit, unfiltered
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.locate.given import fitted_as_given
@@ -18,6 +20,7 @@ from symid.discrepancy.name.error_model import with_error_model
 from symid.discrepancy.name.jump import with_likeliest_jumps
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.task import Task
+from symid.errors import DiagnosisError
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.windows import segments_of
@@ -72,16 +75,25 @@ def explained(
     whole = pieces if task.moved else joined(pieces)
     checked = audit(task.model, task.recording, whole, sensor_noise, filter)
     pieces = pieces if task.moved else tuple(free_pieces(pieces, len(task.model.states)))
-    first = _under(checked, task, pieces, named, threads, progress)
     if task.random or not checked.doubtful:  # free runs of random forces tell little
-        return first
-    progress("what looks filtered may be a fine sensor, or a slow motion; looking again without a filter")
-    other = _under(unfiltered(checked, whole), task, pieces, named, threads, progress)
-    return other if _error(other, other.plain) < CLEARER * _error(first, other.plain) else first
+        return _under(checked, task, pieces, named, threads, progress)
+    found: list[Explained] = []
+    for possible in (checked, unfiltered(checked, whole)):
+        try:
+            found.append(_under(possible, task, pieces, named, threads, progress))
+        except DiagnosisError as error:
+            problem = error
+        if possible is checked:
+            progress("what looks filtered may be a fine sensor, or a slow motion; looking again without a filter")
+    if not found:
+        raise problem
+    with_filter, without = found[0], found[-1]
+    return without if _error(without, without.plain) < CLEARER * _error(with_filter, without.plain) else with_filter
 
 
 def _error(of: Explained, plain: Data) -> float:
-    return free_run(of.found.fit, plain).relative
+    """Of a free run, in parts of the motion; infinite where that diverges."""
+    return float(np.nan_to_num(free_run(of.found.fit, plain).relative, nan=np.inf))
 
 
 def _under(
