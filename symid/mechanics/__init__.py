@@ -1,11 +1,12 @@
 """The physics library: mechanisms, feedback laws, and the laws that a model may have left out."""
 
 from symid.mechanics.bench import BenchDoublePendulum
-from symid.mechanics.chain import Chain, ChainLink
+from symid.mechanics.chain import Chain
 from symid.mechanics.delayed import DelayedFullState
 from symid.mechanics.facts import model_of
 from symid.mechanics.feedback import PD, Feedback, FullStatePD
 from symid.mechanics.lagrange import lagrange_residuals
+from symid.mechanics.link import ChainLink
 from symid.mechanics.neural import NeuralNetwork
 from symid.mechanics.rig import rig_model
 from symid.mechanics.skeleton import Skeleton, skeleton

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from symid.mechanics.chain import Chain, ChainLink
+from symid.mechanics.chain import Chain
+from symid.mechanics.link import ChainLink
 from symid.mechanics.terms import LIBRARY
 from symid.model import Model
 from symid.recording import read_body

@@ -10,7 +10,8 @@ from math import inf
 from typing import Any, cast
 
 from symid.errors import ModelError, RecordingError
-from symid.mechanics.chain import MOST_LINKS, Chain, ChainLink
+from symid.mechanics.chain import MOST_LINKS, Chain
+from symid.mechanics.link import ChainLink
 from symid.mechanics.terms import LIBRARY
 from symid.model import Input, Model
 from symid.recording import read_body

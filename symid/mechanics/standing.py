@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from symid import checked
 from symid.errors import ModelError
-from symid.mechanics.chain import Chain, ChainLink
+from symid.mechanics.chain import Chain
+from symid.mechanics.link import ChainLink
 from symid.model import Model
 from symid.recording import read_body
 

@@ -11,7 +11,8 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.errors import ModelError, SymidError, TranscriptionError
-from symid.mechanics.chain import Chain, ChainLink
+from symid.mechanics.chain import Chain
+from symid.mechanics.link import ChainLink
 
 RECORDING = pendulum_recording(duration=1)
 
