@@ -4,7 +4,8 @@ from symid.recording.body import read_body
 from symid.recording.columns import load_columns
 from symid.recording.join import join
 from symid.recording.markers import joint_angles
-from symid.recording.prepare import differentiate, fill_gaps, lowpass, rate_name, rate_unit, resample
+from symid.recording.names import rate_name, rate_unit
+from symid.recording.prepare import differentiate, fill_gaps, lowpass, resample
 from symid.recording.read import read_recording
 from symid.recording.recording import Recording
 from symid.recording.smooth import smooth_states, spline_of

@@ -1,4 +1,4 @@
-"""What the name of a column says: a channel, and its unit."""
+"""What the name of a column says: a channel, and its unit; and what a channel's rate is called."""
 
 import re
 from typing import NamedTuple
@@ -105,3 +105,18 @@ def contradictions(columns: list[Column]) -> list[str]:
             problems.append(f"columns '{seen[column.name]}' and '{column.text}' both give {column.name}")
         seen[column.name] = column.text
     return problems
+
+
+def rate_name(channel: str) -> str:
+    """Name of a channel's time derivative: ``hip_angle -> hip_velocity -> hip_acceleration``."""
+    head, _, last = channel.rpartition("_")
+    following = {"angle": "velocity", "position": "velocity", "velocity": "acceleration"}
+    if last not in following:
+        return f"{channel}_rate"
+    return f"{head}_{following[last]}" if head else following[last]
+
+
+def rate_unit(unit: str) -> str:
+    """SI unit text of the time derivative of something in this SI unit."""
+    plain = {"rad": "rad/s", "rad/s": "rad/s^2", "m": "m/s", "m/s": "m/s^2", "1": "Hz"}
+    return plain.get(unit) or known_unit(f"({unit})/s").text

@@ -11,9 +11,10 @@ import numpy as np
 
 from symid import checked
 from symid.errors import RecordingError
+from symid.recording.names import rate_name, rate_unit
 from symid.recording.recording import Recording
 from symid.recording.timing import MOST_SAMPLES
-from symid.units import FloatArray, known_unit
+from symid.units import FloatArray
 
 _PASSBAND = 0.8  # of the new Nyquist frequency is kept when downsampling
 _ANTI_ALIAS_ORDER = 8  # of the Butterworth filter, before it runs in both directions
@@ -169,21 +170,6 @@ def differentiate(recording: Recording, channel: str, name: str | None = None) -
     unit = rate_unit(recording.units[channel])
     note = f"{name} is the derivative of {channel}, Savitzky-Golay cubic over 7 samples"
     return recording.with_channel(name, values, unit, note=note)
-
-
-def rate_name(channel: str) -> str:
-    """Name of a channel's time derivative: ``hip_angle -> hip_velocity -> hip_acceleration``."""
-    head, _, last = channel.rpartition("_")
-    following = {"angle": "velocity", "position": "velocity", "velocity": "acceleration"}
-    if last not in following:
-        return f"{channel}_rate"
-    return f"{head}_{following[last]}" if head else following[last]
-
-
-def rate_unit(unit: str) -> str:
-    """SI unit text of the time derivative of something in this SI unit."""
-    plain = {"rad": "rad/s", "rad/s": "rad/s^2", "m": "m/s", "m/s": "m/s^2", "1": "Hz"}
-    return plain.get(unit) or known_unit(f"({unit})/s").text
 
 
 def _by_segment(recording: Recording, verb: Callable[[Recording], Recording]) -> Recording:

@@ -14,15 +14,12 @@ from symid import checked
 from symid.errors import RecordingError
 from symid.files import write_atomically
 from symid.recording.fields import frozen, no_channel, refuse_faults
-from symid.recording.show import as_html, as_text
-from symid.recording.timing import sampling_interval_of
-from symid.units import FloatArray, IntArray, column_name, known_unit
+from symid.recording.show import as_frame, as_html, as_text
+from symid.recording.timing import runs_of, sampling_interval_of, window_rows
+from symid.units import FloatArray, IntArray, known_unit
 
 if TYPE_CHECKING:
     import pandas as pd
-
-LATEST = 1e15
-"""No time [s] is later: seconds of a floating-point number end to be told apart."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -96,12 +93,7 @@ class Recording:
     @cached_property
     def runs(self) -> tuple[slice, ...]:
         """Rows of each segment, in the order of the file; one slice where there is one segment."""
-        change = np.zeros(len(self) - 1, dtype=bool)
-        for label in (self.segment, self.split):
-            if label is not None:
-                change |= label[1:] != label[:-1]
-        edges = [0, *(np.flatnonzero(change) + 1).tolist(), len(self)]
-        return tuple(slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True))
+        return runs_of(len(self), self.segment, self.split)
 
     @cached_property
     def sampling_interval(self) -> float | None:
@@ -127,12 +119,7 @@ class Recording:
     @property
     def frame(self) -> "pd.DataFrame":
         """A pandas table with time_s as index and units in the column names."""
-        import pandas as pd  # here and not at the top: most runs never need it
-
-        table = {column_name(name, self.units[name]): v for name, v in self.channels.items()}
-        labels = {"split": self.split, "segment": self.segment}
-        present = {name: label for name, label in labels.items() if label is not None}
-        return pd.DataFrame(present | table, index=pd.Index(self.time, name="time_s"))
+        return as_frame(self)
 
     # -- taking a part ------------------------------------------------------------------------
 
@@ -144,27 +131,9 @@ class Recording:
         RecordingError
             If the window is empty or reaches outside; the message gives the recorded range.
         """
-        step = self.even_step("window")
-        if not max(abs(start), abs(end)) < LATEST:
-            raise RecordingError(f"{self.name}: a window from {str(start)[:20]} to {str(end)[:20]} s is none")
-        if np.any(np.diff(self.time) <= 0):
-            raise RecordingError(
-                f"{self.name}: time starts anew in each segment, so a window of time means "
-                f"nothing; take one of segments() first"
-            )
-        first, last = self.interval
-        if not start < end or start < first - step / 2 or end > last + step / 2:
-            raise RecordingError(
-                f"{self.name}: window {start:g} s to {end:g} s cannot be taken; "
-                f"the recording runs from {first:g} s to {last:g} s"
-            )
-        rows = np.flatnonzero((self.time >= start - step / 2) & (self.time < end + step / 2))
-        if rows.size < 2:
-            raise RecordingError(
-                f"{self.name}: window {start:g} s to {end:g} s holds {rows.size} sample(s) of "
-                f"{step:g} s; take a longer one"
-            )
-        return self.rows(slice(int(rows[0]), int(rows[-1]) + 1), f"window {start:g} s to {end:g} s")
+        return self.rows(
+            window_rows(self.name, self.time, self.even_step("window"), start, end), f"window {start:g} s to {end:g} s"
+        )
 
     def segments(self, split: str | None = None) -> list["Recording"]:
         """One recording for each segment, in order; only those with this split label, if given.

@@ -1,4 +1,4 @@
-"""How a recording shows itself, as text and in a notebook."""
+"""How a recording shows itself: as text, in a notebook, as a table."""
 
 import html
 from collections.abc import Iterator
@@ -6,7 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symid.units import column_name
+
 if TYPE_CHECKING:
+    import pandas as pd
+
     from symid.recording.recording import Recording
 
 
@@ -27,6 +31,16 @@ def as_html(recording: "Recording") -> str:
         f"<b>Recording {html.escape(recording.name)}</b>: {html.escape(_extent(recording))}"
         f"<table><tr>{head}</tr>{body}</table><details><summary>history</summary><ol>{steps}</ol></details>"
     )
+
+
+def as_frame(recording: "Recording") -> "pd.DataFrame":
+    """A table with time_s as index and units in the column names."""
+    import pandas as pd  # here and not at the top: most runs never need it
+
+    table = {column_name(name, recording.units[name]): v for name, v in recording.channels.items()}
+    labels = {"split": recording.split, "segment": recording.segment}
+    present = {name: label for name, label in labels.items() if label is not None}
+    return pd.DataFrame(present | table, index=pd.Index(recording.time, name="time_s"))
 
 
 def _cell(tag: str, text: str, column: int) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from symid.errors import RecordingError
-from symid.recording.prepare import rate_name, rate_unit
+from symid.recording.names import rate_name, rate_unit
 from symid.recording.recording import Recording
 from symid.units import FloatArray
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from symid.errors import RecordingError
 from symid.units import FloatArray, IntArray
 
 JITTER = 0.01
@@ -12,6 +13,8 @@ MOST_SAMPLES = 10**8
 """More samples than this are rather a fault of the time column."""
 _ROUNDING_LIMIT = 0.1  # of a step: times rounded more coarsely than this are refused as uneven
 _HOUR = 3600.0
+LATEST = 1e15
+"""No time [s] is later: seconds of a floating-point number end to be told apart."""
 _CURES = {
     "gap": "read with allow_gaps=True (--allow-gaps on the command line), which gives what is missing no weight "
     "(or mark the parts in a 'segment' column)",
@@ -38,6 +41,38 @@ class TimeFault:
     def cure(self) -> str:
         """What to do about it."""
         return _CURES[self.kind]
+
+
+def runs_of(count: int, *labels: np.ndarray | None) -> tuple[slice, ...]:
+    """Rows between which none of the labels, shape(count,) each, changes, in their order."""
+    change = np.zeros(count - 1, dtype=bool)
+    for label in labels:
+        if label is not None:
+            change |= label[1:] != label[:-1]
+    edges = [0, *(np.flatnonzero(change) + 1).tolist(), count]
+    return tuple(slice(a, b) for a, b in zip(edges[:-1], edges[1:], strict=True))
+
+
+def window_rows(name: str, time: FloatArray, step: float, start: float, end: float) -> slice:
+    """Rows from start to end [s] of the recording `name`, sampled every `step`; see `Recording.window`."""
+    if not max(abs(start), abs(end)) < LATEST:
+        raise RecordingError(f"{name}: a window from {str(start)[:20]} to {str(end)[:20]} s is none")
+    if np.any(np.diff(time) <= 0):
+        raise RecordingError(
+            f"{name}: time starts anew in each segment, so a window of time means nothing; take one of segments() first"
+        )
+    first, last = float(time[0]), float(time[-1])
+    if not start < end or start < first - step / 2 or end > last + step / 2:
+        raise RecordingError(
+            f"{name}: window {start:g} s to {end:g} s cannot be taken; the recording runs from {first:g} s to "
+            f"{last:g} s"
+        )
+    rows = np.flatnonzero((time >= start - step / 2) & (time < end + step / 2))
+    if rows.size < 2:
+        raise RecordingError(
+            f"{name}: window {start:g} s to {end:g} s holds {rows.size} sample(s) of {step:g} s; take a longer one"
+        )
+    return slice(int(rows[0]), int(rows[-1]) + 1)
 
 
 def sampling_interval_of(time: FloatArray, runs: tuple[slice, ...]) -> float | None:
