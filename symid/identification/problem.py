@@ -23,9 +23,7 @@ from symid.identification.program import TRACE, off_its_bounds, program_of
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution
 from symid.identification.start_row import StartRow
-from symid.identification.starts.default import default_start, given_start, random_start
-from symid.identification.starts.search import can_search, relaxed_start, search_start
-from symid.identification.starts.stable import stable_start
+from symid.identification.starts.kinds import start_of
 from symid.identification.study import Solve, Study, start_kinds
 from symid.identification.weighting import by_noise, information_of, to_likelihood, weights_of
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
@@ -185,17 +183,7 @@ class Identification:
             vector as it is.
         seed, number : of a random start, which are the same again for the same two.
         """
-        if isinstance(kind, np.ndarray):
-            return kind
-        if kind == "default":
-            z, simulated = default_start(self.transcription)
-            return z if simulated or not can_search(self) else search_start(self, seed, number)
-        if kind == "random":
-            return random_start(self.transcription, seed, number)
-        searches = {"search": search_start, "relaxed": relaxed_start, "stable": stable_start}
-        if isinstance(kind, str) and kind in searches:
-            return searches[kind](self, seed, number)
-        return given_start(self.transcription, cast("dict[str, float] | Solution", kind))
+        return start_of(self, kind, seed, number)
 
     def load(self, path: str | Path) -> Solution:
         """The solution of this problem that `Solution.save` wrote; SolveError where it is that of another.
