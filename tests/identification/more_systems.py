@@ -138,7 +138,8 @@ def levitated_ball(rng) -> System:
         {"gap": gap + noise * rng.standard_normal(len(t)), "current": current},
         {"gap": "m", "current": "A"},
     )
-    return System(m, [recording], truth, {"gap": noise}, {"scheme": si.HermiteSimpson()})
+    motion = np.column_stack([gap, v])
+    return System(m, [recording], truth, {"gap": noise}, {"scheme": si.HermiteSimpson()}, [motion])
 
 
 def cantilever(rng) -> System:

@@ -1,5 +1,6 @@
 """The default start, on small systems with random truths: the solve from it follows the recording within its noise."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,8 @@ from symid.identification.softened import RAN_AWAY
 from symid.identification.starts.search import relaxed
 from symid.identification.worker import solve_here
 
-DRAWS = 200
+DRAWS = range(*map(int, os.environ.get("SYMID_DRAWS", "0:200").split(":")))
+"""Of the slow study below; SYMID_DRAWS=1000:1200 takes others."""
 SYSTEMS = {f.__name__: f for f in (*PRACTISED, *UNSEEN)}
 DATA = Path(__file__).parents[2] / "data" / "standing_synthetic"
 
@@ -26,7 +28,8 @@ def failures(system, draws) -> dict[int, str]:
     found = {}
     for k in draws:
         drawn = system(np.random.default_rng([k, 7]))
-        found[k] = drawn.failure(drawn.problem().solve(check=False, max_iterations=300))
+        solution = drawn.problem().solve(check=False, max_iterations=300)
+        found[k] = drawn.failure(solution) or drawn.lost(solution)
     return {k: why for k, why in found.items() if why}
 
 
@@ -77,7 +80,7 @@ def unbounded() -> si.Model:
 @pytest.mark.slow
 @pytest.mark.parametrize("system", [*PRACTISED, *UNSEEN, *OTHERS], ids=lambda f: f.__name__)
 def test_the_default_start_does_not_fail(system):
-    assert failures(system, range(DRAWS)) == {}
+    assert failures(system, DRAWS) == {}
 
 
 @pytest.mark.slow
