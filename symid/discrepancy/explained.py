@@ -75,15 +75,26 @@ def explained(
     whole = pieces if task.moved else joined(pieces)
     checked = audit(task.model, task.recording, whole, sensor_noise, filter)
     pieces = pieces if task.moved else tuple(free_pieces(pieces, len(task.model.states)))
+
+    def under(possible: Audit) -> Explained:
+        return _under(possible, task, pieces, named, threads, progress)
+
     if task.random or not checked.doubtful:  # free runs of random forces tell little
-        return _under(checked, task, pieces, named, threads, progress)
+        return under(checked)
+    return _clearer(checked, unfiltered(checked, whole), under, progress)
+
+
+def _clearer(
+    filtered: Audit, plain: Audit, under: Callable[[Audit], Explained], progress: Callable[[str], None]
+) -> Explained:
+    """The laws with the filter, or those without it if they follow much better or are all that can be fitted."""
     found: list[Explained] = []
-    for possible in (checked, unfiltered(checked, whole)):
+    for possible in (filtered, plain):
         try:
-            found.append(_under(possible, task, pieces, named, threads, progress))
+            found.append(under(possible))
         except DiagnosisError as error:
             problem = error
-        if possible is checked:
+        if possible is filtered:
             progress("what looks filtered may be a fine sensor, or a slow motion; looking again without a filter")
     if not found:
         raise problem

@@ -72,7 +72,7 @@ def audit(
     """Sensor noise and `filter` as stated, or else from the recording; and where its spectrum is empty."""
     table = given if isinstance(given, Mapping) else recording.noise if given is None else {}
     names = [y.channel for y in model.outputs.values()]
-    pieces = [[e.recorded[:, i] for e in segments] for i in range(len(names))]
+    pieces = _by_output(segments)
     step, pace = segments[0].step, pace_of(segments)
     ends = [_emptiness(x, step, pace) for x in pieces]
     cutoff = np.array([end for end, _ in ends])
@@ -96,8 +96,7 @@ def audit(
 
 def unfiltered(found: Audit, segments: tuple[Segment, ...]) -> Audit:
     """The same recording, taken as if nothing had filtered it: its floor is the sensors' noise."""
-    pieces = [[e.recorded[:, i] for e in segments] for i in range(len(found.noise))]
-    noise = [_noise(x, segments[0].step, None) for x in pieces]
+    noise = [_noise(x, segments[0].step, None) for x in _by_output(segments)]
     return replace(
         found,
         noise=np.where(found.stated, found.noise, noise),
@@ -106,6 +105,11 @@ def unfiltered(found: Audit, segments: tuple[Segment, ...]) -> Audit:
         inputs=False,
         doubtful=False,
     )
+
+
+def _by_output(segments: tuple[Segment, ...]) -> list[list[np.ndarray]]:
+    """Of each output what was recorded in each segment."""
+    return [[e.recorded[:, i] for e in segments] for i in range(segments[0].recorded.shape[1])]
 
 
 def _noise(pieces: list[np.ndarray], step: float, filter: ZeroPhase | None) -> float:
