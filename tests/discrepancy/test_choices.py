@@ -1,0 +1,88 @@
+"""Which suspects a search looks at, and how: told by what they promise and what those alike explain."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from driven_cart import cart
+
+import symid.discrepancy.name.explore as exploring
+import symid.discrepancy.name.scan as scanning
+from symid.discrepancy import Suspect
+from symid.discrepancy.name.error_model import _likeliest
+from symid.discrepancy.policy import POLICY
+from symid.mechanics import LIBRARY
+from symid.simulation import simulator
+
+
+def tried_beside_a_delay(monkeypatch, explains: float) -> set[str]:
+    """Names of the suspects that are fitted where a delay explains so much, and lags alike promise nothing."""
+    laws = ["feedback_delay", "muscle_lag", "second_order_muscle_lag", *["coulomb_friction"] * POLICY.always_refitted]
+    pool = [Suspect(LIBRARY[name].at(f"place{max(0, i - 2)}")) for i, name in enumerate(laws)]
+    pool.append(Suspect(LIBRARY["muscle_lag"].at("another")))
+    promised = {"feedback_delay": 50.0, "coulomb_friction": 20.0}
+    fit = SimpleNamespace(converged=True)
+
+    def starts(_fit, _data, _projection, s):
+        return [exploring.Start(promised.get(s.term.name, 0.0), s, {s.strength.key: s.strength.null})]
+
+    def begin(_fit, _data, starts):
+        s = starts[0].suspect
+        begun.add(f"{s.term.name} at {s.term.location}")
+        return SimpleNamespace(suspect=s, log_ratio=explains if s is pool[0] else 0.0, fit=fit)
+
+    begun: set[str] = set()
+    monkeypatch.setattr(exploring, "_starts", starts)
+    monkeypatch.setattr(exploring, "_begin", begin)
+    monkeypatch.setattr(exploring, "_converge", lambda fit, data, first, others: first)
+    monkeypatch.setattr(exploring, "by_score", lambda found: found)
+    exploring.explore(fit, None, pool, projection=object(), threads=1)
+    return begun
+
+
+def test_lags_alike_to_a_delay_that_leads_are_fitted_whatever_they_promise(monkeypatch):
+    begun = tried_beside_a_delay(monkeypatch, explains=100.0)
+    assert {"muscle_lag at place0", "second_order_muscle_lag at place0"} <= begun
+    assert "muscle_lag at another" not in begun
+
+
+def test_lags_alike_to_a_delay_that_explains_little_are_left_alone(monkeypatch):
+    assert not any("lag" in name for name in tried_beside_a_delay(monkeypatch, explains=1.0))
+
+
+@pytest.mark.parametrize(
+    ("damping", "pieces", "steady"),
+    [(8.0, 1, True), (0.2, 1, False), (8.0, 2, False)],  # of a second piece that begins anew no answer is steady
+)
+def test_a_motion_that_forgets_how_it_began_is_swept_for_frequencies(monkeypatch, damping, pieces, steady):
+    """A cart on a spring over ten seconds; a comb stands for one that still swings as it began."""
+    model, time = cart(), np.linspace(0.0, 10.0, 11)
+    fit = SimpleNamespace(simulator=simulator(model), values={"stiffness": 30.0, "damping": damping})
+    data = SimpleNamespace(segments=[SimpleNamespace(time=time, step=1.0)] * pieces, driven=False, pace=1.0)
+    suspect = SimpleNamespace(
+        scanned=SimpleNamespace(clock="frequency"), strength=SimpleNamespace(key="size", bounds=(0.0, 1.0))
+    )
+    looked = []
+    monkeypatch.setattr(scanning, "fitted_path", lambda *_: np.zeros((2, 2)))
+    monkeypatch.setattr(scanning, "sweep", lambda *_: looked.append("sweep") or [])
+    monkeypatch.setattr(scanning, "comb", lambda *_: looked.append("comb") or [])
+    scanning.scan(SimpleNamespace(fit=fit, data=data), suspect, model)
+    assert looked == ["sweep" if steady else "comb"]
+
+
+@pytest.mark.parametrize(("best", "chosen"), [(9.0, 1), (2.0, 0)])
+def test_the_few_suspects_that_explain_most_tell_which_data_are_likeliest(best, chosen):
+    asked = []
+
+    def explaining(loglik2):
+        return SimpleNamespace(suspect=f"explains {loglik2}", fit=SimpleNamespace(loglik2=loglik2))
+
+    def alone(suspects):
+        asked.append(suspects)
+        return [explaining(best) for _ in suspects]
+
+    first = SimpleNamespace(base=SimpleNamespace(loglik2=1.0), states_alone=[explaining(5.0 - k) for k in range(5)])
+    other = SimpleNamespace(base=SimpleNamespace(loglik2=0.0), alone=alone)
+    searches = [first, other]
+    assert _likeliest(searches) is searches[chosen]
+    assert asked == [["explains 5.0", "explains 4.0", "explains 3.0"]]
