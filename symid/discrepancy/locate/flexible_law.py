@@ -134,7 +134,8 @@ def _comparable(law: FlexibleLaw, first: Fit) -> float:
 def _refined(law: FlexibleLaw, data: Data) -> FlexibleLaw:
     """The law with parts chosen anew around its own fit until none is better, then with more knots and fewer parts."""
     for _ in range(ROUNDS):
-        _, _, blocks = chosen_blocks(law.base, data, law.port, around=law)
+        around = Projection(law.fit, data, known=names_of(law.term))
+        _, _, blocks = chosen_blocks(law.base, data, law.port, around, law.force)
         if len(blocks) == len(law.blocks) and all(_same(b, law.blocks) for b in blocks):
             break
         new = fitted(law.base, data, law.port, blocks)

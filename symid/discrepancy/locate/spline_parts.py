@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import log
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from symid.discrepancy.locate.flexible import along
@@ -18,9 +17,6 @@ from symid.mechanics.places import other_signals
 from symid.mechanics.spline_law import Block, knots_of
 from symid.model import Model, Port, Term
 
-if TYPE_CHECKING:
-    from symid.discrepancy.locate.flexible_law import FlexibleLaw
-
 KNOTS = 7
 """Of one spline where parts are chosen."""
 MOST_PARTS = 3
@@ -30,26 +26,24 @@ DEPENDENT = 1e-9
 
 
 def chosen_blocks(
-    fit: Fit, data: Data, port: Port, projection: Projection | None = None, around: FlexibleLaw | None = None
+    fit: Fit, data: Data, port: Port, projection: Projection, force: Callable[[np.ndarray], np.ndarray] | None = None
 ) -> tuple[float, Port, tuple[Block, ...]]:
     """Forecast worth of the best set of parts at a port, found by adding and leaving out.
 
     Parameters
     ----------
-    projection : of `fit`, made here where it is left out. around : a law at the port, around whose fit is forecast.
+    projection : of `fit`, or of one with a flexible law at the port. force : (N, n) states -> (N,) force of that law.
     """
-    parts, here = candidate_blocks(fit, data, port), fit if around is None else around.fit
-    projection = projection or Projection(here, data, known=() if around is None else names_of(around.term))
-    path = fitted_path(here, data)
+    parts, path = candidate_blocks(fit, data, port), fitted_path(projection.fit, data)
     shapes = [numbers(b, path, fit.model) for b in parts]
     columns = force_responses(projection, port, np.hstack(shapes))
     if columns is None:
         return -np.inf, port, ()
     columns = np.split(columns, np.cumsum([s.shape[1] for s in shapes])[:-1], axis=1)
     rest = projection.rest
-    if around is not None:
+    if force is not None:
         # What the law explains now, any set of parts has to explain in its place.
-        own = force_responses(projection, port, around.force(path)[:, None])
+        own = force_responses(projection, port, force(path)[:, None])
         rest = rest + projection.project(own[:, 0])
     forecast = _Forecast(projection, columns, rest)
     best: tuple[int, ...] = ()
