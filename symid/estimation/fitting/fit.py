@@ -115,7 +115,7 @@ class Fitter(Predictor):
         tuned += range(self.noises, self.noises + data.cutoff_free + ratios)
         self.tuned = tuned if tune else []
         self.own = np.ones(data.cutoff_free + ratios)
-        self.near, self.bounded = near, False
+        self.near = near
 
     def fit(
         self,

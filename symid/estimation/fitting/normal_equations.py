@@ -6,29 +6,33 @@ import numpy as np
 
 from symid.estimation.fitting.growth import growth_normal
 from symid.estimation.fitting.kalman import kalman_gain, linearised_along
+from symid.estimation.fitting.predictor import Predictor
 
 
-def normal_equations(fitter, p, x0, gain, process, path):
+def normal_equations(
+    predictor: Predictor, p: np.ndarray, x0: np.ndarray, gain: np.ndarray | None, process: np.ndarray, path: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, int] | None:
     """The matrix (u, u), the right side (u,) and the number q of free parameters; None where a run diverges.
 
     The u unknowns are the free parameters, the logarithms of what is tuned of the noise, and (E n) initial states.
 
     Parameters
     ----------
-    fitter : a `Fitter`. p : (parameters,) values. x0 : (E, n) states. gain, process : as of a `Fit`.
+    predictor : with what is `tuned`, and whether it is `bounded`.
+    p : (parameters,) values. x0 : (E, n) states. gain, process : as of a `Fit`.
     path : (N, n) states that the gain was made for.
     """
-    runs = fitter.run(p, x0, gain, sensitivities=True, process=process)
+    runs = predictor.run(p, x0, gain, sensitivities=True, process=process)
     if runs is None:
         return None
-    innovations = fitter.innovations(runs, process)
-    _, whitening = fitter.score(innovations, process)
+    innovations = predictor.innovations(runs, process)
+    _, whitening = predictor.score(innovations, process)
     noise = (
-        _tuned_columns(fitter, p, x0, gain, process, path, innovations)
-        if fitter.tuned
+        _tuned_columns(predictor, p, x0, gain, process, path, innovations)
+        if predictor.tuned
         else [np.zeros((*s.shape, 0)) for s in innovations]
     )
-    q, n, w, E = len(fitter.free), x0.shape[1], noise[0].shape[2], len(runs)
+    q, n, w, E = len(predictor.free), x0.shape[1], noise[0].shape[2], len(runs)
     size = q + w + E * n
     H, g = np.zeros((size, size)), np.zeros(size)
     with np.errstate(over="ignore", invalid="ignore"):
@@ -38,35 +42,35 @@ def normal_equations(fitter, p, x0, gain, process, path):
             where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
             H[np.ix_(where, where)] += J.T @ J
             g[where] += J.T @ r
-        if fitter.data.cutoff_free and fitter.tuned:
-            _, slope, bend = fitter.data.filter.log_volume(fitter.step, fitter.sharpness(process))
-            samples, at = sum(s.size for s in innovations), q + fitter.tuned.index(fitter.noises)
+        if predictor.data.cutoff_free and predictor.tuned:
+            _, slope, bend = predictor.data.filter.log_volume(predictor.step, predictor.sharpness(process))
+            samples, at = sum(s.size for s in innovations), q + predictor.tuned.index(predictor.noises)
             H[at, at] += samples * (slope - bend)
             g[at] += samples * slope
-        if fitter.bounded:
-            own, pull = growth_normal(fitter, p, path)
+        if predictor.bounded:
+            own, pull = growth_normal(predictor, p, path)
             H[:q, :q] += own
             g[:q] += pull
     # Sensitivities of an unstable predictor overflow before the run itself does.
     return (H, g, q) if np.isfinite(H).all() and np.isfinite(g).all() else None
 
 
-def _tuned_columns(fitter, p, x0, gain, process, path, innovations):
+def _tuned_columns(predictor: Predictor, p, x0, gain, process, path, innovations):
     """Change of the innovations per unit of the logarithm of what is tuned, by differences."""
-    linear, columns = linearised_along(fitter.sim, p, path) if fitter.driven else None, []
-    for j in fitter.tuned:
+    linear, columns = linearised_along(predictor.sim, p, path) if predictor.driven else None, []
+    for j in predictor.tuned:
         more = process.copy()
         more[j] *= np.exp(0.1)
         moved = (
             gain
-            if j == fitter.sharpness_at
-            else kalman_gain(linear, fitter.step, more[: fitter.noises], fitter.sensors(more))
+            if j == predictor.sharpness_at
+            else kalman_gain(linear, predictor.step, more[: predictor.noises], predictor.sensors(more))
         )
-        other = fitter.run(p, x0, moved, False, process=more)
+        other = predictor.run(p, x0, moved, False, process=more)
         columns.append(
             [np.zeros_like(s) for s in innovations]
             if other is None
-            else [(a - b) / 0.1 for a, b in zip(fitter.innovations(other, more), innovations, strict=True)]
+            else [(a - b) / 0.1 for a, b in zip(predictor.innovations(other, more), innovations, strict=True)]
         )
     return [np.stack([c[i] for c in columns], axis=2) for i in range(len(innovations))]
 

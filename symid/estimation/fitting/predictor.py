@@ -33,7 +33,14 @@ class Predictor:
     ----------
     fixed : parameters that keep their value: nobody asks for slopes by them.
     substeps : of the integrator in each sample, at least.
+
+    Attributes
+    ----------
+    tuned : places in `process` of what a fit looks for. bounded : whether it keeps growth without end away.
     """
+
+    tuned: Sequence[int] = ()
+    bounded = False
 
     def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), substeps: int = 1):
         self.model, self.data = model, data
