@@ -11,7 +11,7 @@ from symid import checked
 from symid.checked import nearest
 from symid.errors import SolveError
 from symid.identification.starts.bounds import guesses, parameter_bounds
-from symid.identification.starts.shooting import shoot
+from symid.identification.starts.led import shoot
 from symid.recording.smooth import smooth_curves
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from symid.identification.starts.bounds import guesses
+from symid.identification.starts.led import free, tracked
 from symid.identification.starts.shooting import Shooting, can_shoot
 from symid.identification.sensitivity import outputs_and_targets
 from symid.identification.starts.default import equation_error, smooth_motion
@@ -66,7 +67,10 @@ def further_starts(t: Transcription, z: np.ndarray, solved: bool) -> Iterator[tu
         return
     if seen or (shooting is not None and not large):
         others = [regressed, equation_error(t, guesses(t))[0]]
-        for found in shooting.tracked([shooting.unknowns(p) for p in others]):
+        for found in tracked(shooting, [shooting.unknowns(p) for p in others]):
+            yield t.start(*found), True
+    if shooting is not None and not (seen or large):
+        for found in free(shooting):
             yield t.start(*found), True
 
 
@@ -87,7 +91,7 @@ def drawn_starts(t: Transcription) -> Iterator[np.ndarray]:
     """
     if _large(t) or not can_shoot(t) or (shooting := Shooting(t)).hidden:
         return
-    for found in shooting.tracked([], anywhere=True):
+    for found in tracked(shooting, [], anywhere=True):
         yield t.start(*found)
 
 
