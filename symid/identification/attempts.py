@@ -34,6 +34,7 @@ class Attempts:
     def __init__(self, problem: Identification, on_iteration: Callable[[Iteration], bool | None] | None, options: dict):
         self.problem, self.t, self.on_iteration, self.options = problem, problem.transcription, on_iteration, options
         self.best: SolverResult | None = None
+        self._near: bool | None = None  # what `done` found of the best end
         self.refused: SolveError | None = None
 
     def run(self, z: np.ndarray, most: float = float("inf"), near: bool = False) -> None:
@@ -53,7 +54,7 @@ class Attempts:
             self.best = given_back and given_back()
         better = end.solved and self.best is not None and end.objective < self.best.objective
         if self.best is None or (end.solved and (better or not self.best.solved)):
-            self.best = end
+            self.best, self._near = end, None
 
     def is_motion(self, z: np.ndarray) -> bool:
         """Whether `z` is not the recorded motion itself, whose objective says nothing."""
@@ -103,7 +104,9 @@ class Attempts:
     @property
     def done(self) -> bool:
         """Whether an end is there, and as near to the recording as the noise lets it be."""
-        return self.solved and not far(self.t, self.best.z)
+        if self._near is None:
+            self._near = self.solved and not far(self.t, self.best.z)
+        return self._near
 
     def end(self) -> SolverResult:
         if self.best is None:

@@ -20,7 +20,6 @@ from symid.identification.marginal import slopes_of
 from symid.identification.sensitivity import Sensitivity, sample_counts
 from symid.identification.weighting import LEAST, RESOLUTION, TIGHT, estimated, noise_levels
 from symid.model import Model
-from symid.recording.smooth import left_by_smoother
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
@@ -95,7 +94,7 @@ def to_sized(solution: Solution, **solver) -> Solution:
 
 def _floor(solution: Solution) -> np.ndarray:
     """(recordings, m) noise that a free smoother leaves of the recordings [SI]: where the turns begin."""
-    left = np.array([left_by_smoother(m.targets[m.nodes]) for m in solution.transcription.measured])
+    left = np.array([m.left for m in solution.transcription.measured])
     return np.maximum(left, RESOLUTION * np.nanmax(np.abs(estimated(solution)), initial=LEAST))
 
 

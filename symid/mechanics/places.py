@@ -107,7 +107,7 @@ def _own_states(
     return {balances[i]: moving[j] for i, j in zip(*linear_sum_assignment(size, maximize=True), strict=True)}
 
 
-def _port(model: Model, name: str, residual: sm.Expr, state: State, rates: dict[str, str]) -> Port:
+def _port(model: Model, name: str, residual: sm.Expr, state: State, rates: Mapping[str, str]) -> Port:
     second, turns = state.name in rates, is_speed(state.unit)
     coordinate = model[rates[state.name]].symbol if second else state.symbol
     shown = [y.channel or y.name for y in model.outputs.values() if model.inline(y.expr) == coordinate]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import wraps
 from typing import Any, TypeVar, cast
 
 from symid.model.conditions import Boundary, Constraint, Objective
@@ -22,6 +24,26 @@ from symid.model.declare import (
 )
 
 Part = TypeVar("Part", bound=Component)
+Made = TypeVar("Made")
+KEPT = "_kept"
+"""Under this name a model keeps what follows from its parts, and the parts that it follows from."""
+
+
+def kept(method: Callable[[Any], Made]) -> Callable[[Any], Made]:
+    """`method` of a model, done once as long as its parts stay as they are: to put expressions in takes long."""
+
+    @wraps(method)
+    def known(model: Any) -> Made:
+        parts = (*model.components.values(), *model.delays.items())
+        before, found = model.__dict__.get(KEPT, ((), {}))
+        if len(before) != len(parts) or any(a is not b and a != b for a, b in zip(before, parts, strict=True)):
+            found = {}
+            model.__dict__[KEPT] = parts, found
+        if method not in found:
+            found[method] = method(model)
+        return cast("Made", found[method])
+
+    return known
 
 
 def _kind(kind: type[Part]) -> dict[str, Part]:

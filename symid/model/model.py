@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import sympy as sm
@@ -13,7 +15,7 @@ from symid.model.component import Component
 from symid.model.declare import Algebraic, Constant, Control, Delay, Equation, Input, Output, Parameter, State
 from symid.model.derived import Derived
 from symid.model.fingerprint import fingerprint_of
-from symid.model.kinds import Kinds
+from symid.model.kinds import KEPT, Kinds, kept
 from symid.model.made import Copies
 from symid.model.quantity import Operand, free_symbols, symbol, sympified
 
@@ -145,32 +147,38 @@ class Model(Kinds, Derived):
             expr = expr.xreplace({s: table[s] for s in used})
         raise ModelError(f"model '{self.name}': the expressions {sorted(map(str, used))} contain themselves")
 
+    @kept
     def residual(self) -> tuple[sm.Expr, ...]:
         """The residuals in order of the equations, with all named expressions put in."""
         return tuple(self.inline(e.expr) for e in self.equations.values())
 
+    @kept
     def observed(self) -> tuple[sm.Expr, ...]:
         """The output expressions in order of the outputs, with all named expressions put in."""
         return tuple(self.inline(e.expr) for e in self.outputs.values())
 
+    @kept
     def algebraic_equations(self) -> tuple[int, ...]:
         """Places among the equations of those that contain no rate."""
         rates = {s.dot for s in self.states.values()}
         return tuple(i for i, r in enumerate(self.residual()) if not free_symbols(r) & rates)
 
-    def rates(self) -> dict[str, str]:
+    @kept
+    def rates(self) -> Mapping[str, str]:
         """Which states are rates of others by an equation of the form 0 = a (x' - v), a of constants: {v: x}."""
         states = {s.symbol: s for s in self.states.values()}
         fixed = {c.symbol for c in self.constants.values() if c.value}
         found = {}
         for residual in self.residual():
+            if len(free_symbols(residual) - fixed) != 2:
+                continue
             for x in states.values():
                 slope = residual.coeff(x.dot)
                 if slope != 0 and slope.free_symbols <= fixed:
                     rate = (x.dot - residual / slope).expand()
                     if rate in states:
                         found[states[rate].name] = x.name
-        return found
+        return MappingProxyType(found)
 
     def delayed(self, expr: Operand, lag: Operand) -> sm.Expr:
         """`expr` with each state, control and input taken at time t - lag.
@@ -198,14 +206,14 @@ class Model(Kinds, Derived):
 
     # ---- identity, checking, showing --------------------------------------------------
     @property
+    @kept
     def fingerprint(self) -> str:
         """Changes with the equations and conditions, their symbols and their order; not with values or bounds."""
-        parts = (*self.components.values(), *self.delays.items())
-        known: tuple[tuple[Any, ...], str] = self.__dict__.get("_known_fingerprint", ((), ""))
-        if len(known[0]) != len(parts) or any(a is not b and a != b for a, b in zip(known[0], parts, strict=True)):
-            known = parts, fingerprint_of(self)
-            object.__setattr__(self, "_known_fingerprint", known)
-        return known[1]
+        return fingerprint_of(self)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Without what is kept beside the parts, which follows from them."""
+        return {k: v for k, v in self.__dict__.items() if k != KEPT}
 
     def check(self, units: bool = True) -> Model:
         """This model, if it can be used; ModelError with every violation at once if not.

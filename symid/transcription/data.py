@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from symid.errors import TranscriptionError
 from symid.model import Model
 from symid.recording import Recording
 from symid.recording.between import cubic
+from symid.recording.smooth import left_by_smoother, smooth_curves
 from symid.transcription.inverse import seen_together
 from symid.units import same_dimension
 
@@ -50,6 +52,11 @@ class Measured:
         """(samples of the window, outputs) recorded outputs, NaN where they are missing."""
         targets = self.targets[self.nodes]
         return targets if self.present is None else np.where(self.present[self.nodes], targets, np.nan)
+
+    @cached_property
+    def left(self) -> np.ndarray:
+        """(outputs,) what a free smoother leaves of the targets."""
+        return left_by_smoother(self.targets[self.nodes])
 
     def signal(self, name: str, model: Model) -> np.ndarray:
         """(samples,) a state, input or control."""
@@ -108,6 +115,25 @@ class Measured:
     def on_mesh(self, samples: np.ndarray, refine: int) -> np.ndarray:
         """(intervals * refine + 1, n) signals at the mesh's nodes, from those at the window's samples."""
         return samples if refine == 1 else spline(self.time[self.nodes], samples)(self.mesh(refine))
+
+    def smooth_states(self, rates: dict[int, int]) -> np.ndarray:
+        """(samples of the window, n) recorded states, smoothed by cross-validation.
+
+        Differences of noisy samples make a regression's regressors noisy, and its parameters too small.
+
+        rates : column of a rate -> that of the state whose rate it is. One that was differentiated becomes the
+            smooth state's own.
+        """
+        x = self.states[self.nodes]
+        made = {
+            i: j
+            for i, j in rates.items()
+            if np.array_equal(self.states[:, i], np.gradient(self.states[:, j], self.time, edge_order=2))
+        }
+        seen = set(range(x.shape[1])) - made.keys() | set(made.values())
+        curves = {j: smooth_curves(x[:, j], self.step) for j in seen}
+        columns = [curves[made[i]][1] if i in made else curves[i][0] for i in range(x.shape[1])]
+        return np.column_stack(columns) if columns else x
 
 
 def spline(time: np.ndarray, values: np.ndarray):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -56,6 +57,14 @@ class Transcription:
         """SI size of a state that is far beyond all that was recorded: a simulation that reaches it has diverged."""
         largest = [np.abs(m.states[m.nodes]).max(axis=0) for m in self.measured]
         return 1e3 * float(np.max([*largest, self.layout.state_scale], initial=0.0))
+
+    @cached_property
+    def smooth_motion(self) -> list[np.ndarray]:
+        """Per episode (samples, n) recorded states, smoothed by cross-validation, with rates that are theirs."""
+        states = list(self.model.states)
+        rates = {states.index(v): states.index(x) for v, x in self.model.rates().items()}
+        smooth = [m.smooth_states(rates) for m in self.measured]
+        return [smooth[r] for r in self.recording_of]
 
     def nonlinear_program(self, start: np.ndarray) -> NonlinearProgram:
         """The program from this start (a free vector)."""

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import small_systems
+from conftest import pendulum, pendulum_recording
 from more_systems import OTHERS
 from unseen_systems import UNSEEN, lotka_volterra
 from small_systems import PRACTISED
@@ -15,7 +16,9 @@ from unfamiliar_systems import UNFAMILIAR, flexible_joint
 import symid as si
 from symid.identification import Solve
 from symid.identification.softened import RAN_AWAY
+from symid.identification.starts.led import shoot
 from symid.identification.starts.search import relaxed
+from symid.identification.starts.shooting import Shooting
 from symid.identification.worker import solve_here
 
 DRAWS = range(*map(int, os.environ.get("SYMID_DRAWS", "0:200").split(":")))
@@ -52,6 +55,16 @@ def test_the_default_start_leads_to_the_noise(name):
 def test_where_simulations_lose_the_recording_other_starts_are_tried(name, drawn):
     """Draws that ended in another optimum before there were further starts, or were driven away by the barrier."""
     assert failures(SYSTEMS[name], [drawn]) == {}
+
+
+def test_starts_that_are_one_are_fitted_once(monkeypatch):
+    fits, fit = [], Shooting.fit
+    monkeypatch.setattr(Shooting, "fit", lambda self, z, *more: fits.append(z) or fit(self, z, *more))
+    t = si.Identification(pendulum(), pendulum_recording()).transcription
+    one = np.array([0.3])
+    for other, count in ((one * (1 + 1e-4), 1), (one * 1.1, 2)):
+        fits.clear()
+        assert shoot(t, [one, other]) is not None and len(fits) == count
 
 
 @pytest.mark.parametrize(("size", "time"), [(1e-9, 1.0), (1e9, 1.0), (1.0, 1e-9), (1e6, 1e9)])

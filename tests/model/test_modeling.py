@@ -34,6 +34,21 @@ def test_inputs_become_controls_for_a_plan_with_the_identified_model():
     assert plan.plot().png().startswith(b"\x89PNG") and "objective" in plan._repr_html_()
 
 
+def test_what_follows_from_the_parts_is_kept_until_one_changes():
+    m = pendulum()
+    before, rates = m.residual(), m.rates()
+    assert m.residual() is before and dict(rates) == {"rate": "angle"} and "_kept" not in m.__getstate__()
+    with pytest.raises(TypeError):
+        rates["rate"] = "other"
+    m.gain = si.Parameter(bounds=(0, 1), unit="1/s^2")
+    m.kick = si.Expression(m.gain * m.angle, unit="rad/s^2")
+    assert m.residual() is not before and m.residual() == before
+    m.further = si.Equation(m.kick)
+    kicked = m.residual()
+    m.redefine("kick", 2 * m.gain)
+    assert m.residual()[-1] == 2 * m.gain.symbol != kicked[-1]
+
+
 def test_parts_repeat_themselves_by_an_index():
     m = si.Model("chain")
     m.x, m.v = si.State(unit="m", index=range(3)), si.State(unit="m/s", index=range(3))

@@ -12,7 +12,6 @@ from symid.checked import nearest
 from symid.errors import SolveError
 from symid.identification.starts.bounds import guesses, parameter_bounds
 from symid.identification.starts.led import shoot
-from symid.recording.smooth import smooth_curves
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
@@ -46,31 +45,9 @@ def default_start(t: Transcription) -> tuple[np.ndarray, bool]:
     Where the loop that the regression finds cannot be simulated, the recorded motion with the
     regressed parameters is the start. Also whether it could.
     """
-    candidates = [*_equation_error_of_lags(t), equation_error(t, guesses(t), smooth_motion(t))[0]]
+    candidates = [*_equation_error_of_lags(t), equation_error(t, guesses(t), t.smooth_motion)[0]]
     shot = shoot(t, candidates)
     return (t.start(candidates[0]), False) if shot is None else (t.start(*shot), True)
-
-
-def smooth_motion(t: Transcription) -> list[np.ndarray]:
-    """Per episode (samples, n) recorded states, smoothed by cross-validation, with rates that are theirs.
-
-    Differences of noisy samples make a regression's regressors noisy, and its parameters too small.
-    """
-    states, of = list(t.model.states), t.model.rates()
-    smooth = []
-    for m in t.measured:
-        x = m.states[m.nodes]
-        if not states:
-            smooth.append(x)
-            continue
-        curves = np.array([smooth_curves(column, m.step) for column in x.T]).reshape(len(states), 3, -1)
-        out = curves[:, 0].T.copy()
-        for rate, state in of.items():
-            i, j = states.index(rate), states.index(state)
-            if np.array_equal(m.states[:, i], np.gradient(m.states[:, j], m.time, edge_order=2)):
-                out[:, i] = curves[j, 1]
-        smooth.append(out)
-    return [smooth[r] for r in t.recording_of]
 
 
 def _equation_error_of_lags(t: Transcription) -> list[np.ndarray]:

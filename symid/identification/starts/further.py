@@ -14,8 +14,7 @@ from symid.identification.starts.bounds import guesses
 from symid.identification.starts.led import free, tracked
 from symid.identification.starts.shooting import Shooting, can_shoot
 from symid.identification.sensitivity import outputs_and_targets
-from symid.identification.starts.default import equation_error, smooth_motion
-from symid.recording.smooth import left_by_smoother
+from symid.identification.starts.default import equation_error
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
@@ -34,7 +33,7 @@ regressed ones, from which on other starts are tried, and said to be needed. Wit
 
 def excess(t: Transcription, z: np.ndarray) -> np.ndarray:
     """(recordings, m) root mean square error of each output over what a free smoother leaves of its recording."""
-    left = np.array([left_by_smoother(m.targets[m.nodes]) for m in t.measured])
+    left = np.array([m.left for m in t.measured])
     size = np.array([m.targets[m.nodes].std(axis=0) for m in t.measured])
     pairs = dict(zip(t.recording_of, outputs_and_targets(t, z), strict=True))
     rms = np.array([np.sqrt(np.nanmean((pairs[r][0] - pairs[r][1]) ** 2, axis=0)) for r in range(len(t.measured))])
@@ -76,9 +75,8 @@ def further_starts(t: Transcription, z: np.ndarray, solved: bool) -> Iterator[tu
 
 def _recorded_motion(t: Transcription, shooting: Shooting | None) -> tuple[np.ndarray, np.ndarray]:
     """(free parameters,) SI that a regression on the smoothed recording finds, and the free vector of both."""
-    motion = smooth_motion(t)
-    regressed = equation_error(t, guesses(t), motion)[0]
-    return regressed, t.start(regressed, motion if shooting is None else shooting.with_hidden(motion))
+    regressed = equation_error(t, guesses(t), t.smooth_motion)[0]
+    return regressed, t.start(regressed, t.smooth_motion if shooting is None else shooting.with_hidden(t.smooth_motion))
 
 
 @one_blas_thread
@@ -109,5 +107,5 @@ def asked_for(t: Transcription, z: np.ndarray) -> np.ndarray | None:
     """(free parameters,) SI that led simulations ask for, where those of `z` are in doubt."""
     if not can_shoot(t):
         return None
-    regressed = equation_error(t, guesses(t), smooth_motion(t))[0]
+    regressed = equation_error(t, guesses(t), t.smooth_motion)[0]
     return regressed if _doubt(Shooting(t), z, regressed) > ASKED else None

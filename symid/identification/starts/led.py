@@ -31,6 +31,8 @@ MOST_DRAWN, LOOKED_AT = 300, 600_000
 """So many are drawn, of which the best `DRAWS` are fitted; fewer where their simulations would have more samples than
 that together. A fit takes as long as a hundred looks. Of a two-mass drive (motor speed alone measured, wide bounds) one
 draw of eight ended at 1.47 times the noise from 24 draws that nobody looked at."""
+SAME = 1e-3
+"""Starts whose unknowns differ by no more than this part lead to the same end, by the same steps."""
 ALIKE = 1.02
 """Costs within 2 % are taken for those of the same optimum."""
 
@@ -49,7 +51,7 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> Motion | None:
     if not can_shoot(t):
         return None
     shooting = Shooting(t)
-    starts = [shooting.unknowns(c) for c in candidates]
+    starts = different([shooting.unknowns(c) for c in candidates])
     ends = [shooting.fit(z) for z in starts if shooting.follows(z)]
     if not agree([end.cost for end in ends], len(starts)) or shooting.hidden:
         ends += led(shooting, starts)
@@ -60,6 +62,15 @@ def shoot(t: Transcription, candidates: Sequence[np.ndarray]) -> Motion | None:
     if any(run.diverged for run in runs):
         return None
     return (found * shooting.scale)[: len(t.layout.parameter_names)], [run.x for run in runs]
+
+
+def different(starts: Sequence[np.ndarray]) -> list[np.ndarray]:
+    """Without those that are one before, but for `SAME` of each unknown: of clear data all regressions agree."""
+    kept: list[np.ndarray] = []
+    for z in starts:
+        if not any(np.allclose(z, other, rtol=SAME, atol=0.0) for other in kept):
+            kept.append(z)
+    return kept
 
 
 def agree(costs: Sequence[float], count: int) -> bool:
