@@ -45,8 +45,9 @@ class FreeRun:
 
 
 def moves(recorded: np.ndarray) -> np.ndarray:
-    """(m,) how much each output moves, its standard deviation."""
-    return np.maximum(recorded.std(axis=0), 1e-12)
+    """(m,) how much each output moves, its standard deviation; 1 for one that stands still."""
+    moved = recorded.std(axis=0)
+    return np.where(moved > 0, moved, 1.0)
 
 
 def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:

@@ -21,6 +21,9 @@ from symid.simulation.linear import Linearised
 from symid.simulation.loop import PythonLoop
 from symid.simulation.run import METHODS, Run
 
+LARGEST = 1e100
+"""A state [SI] beyond this ends a run by default: no machine has it in any unit, and its square is still a number."""
+
 
 @dataclass(frozen=True, eq=False)
 class Trajectory:
@@ -107,7 +110,7 @@ class Simulator:
         history: tuple[np.ndarray, np.ndarray] | None = None,
         gain: np.ndarray | None = None,
         recorded: np.ndarray | None = None,
-        limit: float = 1e4,
+        limit: float = LARGEST,
         keep: str = "all",
     ) -> Trajectory:
         """Integrate over `time` and report states and outputs at its samples.

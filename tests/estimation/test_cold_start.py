@@ -92,3 +92,12 @@ def test_an_unstable_motion_that_a_fit_has_found_is_still_followed_in_short_piec
 
     lasts = followed(model, data, fit, {"k": 36.0, "c": 0.2}, near)
     assert lasts is not None and lasts <= 2.0
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e8])
+def test_a_state_may_be_any_number_in_its_unit(size):
+    """Of a pressure in pascals, or a stroke in metres of a membrane."""
+    data = driven(lambda x, v, u: u - 4 * x - 0.3 * v, 30, 0.05, 1.0, 4)
+    pieces = [Segment(e.time, size * e.recorded, {k: size * u for k, u in e.inputs.items()}) for e in data.segments]
+    fit = fit_model(body(lambda x: x), Data(tuple(pieces), size * data.sensor_noise, driven=False))
+    assert fit.values == pytest.approx(fit_model(body(lambda x: x), data).values, rel=1e-6)

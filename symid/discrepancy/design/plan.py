@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from symid.discrepancy.design.experiment import Experiment
-from symid.discrepancy.design.simulated import PAUSE, as_recording, course, forces_of, sensed, start_of
+from symid.discrepancy.design.simulated import as_recording, course, forces_of, run_times, sensed, start_of
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import DiagnosisError
 from symid.estimation.signals.segment import Segment
@@ -90,7 +90,7 @@ def recording_of(plan: Mapping[str, Any], model: Model, truth: str, seed: int) -
         seen = sensed(sim, values, start, time, inputs, forces, noise, rng)
         if seen is None:
             raise DiagnosisError(f"the motion of '{model.name}' leaves all bounds with {plan['words']}")
-        segments.append(Segment(time + k * (time[-1] + PAUSE), seen, inputs))
+        segments.append(Segment(run_times(time, k), seen, inputs))
     return as_recording(segments, model, noise, plan["words"])
 
 

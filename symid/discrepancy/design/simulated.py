@@ -13,7 +13,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import SymidError
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.kalman import HOLD
+from symid.estimation.fitting.kalman import held
 from symid.estimation.fitting.path import fitted_path
 from symid.estimation.signals.segment import Segment
 from symid.model import Model
@@ -21,8 +21,10 @@ from symid.recording import Recording
 from symid.simulation import Simulator
 from symid.units import known_unit
 
-PAUSE = 1.0
-"""Seconds between two runs of one recording."""
+PAUSE = 50
+"""Samples between two runs of one recording."""
+SUBSTEPS = 8
+"""Of the integrator in each sample: a fit compares with its own, and needs four at most where no friction is dry."""
 
 
 def is_free(data: Data) -> bool:
@@ -56,8 +58,13 @@ def simulated(truth: Hypothesis, data: Data, design: Design, seed: int) -> Data 
             return None
         for a, b in pairwise(edges):
             own = {key: np.ascontiguousarray(u[a:b]) for key, u in inputs.items()}
-            segments.append(Segment(time[a:b] + k * (time[-1] + PAUSE), np.ascontiguousarray(sensed[a:b]), own))
+            segments.append(Segment(run_times(time, k)[a:b], np.ascontiguousarray(sensed[a:b]), own))
     return replace(data, segments=tuple(segments), sensor_noise=data.sensor_noise * design.noise, rounding=0.0)
+
+
+def run_times(time: np.ndarray, k: int) -> np.ndarray:
+    """(N,) times [s] of run k (from 0) of one recording, each as `time`, with a pause between."""
+    return time + k * (time[-1] + PAUSE * (time[1] - time[0]))
 
 
 def _sensed(fit: Fit, data: Data, design: Design, time, inputs, rng) -> np.ndarray | None:
@@ -76,7 +83,7 @@ def start_of(fit: Fit, data: Data, design: Design) -> np.ndarray:
 
 
 def forces_of(fit: Fit) -> dict[str, float]:
-    """Standard deviation of the random force at each noise, held for `HOLD` [SI]."""
+    """Standard deviation of the random force at each noise, held as in `kalman.held` [SI]."""
     return dict(zip(fit.model.noises, map(float, fit.process), strict=False)) if fit.kalman_gain is not None else {}
 
 
@@ -92,7 +99,7 @@ def sensed(
 ) -> np.ndarray | None:
     """(N, m) what sensors show of a run under random forces; None where it leaves all bounds."""
     step = time[1] - time[0]
-    holds = max(1, round(step / HOLD))
+    holds, size = held(step)
     fine = np.arange((len(time) - 1) * holds + 1) * step / holds
     try:
         run = simulator.simulate(
@@ -100,8 +107,8 @@ def sensed(
             start,
             fine,
             {k: np.interp(fine, time, u) for k, u in inputs.items()},
-            noise={k: s * rng.standard_normal(len(fine)) for k, s in forces.items()},
-            substeps=max(1, int(np.ceil(step / holds / 0.005))),
+            noise={k: size * s * rng.standard_normal(len(fine)) for k, s in forces.items()},
+            substeps=-(-SUBSTEPS // holds),
         )
     except SymidError:
         return None
@@ -127,7 +134,7 @@ def as_recording(segments: Sequence[Segment], model: Model, sensor_noise: np.nda
     noise = dict(zip([y.channel for y in model.outputs.values()], map(float, sensor_noise), strict=True))
     time = np.concatenate([s.time for s in segments])
     # Pieces that follow each other without a pause are one run.
-    starts = [b.time[0] - a.time[-1] > PAUSE / 2 for a, b in pairwise(segments)]
+    starts = [b.time[0] - a.time[-1] > PAUSE / 2 * a.step / a.ratio for a, b in pairwise(segments)]
     run = np.repeat(np.cumsum([False, *starts]), [len(s.time) for s in segments])
     history = (f"simulated: {words}",)
     return Recording(words, time, channels, units, noise=noise, history=history, segment=run if run[-1] else None)

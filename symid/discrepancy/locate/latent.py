@@ -97,7 +97,7 @@ def _sensor_noise(recorded: np.ndarray) -> np.ndarray:
     The squared binomial coefficients of order k add up to (2k)!/(k!)^2 (Anderson 1971, 3.4).
     """
     power = np.mean(np.diff(recorded, _ORDER, axis=0) ** 2, axis=0) / comb(2 * _ORDER, _ORDER)
-    return np.sqrt(np.maximum(power, 1e-18 + 1e-6 * np.mean(recorded**2, axis=0)))
+    return np.sqrt(np.maximum(power, 1e-6 * np.mean(recorded**2, axis=0)) + 1e-300)
 
 
 def _states(model: Model, run: FreeRun, step: float) -> np.ndarray:

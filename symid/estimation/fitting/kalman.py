@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import LinAlgError, expm, solve_discrete_are
+from scipy.linalg import LinAlgError, expm, matrix_balance, solve_discrete_are
 
 from symid.simulation import Linearised, Simulator
 
 HOLD, MOST_HOLDS = 0.01, 8
 """Random forces last about this long [s], or this part of a sample: shorter ones within a sample look all alike."""
+FLOOR = 1e-12
+"""Every state is moved by at least so small a variance, that of a sensor's noise being one: a mode that nothing moves
+has no stationary gain."""
 
 
 def linearised_along(simulator: Simulator, values, states: np.ndarray, points: int = 16) -> Linearised:
@@ -32,16 +35,26 @@ def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np
     """
     A, G, C = linear.without_delay()
     F, Q = _moved(A, G, step, process)
-    n, R = len(A), np.diag(sensor**2)
-    scale = 1.0 / np.maximum(np.abs(np.diag(R)).mean(), 1e-300)
+    C = C / sensor[:, None]
+    size = _sizes(F, C)
+    F, Q, C = F * size / size[:, None], Q / np.outer(size, size), C * size
     for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
         try:
             with np.errstate(over="ignore", invalid="ignore"):  # hopeless candidates overflow, and have no gain
-                P = solve_discrete_are((leak * F).T, C.T, Q * scale + 1e-12 * np.eye(n), R * scale)
-            return _gains(F, P, C, np.linalg.inv(C @ P @ C.T + R * scale), linear, step)
+                P = solve_discrete_are((leak * F).T, C.T, Q + FLOOR * np.eye(len(F)), np.eye(len(C)))
+            gains = _gains(F, P, C, np.linalg.inv(C @ P @ C.T + np.eye(len(C))), linear, step)
+            return gains * size[: len(linear.A), None] / sensor
         except (LinAlgError, ValueError):
             continue
     return np.zeros((len(linear.A), len(C)))
+
+
+def _sizes(F: np.ndarray, C: np.ndarray) -> np.ndarray:
+    """(n,) by which states are divided so that millimetres beside kilopascals do no harm (Parlett & Reinsch 1969)."""
+    if not np.isfinite(F).all():
+        return np.ones(len(F))
+    _, (size, _) = matrix_balance(F, permute=False, separate=True)
+    return size / (np.abs(C * size).max() or 1.0)
 
 
 def held(step: float) -> tuple[int, float]:

@@ -20,7 +20,7 @@ def white_noise(pieces: Sequence[np.ndarray]) -> float:
     """
     differences = [np.diff(x, ORDER) for x in pieces if len(x) > ORDER]
     power = np.mean(np.concatenate(differences) ** 2) / comb(2 * ORDER, ORDER)
-    return float(np.sqrt(max(power, 1e-18 + 1e-12 * np.mean(np.concatenate(pieces) ** 2))))
+    return float(np.sqrt(max(power, 1e-12 * np.mean(np.concatenate(pieces) ** 2)))) or 1e-9
 
 
 def noise_before(pieces: Sequence[np.ndarray], step: float, filter: ZeroPhase) -> float:
