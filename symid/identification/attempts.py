@@ -114,6 +114,15 @@ class Attempts:
         return self.best
 
 
+def solve_given(problem: Identification, z: np.ndarray, on_iteration, options: dict) -> SolverResult:
+    """The end from `z`, a simulation with given parameters, by small steps, and as usual where these lose it."""
+    attempts = Attempts(problem, on_iteration, options)
+    attempts.beside(z, MANY)
+    if not attempts.solved:
+        attempts.run(z)
+    return attempts.end()
+
+
 def solve_default(problem: Identification, z: np.ndarray, on_iteration, options: dict) -> SolverResult:
     """The best end from the default start `z` and, where that is far above a smoother, from further ones."""
     attempts = Attempts(problem, on_iteration, options)

@@ -179,8 +179,8 @@ class Identification:
             within their bounds), "search" (random, then searched until simulations follow the
             recording: for several episodes), "relaxed" (random, then identified with process noise that
             is estimated, too), "stable" (searched for among loops that do not fall from states around
-            the recorded ones), parameter values by name, a Solution of a similar problem, or a free
-            vector as it is.
+            the recorded ones), parameter values by name (states that the recording hides follow from
+            simulations with them), a Solution of a similar problem, or a free vector as it is.
         seed, number : of a random start, which are the same again for the same two.
         """
         return start_of(self, kind, seed, number)

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp, deadline
 from symid.errors import MachineError, SymidError
-from symid.identification.attempts import solve_default
+from symid.identification.attempts import solve_default, solve_given
 from symid.identification.softened import solve_softened
 from symid.identification.start_row import StartRow
+from symid.identification.starts.shooting import hides
 from symid.ipopt_solver import Iteration, SolverResult
 from symid.ipopt_solver.bounded import LEAVE
 from symid.ipopt_solver.status import STATUS, WALL_TIME
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from symid.identification.study import Solve
 
 _BUILDING = threading.Lock()
+BEGINNINGS = {"default": solve_default, "random": solve_softened}
 OUT_OF_TIME = STATUS[WALL_TIME][0]
 
 
@@ -49,10 +51,12 @@ class Outcome:
 
 
 def _solved(solve: Solve, z: np.ndarray, on_iteration) -> SolverResult:
-    if isinstance(solve.start, str) and solve.start in ("default", "random"):
-        beginning = solve_default if solve.start == "default" else solve_softened
-        return beginning(solve.problem, z, on_iteration, dict(solve.options))
-    return solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options)
+    beginning = BEGINNINGS.get(solve.start) if isinstance(solve.start, str) else None
+    if isinstance(solve.start, dict) and "near" not in solve.options and hides(solve.problem.transcription):
+        beginning = solve_given
+    if beginning is None:
+        return solve.problem.solve_from(z, on_iteration=on_iteration, **solve.options)
+    return beginning(solve.problem, z, on_iteration, dict(solve.options))
 
 
 def solve_here(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | None = None) -> Outcome:

@@ -11,7 +11,7 @@ from symid import checked
 from symid.checked import nearest
 from symid.errors import SolveError
 from symid.identification.starts.bounds import guesses, parameter_bounds
-from symid.identification.starts.led import shoot
+from symid.identification.starts.led import motion_with, shoot
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
@@ -176,7 +176,7 @@ def given_start(t: Transcription, given: dict[str, float] | Solution) -> np.ndar
                 f"start: {t.layout.parameter_names[i]}={parameters[i]:g} is outside its bounds "
                 f"{lower[i]:g} to {upper[i]:g}; change the value or the bounds"
             )
-        return t.start(parameters)
+        return t.start(parameters, motion_with(t, parameters))
     return t.start(np.clip(parameters, lower, upper), [_trajectory(t, given, e) for e in range(len(t.recording_of))])
 
 

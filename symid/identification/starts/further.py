@@ -12,7 +12,7 @@ import numpy as np
 
 from symid.identification.starts.bounds import guesses
 from symid.identification.starts.led import free, tracked
-from symid.identification.starts.shooting import Shooting, can_shoot
+from symid.identification.starts.shooting import Shooting, can_shoot, with_hidden
 from symid.identification.sensitivity import outputs_and_targets
 from symid.identification.starts.default import equation_error
 from symid.threads import one_blas_thread
@@ -57,7 +57,7 @@ def further_starts(t: Transcription, z: np.ndarray, solved: bool) -> Iterator[tu
     large, seen = _large(t), shooting is not None and not shooting.hidden
     if large and solved and not seen:
         return
-    regressed, recorded = _recorded_motion(t, shooting)
+    regressed, recorded = _recorded_motion(t)
     settled = large and solved and _doubt(shooting, z, regressed) < PULLED
     if settled and shooting.follows(shooting.unknowns(regressed)):
         return
@@ -73,10 +73,10 @@ def further_starts(t: Transcription, z: np.ndarray, solved: bool) -> Iterator[tu
             yield t.start(*found), True
 
 
-def _recorded_motion(t: Transcription, shooting: Shooting | None) -> tuple[np.ndarray, np.ndarray]:
+def _recorded_motion(t: Transcription) -> tuple[np.ndarray, np.ndarray]:
     """(free parameters,) SI that a regression on the smoothed recording finds, and the free vector of both."""
     regressed = equation_error(t, guesses(t), t.smooth_motion)[0]
-    return regressed, t.start(regressed, t.smooth_motion if shooting is None else shooting.with_hidden(t.smooth_motion))
+    return regressed, t.start(regressed, with_hidden(t, t.smooth_motion))
 
 
 @one_blas_thread

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import scipy
 
-from symid.identification.starts.shooting import Shooting, can_shoot
+from symid.identification.starts.shooting import Shooting, can_shoot, hides, with_hidden
 from symid.transcription import Transcription
 
 GAINS = (0.7, 0.3, 0.1, 0.03)
@@ -35,6 +35,9 @@ SAME = 1e-3
 """Starts whose unknowns differ by no more than this part lead to the same end, by the same steps."""
 ALIKE = 1.02
 """Costs within 2 % are taken for those of the same optimum."""
+
+SHARES = (1.0, 0.1, 0.01)
+"""Of the size of a hidden state, from which its initial value is looked for: bounds may be all that is known of it."""
 
 Motion = tuple[np.ndarray, list[np.ndarray]]
 """(free parameters,) SI and, of every episode, states (samples, n)."""
@@ -71,6 +74,28 @@ def different(starts: Sequence[np.ndarray]) -> list[np.ndarray]:
         if not any(np.allclose(z, other, rtol=SAME, atol=0.0) for other in kept):
             kept.append(z)
     return kept
+
+
+def motion_with(t: Transcription, parameters: np.ndarray) -> list[np.ndarray] | None:
+    """Per episode states (samples, n) to begin from with these parameters (free,) SI, where the recording hides some.
+
+    Those of simulations with them from the initial states that follow the recording best, led to it ever more weakly;
+    where they do not follow it at last, the recorded states and the hidden ones of a simulation that is led. None where
+    the recording shows all states.
+    """
+    if not hides(t):
+        return None
+    recorded = [t.measured[r].states[t.measured[r].nodes] for r in t.recording_of]
+    if not can_shoot(t):
+        return with_hidden(t, recorded)
+    shooting = Shooting(t)
+    firsts = [shooting.fit(shooting.unknowns(parameters, s), GAINS[0], kept=shooting.q) for s in SHARES]
+    first = free = min(firsts, key=lambda end: end.cost).x
+    for gain in (*GAINS[1:], 0.0):
+        free = shooting.fit(free, gain, PATIENCE, kept=shooting.q).x
+    if shooting.follows(free):
+        return shooting.runs(free)
+    return with_hidden(t, recorded, shooting.runs(first, GAINS[0]))
 
 
 def agree(costs: Sequence[float], count: int) -> bool:
@@ -132,14 +157,8 @@ def free(shooting: Shooting) -> Iterator[Motion]:
 
 
 def _ended(shooting: Shooting, z: np.ndarray, gain: float) -> Motion | None:
-    shooting.gain = gain
-    try:
-        runs = [shooting.run(z, r) for r in shooting.t.recording_of]
-    finally:
-        shooting.gain = 0.0
-    if any(run.diverged for run in runs):
-        return None
-    return (z * shooting.scale)[: shooting.q], [run.x for run in runs]
+    runs = shooting.runs(z, gain)
+    return None if runs is None else ((z * shooting.scale)[: shooting.q], runs)
 
 
 def likely(shooting: Shooting, gain: float) -> list[np.ndarray]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-
 import numpy as np
 import scipy
 
@@ -36,30 +35,14 @@ class Shooting:
         )
 
     def unknowns(self, parameters: np.ndarray, share: np.ndarray | float = 1.0) -> np.ndarray:
-        """z of these parameters (SI) and the recorded initial states, in the bounds; `share` of `size` if unseen."""
-        first = [np.where(self.unseen(m), share * self.size, m.states[m.first]) for m in self.t.measured]
+        """z of these parameters (SI) and the recorded initial states, in the bounds; `share` of `sizes` if unseen."""
+        first = [np.where(unseen(m), share * sizes(self.t), m.states[m.first]) for m in self.t.measured]
         z = np.concatenate([parameters, *first]) / self.scale
         return np.clip(z, np.nextafter(self.lower, np.inf), np.nextafter(self.upper, -np.inf))
 
     @property
-    def size(self) -> np.ndarray:
-        """(n,) a value of each state as large as its motion, within its bounds."""
-        bounds = np.array([s.bounds for s in self.t.model.states.values()], dtype=float).reshape(-1, 2)
-        return np.clip(self.t.layout.state_scale / RANGE, *bounds.T)
-
-    @staticmethod
-    def unseen(m: Measured) -> np.ndarray:
-        """(n,) whether nothing recorded shows a state."""
-        return ~np.any(m.states[m.nodes] != 0, axis=0)
-
-    def with_hidden(self, motion: list[np.ndarray]) -> list[np.ndarray]:
-        """Per episode states (nodes, n), those that nothing recorded shows at `size`."""
-        shown = [self.t.measured[r] for r in self.t.recording_of]
-        return [np.where(self.unseen(m), self.size, x) for m, x in zip(shown, motion, strict=True)]
-
-    @property
     def hidden(self) -> bool:
-        return any(self.unseen(m).any() for m in self.t.measured)
+        return hides(self.t)
 
     def led_error(self, z: np.ndarray, gain: float) -> float:
         """Root of the sum of squared errors of simulations that are led by `gain`."""
@@ -140,23 +123,60 @@ class Shooting:
         return bool(np.sum(self.residual(z) ** 2) < np.sum(spread))
 
     def fit(
-        self, z: np.ndarray, gain: float = 0.0, evaluations: int = MAX_EVALUATIONS
+        self, z: np.ndarray, gain: float = 0.0, evaluations: int = MAX_EVALUATIONS, kept: int = 0
     ) -> scipy.optimize.OptimizeResult:
-        """Least squares from `z`, of simulations that are led back to the recording by `gain`."""
+        """Least squares from `z`, of simulations that are led back to the recording by `gain`.
+
+        kept : so many of z, the first ones, stay as they are.
+        """
         self.gain = gain
         try:
             z = np.clip(z, np.nextafter(self.lower, np.inf), np.nextafter(self.upper, -np.inf))
-            return scipy.optimize.least_squares(
-                self.residual,
-                z,
-                self.jacobian,
-                bounds=(self.lower, self.upper),
+            end = scipy.optimize.least_squares(
+                lambda x: self.residual(np.concatenate([z[:kept], x])),
+                z[kept:],
+                lambda x: self.jacobian(np.concatenate([z[:kept], x]))[:, kept:],
+                bounds=(self.lower[kept:], self.upper[kept:]),
                 x_scale="jac",
                 max_nfev=evaluations,
                 ftol=1e-3,
             )
+            end.x = np.concatenate([z[:kept], end.x])
+            return end
         finally:
             self.gain = 0.0
+
+    def runs(self, z: np.ndarray, gain: float = 0.0) -> list[np.ndarray] | None:
+        """Per episode (samples, n) states of simulations that are led by `gain`; None where one diverges."""
+        self.gain = gain
+        try:
+            runs = [self.run(z, r) for r in self.t.recording_of]
+        finally:
+            self.gain = 0.0
+        return None if any(run.diverged for run in runs) else [run.x for run in runs]
+
+
+def unseen(m: Measured) -> np.ndarray:
+    """(n,) whether nothing recorded shows a state."""
+    return ~np.any(m.states[m.nodes] != 0, axis=0)
+
+
+def hides(t: Transcription) -> bool:
+    """Whether there is a state that nothing recorded shows."""
+    return any(unseen(m).any() for m in t.measured)
+
+
+def sizes(t: Transcription) -> np.ndarray:
+    """(n,) a value of each state as large as its motion, within its bounds."""
+    bounds = np.array([s.bounds for s in t.model.states.values()], dtype=float).reshape(-1, 2)
+    return np.clip(t.layout.state_scale / RANGE, *bounds.T)
+
+
+def with_hidden(t: Transcription, motion: list[np.ndarray], hidden: list[np.ndarray] | None = None) -> list[np.ndarray]:
+    """Per episode states (samples, n) of `motion`, those that nothing recorded shows as in `hidden`, or at `sizes`."""
+    shown = [t.measured[r] for r in t.recording_of]
+    hidden = [sizes(t)] * len(shown) if hidden is None else hidden
+    return [np.where(unseen(m), h, x) for m, h, x in zip(shown, hidden, motion, strict=True)]
 
 
 def computable(values: np.ndarray, nan: float = 0.0) -> np.ndarray:
