@@ -8,6 +8,7 @@
 #define WEAK 1e-11
 #define MOST_DELAYED 200    /* ... with more than this ANY */
 #define ANY 1e-30
+#define AHEAD 64            /* entries; a front takes about as many */
 
 typedef struct {
     Arena factors, handed; /* handed: what fronts give to their parents, last in first out */
@@ -147,6 +148,7 @@ static int pack(Work *w, Part *p, int outer) {
     size_t below = packed_size(p->size, p->pivots, outer), inverse = 2 * (size_t)p->pivots;
     double *block = take(&w->factors, inverse + below + (p->size + 1) / 2), *to = block + inverse;
     if (!block) return 0;
+    for (size_t i = 0; i < inverse + below; i += LANES) __builtin_prefetch(to + below + i, 1); /* the next front's */
     memcpy(block, p->inverse, sizeof(double) * inverse);
     p->packed = to;
     for (int k = 0; k < p->pivots; k++) {
@@ -166,6 +168,12 @@ static void mirror(Part *p) {
         for (int i = j + 1; i < p->size; i++) p->panel[(size_t)i * p->stride + j] = p->panel[(size_t)j * p->stride + i];
 }
 
+/* Entries lie in the order of Ipopt's triplets: what the front takes some entries later is fetched meanwhile. */
+static inline void fetch(const Factor *s, int64_t k, int64_t end) {
+    int later = s->tree.source[k + AHEAD < end ? k + AHEAD : end - 1];
+    __builtin_prefetch(s->values + later), __builtin_prefetch(s->product + later);
+}
+
 static inline double scaled(const Factor *s, int source) {
     return s->values[source] * power_of_two(s->product[source]);
 }
@@ -179,9 +187,11 @@ static int factorise_front(Factor *s, Work *w, int f) {
     if (!open_front(w, p, size, v->chain, outer)) return 0;
     for (int i = 0; i < v->own; i++) p->rows[i] = v->first + i;
     const Place *e = t->place + v->place_at;
-    for (int64_t k = v->entry_at; k < v[1].entry_at; k++, e++)
+    for (int64_t k = v->entry_at; k < v[1].entry_at; k++, e++) {
+        fetch(s, k, t->front[t->fronts + 1].entry_at);
         p->panel[e->column * p->stride + (e->row < v->own ? e->row : e->row - v->own + p->base)] +=
             scaled(s, t->source[k]);
+    }
     Target target = {p->panel, w->square, size, p->base, p->stride, padded(outer)};
     int delayed = v->own, first = t->child[f];
     for (int c = first; c >= 0; c = t->sibling[c]) {

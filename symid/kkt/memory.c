@@ -32,7 +32,7 @@ static void *zeros(size_t count, size_t size) { return calloc(count ? count : 1,
 static Chunk *new_chunk(size_t size) {
     Chunk *c = malloc(sizeof(Chunk));
     void *data = NULL;
-    if (!c || posix_memalign(&data, 64, size * sizeof(double))) {
+    if (!c || posix_memalign(&data, 64, (size + LANES) * sizeof(double))) { /* a vector may begin at the last one */
         free(c);
         return NULL;
     }

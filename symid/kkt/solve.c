@@ -7,57 +7,59 @@ static inline double *home(double *x, double *outside, int inner, int p) {
 
 static inline int position_of(int row) { return row < 0 ? ~row : row; }
 
-/* Column k of a front as its panel held it, in `column` (stride), which is zero elsewhere; returns the next packed one.
-   Columns are unpacked in turn, up or down. */
-static inline const double *unpack(const Part *p, int k, int outer, const double *packed, double *column) {
-    int left = p->size - 1 - k;
-    column[k] = 0;
-    memcpy(column + k + 1, packed, sizeof(double) * left);
-    memcpy(column + p->base, packed + left, sizeof(double) * outer);
-    return packed + left + outer;
+typedef int64_t Bits __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
+
+static const int64_t KEPT[3 * LANES] = {[LANES] = -1, -1, -1, -1, -1, -1, -1, -1};
+
+/* The vector at x, zero but for its lanes from `low` (at most LANES) up to, without, `high` (above zero). */
+static inline Vector lanes(const double *x, int low, int high) {
+    Bits above = *(const Bits *)(KEPT + LANES - (low > 0 ? low : 0));
+    Bits below = *(const Bits *)(KEPT + 2 * LANES - (high < LANES ? high : LANES));
+    return (Vector)(*(const Bits *)x & above & below);
 }
+
+/* A front's unknowns are y: the fully summed, the chain's, the border's. Column k of the factor is packed: its rows from
+   k + 1 on. It is loaded where the vectors of y are, so that these are stored and loaded as the same ones. */
 
 static void forward_front(const Factor *s, int f, double *x, double *outside, double *y) {
     const Tree *t = &s->tree;
     const Part *p = &s->part[f];
     const Front *v = &t->front[f];
     int chain = f < t->fronts ? v->chain : 0, border = f < t->fronts ? t->plan[v->task].border : 0;
+    int all = p->size + chain + border;
     const double *packed = p->packed;
-    double *column = y + p->stride;
-    memset(y, 0, sizeof(double) * 2 * p->stride);
+    memset(y, 0, sizeof(double) * padded(all));
     for (int k = 0; k < p->pivots; k++) y[k] = *home(x, outside, t->inner, position_of(p->rows[k]));
     for (int k = 0; k < p->pivots; k++) {
-        packed = unpack(p, k, chain + border, packed, column);
-        subtract(y, column, y[k], k & ~(LANES - 1), p->stride);
+        double a = y[k];
+        for (int i = (k + 1) & ~(LANES - 1); i < all; i += LANES)
+            *(Vector *)(y + i) -= lanes(packed + i - k - 1, k + 1 - i, all - i) * a;
+        packed += all - 1 - k;
     }
     for (int k = 0; k < p->pivots; k++) *home(x, outside, t->inner, position_of(p->rows[k])) = y[k];
     for (int k = p->pivots; k < p->size; k++) *home(x, outside, t->inner, position_of(p->rows[k])) += y[k];
     const int *c = t->chain + v->chain_at;
-    for (int k = 0; k < chain; k++) *home(x, outside, t->inner, c[k]) += y[p->base + k];
+    for (int k = 0; k < chain; k++) *home(x, outside, t->inner, c[k]) += y[p->size + k];
     if (!border) return;
     const TaskPlan *plan = &t->plan[v->task];
     double *to = outside + t->top - t->inner;
-    for (int b = 0; b < border; b++) to[plan->touched[b]] += y[p->base + chain + b];
+    for (int b = 0; b < border; b++) to[plan->touched[b]] += y[p->size + chain + b];
 }
 
-static inline double product(const double *restrict x, const double *restrict y, int from, int to) {
-    Vector sum = {0};
-    for (int i = from; i < to; i += LANES) sum += *(const Vector *)(x + i) * *(const Vector *)(y + i);
-    return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));
-}
+static inline double sum(Vector x) { return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7])); }
 
 static void backward_front(const Factor *s, int f, double *x, double *y) {
     const Tree *t = &s->tree;
     const Part *p = &s->part[f];
     const Front *v = &t->front[f];
     int chain = f < t->fronts ? v->chain : 0, border = f < t->fronts ? t->plan[v->task].border : 0;
+    int all = p->size + chain + border;
     const int *c = t->chain + v->chain_at;
     const double *packed = p->packed + packed_size(p->size, p->pivots, chain + border);
-    double *column = y + p->stride;
-    memset(y, 0, sizeof(double) * 2 * p->stride);
+    memset(y, 0, sizeof(double) * padded(all));
     for (int k = 0; k < p->size; k++) y[k] = x[position_of(p->rows[k])];
-    for (int k = 0; k < chain; k++) y[p->base + k] = x[c[k]];
-    for (int b = 0; b < border; b++) y[p->base + chain + b] = x[t->top + t->plan[v->task].touched[b]];
+    for (int k = 0; k < chain; k++) y[p->size + k] = x[c[k]];
+    for (int b = 0; b < border; b++) y[p->size + chain + b] = x[t->top + t->plan[v->task].touched[b]];
     for (int k = 0; k < p->pivots; k++) {
         const double *d = p->inverse + 2 * k;
         double a = y[k];
@@ -69,21 +71,32 @@ static void backward_front(const Factor *s, int f, double *x, double *y) {
         }
     }
     for (int k = p->pivots - 1; k >= 0; k--) {
-        packed -= p->size - 1 - k + chain + border;
-        unpack(p, k, chain + border, packed, column);
-        y[k] -= product(column, y, k & ~(LANES - 1), p->stride);
+        Vector product = {0};
+        packed -= all - 1 - k;
+        for (int i = (k + 1) & ~(LANES - 1); i < all; i += LANES)
+            product += lanes(packed + i - k - 1, k + 1 - i, all - i) * *(const Vector *)(y + i);
+        y[k] -= sum(product);
     }
     for (int k = 0; k < p->pivots; k++) x[position_of(p->rows[k])] = y[k];
 }
 
 static double *vector_of(Work *w, const Part *p) {
-    return make_room(&w->columns, &w->columns_room, 2 * (size_t)p->stride) ? w->columns : NULL;
+    return make_room(&w->columns, &w->columns_room, (size_t)p->stride + LANES) ? w->columns : NULL;
+}
+
+/* What is kept of a front, asked for while its neighbour is at work: factors do not fit into a processor's own memory. */
+static void fetch_front(const Factor *s, int f) {
+    const Part *p = &s->part[f];
+    const Front *v = &s->tree.front[f];
+    size_t kept = 2 * p->pivots + packed_size(p->size, p->pivots, v->chain + s->tree.plan[v->task].border) + p->size / 2;
+    for (size_t i = 0; i < kept; i += LANES) __builtin_prefetch(p->inverse + i);
 }
 
 static int forward_task(Factor *s, int a, double *outside) {
     for (int f = s->tree.plan[a].first; f < s->tree.plan[a].end; f++) {
         double *y = vector_of(&s->work[a], &s->part[f]);
         if (!y) return 0;
+        if (f + 1 < s->tree.plan[a].end) fetch_front(s, f + 1);
         forward_front(s, f, s->x, outside, y);
     }
     return 1;
@@ -93,6 +106,7 @@ static int backward_task(Factor *s, int a) {
     for (int f = s->tree.plan[a].end - 1; f >= s->tree.plan[a].first; f--) {
         double *y = vector_of(&s->work[a], &s->part[f]);
         if (!y) return 0;
+        if (f > s->tree.plan[a].first) fetch_front(s, f - 1);
         backward_front(s, f, s->x, y);
     }
     return 1;

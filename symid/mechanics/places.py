@@ -8,8 +8,8 @@ from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
+import scipy
 import sympy as sm
-from scipy.optimize import linear_sum_assignment
 
 from symid.model import Input, Model, Output, Port, State
 from symid.model.dimensions import unit_of
@@ -104,7 +104,8 @@ def _own_states(
     if not beside.size:
         return {}
     size = np.log(np.maximum(beside, NOTHING))
-    return {balances[i]: moving[j] for i, j in zip(*linear_sum_assignment(size, maximize=True), strict=True)}
+    rows, columns = scipy.optimize.linear_sum_assignment(size, maximize=True)
+    return {balances[i]: moving[j] for i, j in zip(rows, columns, strict=True)}
 
 
 def _port(model: Model, name: str, residual: sm.Expr, state: State, rates: Mapping[str, str]) -> Port:

@@ -21,6 +21,7 @@ MARKS = (",", ";", "\t", "|", None)
 MISSING = frozenset({"", "nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "?"})
 """Cells, in small letters, that stand for no value."""
 _HEAD = 1 << 16
+_NO_TEXT = re.compile(r"[^ -\U0010ffff\t\r\n\f\x1a]")
 _COMMENT = re.compile(r"\s*(#|%|//|sep=)", re.I)
 _NUMBER = {
     mark: re.compile(rf"[+-]?(\d+({re.escape(mark)}\d*)?|{re.escape(mark)}\d+)([eE][+-]?\d+)?", re.A) for mark in ".,"
@@ -119,7 +120,7 @@ def head_of(path: Path) -> tuple[str, str]:
             text = codecs.getincrementaldecoder(name)().decode(raw, final=whole)
         except UnicodeError:
             continue
-        if any(c < " " and c not in "\t\r\n\f\x1a" for c in text):
+        if _NO_TEXT.search(text):
             break
         cut = max(text.rfind("\n"), text.rfind("\r")) + 1
         return name, text if whole or not cut else text[:cut]
