@@ -9,6 +9,7 @@ import symid as si
 from symid.errors import ModelError, SolveError, TranscriptionError
 from symid.nlp import check_optimality
 from symid.transcription import SCHEMES, scheme_by_name
+from symid.units import with_error
 
 
 def optimality(solution):
@@ -218,6 +219,14 @@ def incomplete() -> si.Model:
     model = pendulum()
     model.extra = si.State(unit="1")
     return model
+
+
+def test_values_are_shown_to_the_digits_that_their_errors_allow():
+    solution = si.Identification(pendulum(), pendulum_recording(noise=0.02)).solve()
+    value, error = solution.parameters.loc["damping", ["value", "std_error"]]
+    assert 0.001 < error < 0.1
+    for shown in (str(solution), solution._repr_html_()):
+        assert with_error(value, error) in shown and "std. error" in shown
 
 
 def test_a_motion_cut_off_by_its_bounds_is_said():

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 from symid.identification.elsewhere import excess_note
 from symid.identification.fit import common_unit, fit_text, rms_text
 from symid.identification.weighting import by_noise
+from symid.model.show import MEANING_EM
+from symid.units import with_error
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
@@ -155,45 +157,50 @@ def _unverified(solution: Solution) -> list[str]:
 
 def text(solution: Solution) -> str:
     """Headline, what Ipopt said, and the parameters."""
-    table = solution.parameters[["value", "std_error", "unit", "at_bound"]]
+    rows = _parameter_rows(solution)
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = (
+        "  ".join([row[0].ljust(widths[0]), row[1].rjust(widths[1]), row[2].ljust(widths[2]), row[4]]).rstrip()
+        for row in rows
+    )
     starts = f"\nBest of {len(solution.starts)} starts." if len(solution.starts) > 1 else ""
     cut = "".join(f"\n{warning}." for warning in (*solution.warnings, *error_notes(solution)))
-    numbers = table.to_string(float_format="%.5g") if len(table) else "There is no free parameter."
+    numbers = "\n".join(lines) if len(rows) > 1 else "There is no free parameter."
     return f"{solution.model.name}\n{headline(solution)}\n{solution.message}{starts}{cut}\n{numbers}"
 
 
+def _parameter_rows(solution: Solution) -> list[tuple[str, ...]]:
+    """Head and a row for each parameter: name, value with its error, unit, bounds, whether it is at one, meaning."""
+    table = solution.parameters
+    return [
+        ("parameter", "value ± std. error", "unit", "bounds", "", "meaning" if any(table["meaning"]) else ""),
+        *(
+            (name, with_error(p.value, p.std_error, digits=5), p.unit)
+            + (f"{p.lower:g} to {p.upper:g}", "at its bound" if p.at_bound else "", p.meaning)
+            for name, p in table.iterrows()
+        ),
+    ]
+
+
 def html(solution: Solution) -> str:
-    """The same for a notebook; a parameter at a bound is red."""
+    """The same for a notebook, with bounds and meanings; a parameter at a bound is red."""
     rows = []
-    for name, p in solution.parameters.iterrows():
+    for name, value, unit, bounds, at, meaning in _parameter_rows(solution):
+        cell = "th" if not rows else "td"
         cells = [
-            (f"<code>{escape(name)}</code>", "left"),
-            (f"{p.value:.5g}", "right"),
-            ("none" if p.std_error != p.std_error else f"{p.std_error:.2g}", "right"),
-            (escape(p.unit), "left"),
-            (f"{p.lower:g} to {p.upper:g}{', at bound' if p.at_bound else ''}", "left"),
-            (escape(p.meaning), "left"),
+            (name if cell == "th" else f"<code>{escape(name)}</code>", "left"),
+            (value, "right"),
+            (escape(unit), "left"),
+            (f"{bounds}, {at}" if at else bounds, "left"),
+            (escape(meaning), f"left;min-width:{MEANING_EM}em" if meaning and cell == "td" else "left"),
         ]
-        colour = ";color:#c0392b" if p.at_bound else ""
-        rows.append("".join(f'<td style="text-align:{side}{colour}">{text}</td>' for text, side in cells))
-    head = "".join(
-        f'<th style="text-align:{side}">{h}</th>'
-        for h, side in (
-            ("parameter", "left"),
-            ("value", "right"),
-            ("std. error", "right"),
-            ("unit", "left"),
-            ("bounds", "left"),
-            ("meaning", "left"),
-        )
-    )
+        colour = ";color:#c0392b" if at else ""
+        rows.append("".join(f'<{cell} style="text-align:{side}{colour}">{text}</{cell}>' for text, side in cells))
     colour = "#666" if solution.solved else "#c0392b"
     return (
         f"<h4>{escape(solution.model.name)}</h4><p>{escape(headline(solution))}</p>"
         f'<p style="color:{colour}">{escape(solution.message)}</p>'
         + "".join(f'<p style="color:#c0392b">{escape(warning)}.</p>' for warning in solution.warnings)
         + "".join(f"<p>{escape(note)}.</p>" for note in error_notes(solution))
-        + f"<table><tr>{head}</tr>"
-        + "".join(f"<tr>{row}</tr>" for row in rows)
-        + "</table>"
+        + f"<table>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
     )

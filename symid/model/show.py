@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from html import escape
+from math import inf
 
 import sympy as sm
 
@@ -95,14 +96,19 @@ KINDS = ("state", "algebraic", "control", "input", "parameter", "constant", "noi
 """Kinds of parts that are listed, in this order."""
 
 
+MEANING_EM = 15
+"""Width of a meaning [em]: on a phone, where the column is beyond the edge, it would stand word below word."""
+
+
 def _parts(model: Model):
     """Kind, part, and its value or bounds as text."""
     lists = (model.states, model.algebraics, model.controls, model.inputs)
     lists += (model.parameters, model.constants, model.noises, model.outputs)
     for kind, parts in zip(KINDS, lists, strict=True):
         for c in parts.values():
-            bounds = "[{:g}, {:g}]".format(*c.bounds) if hasattr(c, "bounds") else ""
-            yield kind, c, f"{c.value:g}" if kind == "constant" else bounds
+            bounds = getattr(c, "bounds", (-inf, inf))
+            shown = "[{:g}, {:g}]".format(*bounds) if bounds != (-inf, inf) else ""
+            yield kind, c, f"{c.value:g}" if kind == "constant" else shown
 
 
 def html(model: Model) -> str:
@@ -110,11 +116,13 @@ def html(model: Model) -> str:
     names, rows = letters(model), []
     for kind, c, value in _parts(model):
         letter = f"${escape(names[c.symbol], quote=False)}$" if kind != "output" else ""
-        cells = (kind, letter, f"<code>{escape(c.name)}</code>", value, escape(c.unit), escape(c.meaning))
-        rows.append("".join(f'<td style="text-align:left">{cell}</td>' for cell in cells))
+        cells = (kind, letter, f"<code>{escape(c.name)}</code>", value, escape(c.unit))
+        wide = f";min-width:{MEANING_EM}em" if c.meaning else ""
+        told = f'<td style="text-align:left{wide}">{escape(c.meaning)}</td>'
+        rows.append("".join(f'<td style="text-align:left">{cell}</td>' for cell in cells) + told)
+    meaning = ["meaning"] if any(c.meaning for _, c, _ in _parts(model)) else []
     head = "".join(
-        f'<th style="text-align:left">{h}</th>'
-        for h in ("part", "letter", "name", "value or bounds", "unit", "meaning")
+        f'<th style="text-align:left">{h}</th>' for h in ("part", "letter", "name", "value or bounds", "unit", *meaning)
     )
     table = f"<table><tr>{head}</tr>" + "".join(f"<tr>{row}</tr>" for row in rows) + "</table>"
     terms = f"<p>terms added: {escape(', '.join(map(str, model.terms)))}</p>" if model.terms else ""

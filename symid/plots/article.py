@@ -32,7 +32,9 @@ def plot_stable_share(findings: Sequence) -> Picture:
         column[-1].set_xlabel("episodes")
     for axis in axes[:, 0]:
         axis.set_ylabel("stable share [%]")
-    axes[0, 0].legend(frameon=False, fontsize=8)
+    picture.legend(
+        *axes[0, 0].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=8
+    )
     return picture
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from symid import checked
 from symid.errors import RecordingError, SymidError
 from symid.files import a_file
-from symid.recording.header import MAP_THEM, MOST_NAMED, no_time
+from symid.recording.header import MOST_NAMED, map_them, no_time
 from symid.recording.names import LABELS, Column, contradictions, measured_column, unit_of
 from symid.recording.readers.raw import RawColumn
 from symid.units import HOW_NAMED, column_name, nearest
@@ -50,15 +50,15 @@ def load_columns(source: Mapping[str, str] | str | os.PathLike) -> dict[str, str
 
 def mapped(path: Path, raw: list[RawColumn], mapping: Mapping[str, str]) -> tuple[list[Column], dict[str, np.ndarray]]:
     """The columns that a mapping names, and no others."""
-    there, problems = {c.text: c for c in raw}, []
+    there, problems, missing = {c.text: c for c in raw}, [], []
     columns, table = [], {}
     for ours, theirs in mapping.items():
         sign = -1.0 if theirs not in there and theirs.startswith("-") else 1.0
         wanted = theirs if sign > 0 else theirs[1:].strip()
         found = there.get(wanted) or there.get(wanted.lstrip("#%/ "))  # as it stands in a line of comment
         if found is None:
-            close = nearest(theirs, there) or list(there)[:MOST_NAMED]
-            problems.append(f"there is no column '{theirs}' for {ours}; the file has {', '.join(close)}")
+            close = nearest(theirs, there) or [name for name in there if name.endswith(f"_{theirs}")]
+            missing.append(f"'{theirs}' for {ours}" + (f" (did you mean '{close[0]}'?)" if close else ""))
             continue
         if found.fault:
             raise RecordingError(f"{path}: {found.fault}")
@@ -71,6 +71,9 @@ def mapped(path: Path, raw: list[RawColumn], mapping: Mapping[str, str]) -> tupl
             continue
         columns.append(column)
         table[column.name] = sign * found.values if sign < 0 else found.values
+    if missing:
+        has = ", ".join(list(there)[:MOST_NAMED]) + (", ..." if len(there) > MOST_NAMED else "")
+        problems.insert(0, f"there is no column {', no '.join(missing)}; the file has {has}")
     sizes = {name: len(values) for name, values in table.items()}
     if len(set(sizes.values())) > 1:
         problems.append("columns have different numbers of values: " + ", ".join(f"{k} {n}" for k, n in sizes.items()))
@@ -94,7 +97,7 @@ def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str,
     """All columns: those with a unit in the file under their own name, the others by the unit that ends their names;
     and what is left out, because its unit is not told or it has another number of values.
     """
-    columns, table, problems = [], {}, []
+    columns, table, problems, unnamed = [], {}, [], []
     every = _without_stem(raw)
     raw = _of_one_length(path, every)
     for c in raw:
@@ -102,6 +105,7 @@ def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str,
             column = _column(c)
         except SymidError as error:
             problems.append(str(error).removesuffix(f"; {HOW_NAMED}"))
+            unnamed.append(c.text)
             continue
         if c.fault:
             raise RecordingError(f"{path}: {c.fault}; a mapping of columns may leave it out")
@@ -113,7 +117,7 @@ def own_names(path: Path, raw: list[RawColumn]) -> tuple[list[Column], dict[str,
             *problems[:3],
             *([f"and {len(problems) - 3} more columns"] if problems[3:] else []),
             *no_time([c.text for c in raw], columns, refused=True),
-            MAP_THEM,
+            map_them(unnamed),
         ]
     elif problems:
         problems = []  # a file that states units may hold columns of other kinds, which are left out
@@ -136,7 +140,8 @@ def _of_one_length(path: Path, raw: list[RawColumn]) -> list[RawColumn]:
     if len(lengths) > 1 and not times:
         told = ", ".join(f"{c.text} {len(c.values)}" for c in raw[:MOST_NAMED])
         raise RecordingError(
-            f"{path}: columns have different numbers of values ({told}), and none is time_s; {MAP_THEM}"
+            f"{path}: columns have different numbers of values ({told}), and none is time_s; "
+            f"{map_them([c.text for c in raw])}"
         )
     return [c for c in raw if not times or len(c.values) in times]
 
@@ -160,10 +165,11 @@ def _column(c: RawColumn) -> Column:
         return Column(c.text, "time" if is_time else name, unit)
     try:
         return measured_column(c.text)
-    except SymidError:
-        if name == c.text:
-            raise
-        return measured_column(name)
+    except SymidError as error:
+        try:
+            return measured_column(name)
+        except SymidError:
+            raise error from None
 
 
 def _checked(path: Path, columns: list[Column], problems: list[str], raw: list[RawColumn]) -> list[Column]:

@@ -17,13 +17,14 @@ from symid.units import HOW_NAMED, nearest
 
 MOST_NAMED = 12
 """Columns that a message lists."""
+LONG = 40
+"""Characters of a name beyond which it is no example."""
 AXES_BELOW = (
     "this looks like a table of markers with their names in a line above the axes: write both into one line, such as "
     "LASI_x_mm, beside a column time_s; read without a change are C3D, TRC, and CSV as Vicon Nexus exports it"
 )
 _AXIS = re.compile(r"[XYZxyz](?![A-Za-z0-9])")
 _SECTIONS = re.compile(r"\s*[A-Za-z][A-Za-z ]*[,;\t]*\n[\d.]+[,;\t]*\n(.*\n)*?Frame[,;\t]Sub Frame[,;\t]")
-MAP_THEM = f"{HOW_NAMED}; or map the columns: read_recording(columns=...), --columns MAP.toml"
 
 
 def read_header(path: Path) -> list[Column]:
@@ -96,7 +97,7 @@ def _neighbours(path: Path) -> str:
 
 def _parse(cells: list[str], first_row: list[str]) -> tuple[list[Column], list[str], str]:
     """Columns, everything that is wrong with them, and the way out."""
-    columns, problems, without_unit = [], [], False
+    columns, problems, without_unit = [], [], []
     for place, text in enumerate(cells, 1):
         if not text and place == 1 and first_row[0] in ("0", "1"):
             columns.append(Column(text, ROW_NUMBERS, None))
@@ -111,14 +112,21 @@ def _parse(cells: list[str], first_row: list[str]) -> tuple[list[Column], list[s
                 columns.append(measured_column(text))
             except SymidError as error:
                 problems.append(str(error).removesuffix(f"; {HOW_NAMED}"))
-                without_unit = True
+                without_unit.append(text)
     problems += contradictions(columns)
     problems += no_time(cells, columns, refused=bool(problems))
     if not problems and not any(c.unit and c.name != "time" for c in columns):
         problems.append("there is no channel besides time")
     if len([text for text in cells if _AXIS.match(text)]) > len("xyz"):
         return columns, problems, f"; {AXES_BELOW}"
-    return columns, problems, f"; {MAP_THEM}" if without_unit else ""
+    return columns, problems, f"; {map_them(without_unit)}" if without_unit else ""
+
+
+def map_them(without_unit: list[str]) -> str:
+    """What to do about columns that state no unit, with one of them as the example."""
+    name = next((n for n in without_unit if len(n) <= LONG), "Angle")
+    example = f"columns={{'time_s': 'Time', 'angle_deg': '{name}', ...}}"
+    return f"{HOW_NAMED}; or say what they are: read_recording({example}), --columns MAP.toml"
 
 
 def no_time(names: list[str], columns: list[Column], refused: bool) -> list[str]:

@@ -48,7 +48,8 @@ def joint_angles(
     leg = np.arctan2(places[1][0] - places[0][0], places[1][1] - places[0][1])
     trunk = np.arctan2(places[2][0] - places[1][0], places[2][1] - places[1][1])
     relative = np.angle(np.exp(1j * (trunk - leg)))
-    note = f"from markers {ankle}, {hip} and {shoulder}, forward {forward}, up {up}"
+    said = ", ".join(m if isinstance(m, str) else " with ".join(m) for m in (ankle, hip, shoulder))
+    note = f"from markers {said}; forward {forward}, up {up}"
     recording = recording.with_channel("ankle_angle", leg, "rad", sign="forward", note=f"ankle_angle {note}")
     return recording.with_channel("hip_angle", relative, "rad", sign="forward", note=f"hip_angle {note}")
 

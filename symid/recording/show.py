@@ -59,5 +59,5 @@ def _extent(recording: "Recording") -> str:
 def _rows(recording: "Recording") -> Iterator[tuple[str, str, str, str]]:
     for name, values in recording.channels.items():
         some = values[np.isfinite(values)]
-        ends = (f"{some.min():.4g}", f"{some.max():.4g}") if some.size else ("none", "none")
+        ends = (f"{some.min() + 0.0:.4g}", f"{some.max() + 0.0:.4g}") if some.size else ("none", "none")  # 0 for -0
         yield name, recording.units[name], *ends

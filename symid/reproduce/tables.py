@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from textwrap import fill
+
 import numpy as np
 import pandas as pd
 
 from symid.reproduce.run import NETWORK_RIDGE, START_RIDGE, Finding, Reproduction
 
+NOTE_WIDTH = 100
+"""Characters in a line of the notes."""
 NOISE = {
     "multisine": "orthogonal random-phase multisines of the power of the latter, around whose means their gains "
     "scatter far less from draw to draw (`transcription.episodes`)",
@@ -126,5 +130,6 @@ def text(reproduction: Reproduction) -> str:
 def notes(distribution: str = "multisine") -> str:
     """Where the article's text, its files and symid differ, and what was used here with noise of that distribution."""
     noise = "process noise", "Gaussian in the text, uniform within 0.25 N m in the result files", NOISE[distribution]
-    lines = (f"  {what}: {differ}; used here: {used}" for what, differ, used in (noise, *NOTES))
-    return "\n".join(["Where the sources differ", *lines])
+    lines = (f"{what}: {differ}; used here: {used}" for what, differ, used in (noise, *NOTES))
+    wrapped = (fill(line, NOTE_WIDTH, initial_indent="  ", subsequent_indent="    ") for line in lines)
+    return "\n".join(["Where the sources differ", *wrapped])

@@ -107,7 +107,7 @@ def test_every_number_stands_beside_the_articles(shared):
     ],
 )
 def test_what_was_chosen_is_said(distribution, words):
-    said = notes(distribution)
+    said = notes(distribution).replace("\n    ", " ")
     for word in (words, "uniform", "Gaussian", "activation", "initial state", "3.1416", "ridge"):
         assert word in said
 

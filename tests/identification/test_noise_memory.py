@@ -113,7 +113,7 @@ def test_its_words_name_the_memory():
     rng = np.random.default_rng(6)
     errors, influences, _ = fitted([autoregression(rng, 400, 0.9)], [shapes(400)])
     chosen = choose(errors, "auto", 1)
-    assert chosen.name == "coloured" and "autoregression is that keeps 0.9" in chosen.covariance(errors, influences)[2]
+    assert chosen.name == "coloured" and "autoregression that keeps 0.9" in chosen.covariance(errors, influences)[2]
     errors, influences, _ = fitted([autoregression(rng, 25, 0.5, 2)], [shapes(25)])
     assert "a memory that the fit hides is counted" in choose(errors, "auto", 1).why
 

@@ -174,7 +174,8 @@ def test_own_names_are_mapped_from_python_and_from_the_command_line(tmp_path):
 @pytest.mark.parametrize(
     ("mapping", "message"),
     [
-        ({"time_s": "t", "ankle_angle_deg": "Ankel"}, "there is no column 'Ankel'.*Ankle"),
+        ({"time_s": "t", "ankle_angle_deg": "Ankel"}, "there is no column 'Ankel'.*did you mean 'Ankle'"),
+        ({"time_s": "me", "x_m": "kle"}, "no column 'me' for time_s, no 'kle' for x_m.*; the file has t, Ankle$"),
         ({"ankle_angle_deg": "Ankle"}, "there is no time column"),
         ({"time_s": "t", "ankle_angle_m": "Ankle"}, "is in m, but angle is measured in rad"),
         ({"time_s": "t", "ankle": "Ankle"}, "does not end in a known unit"),
@@ -199,7 +200,7 @@ def test_what_is_no_such_file_ends_in_one_sentence(tmp_path, ending, content):
 
 def test_a_table_without_units_says_how_to_map_it(tmp_path):
     pd.DataFrame({"t": TIME, "Ankle": ANKLE}).to_excel(tmp_path / "own.xlsx", index=False)
-    with pytest.raises(RecordingError, match="--columns MAP.toml"):
+    with pytest.raises(RecordingError, match="'angle_deg': 'Ankle'.*--columns MAP.toml"):
         read_recording(tmp_path / "own.xlsx")
 
 

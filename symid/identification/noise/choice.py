@@ -73,7 +73,7 @@ def choose(errors: list[Errors], choice: str, episodes: int) -> ErrorModel:
             return ErrorModel("white", _white(errors, chance, found), None if stated else found)
         why = f"the residual is correlated in time (p {_chance(chance)})"
     if found is not None and whiteness(likeliest(likeliest(found.innovations()))) > REFUTED:
-        return ErrorModel("coloured", f"{why}; {_told(found)}", found)
+        return ErrorModel("coloured", f"{why}, {_told(found)}", found)
     return ErrorModel("coloured", why)
 
 
@@ -89,7 +89,7 @@ def _white(errors: list[Errors], chance: float, found: Memory | None) -> str:
 
 def _told(found: Memory) -> str:
     numbers = ", ".join(f"{c:.2g}" for c in found.mean)
-    return f"as an autoregression is that keeps {numbers} of the noise from one sample to the next"
+    return f"like an autoregression that keeps {numbers} of the noise from one sample to the next"
 
 
 def _chance(p: float) -> str:
