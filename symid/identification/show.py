@@ -189,9 +189,9 @@ def html(solution: Solution) -> str:
         cell = "th" if not rows else "td"
         cells = [
             (name if cell == "th" else f"<code>{escape(name)}</code>", "left"),
-            (value, "right"),
+            (value, "right;white-space:nowrap"),
             (escape(unit), "left"),
-            (f"{bounds}, {at}" if at else bounds, "left"),
+            (f"{bounds}, {at}" if at else bounds, "left;white-space:nowrap"),
             (escape(meaning), f"left;min-width:{MEANING_EM}em" if meaning and cell == "td" else "left"),
         ]
         colour = ";color:#c0392b" if at else ""
