@@ -55,7 +55,12 @@ class Stability:
 
     @property
     def forward_percent(self) -> float:
-        """Share [%] of initial states from which the simulation stays within the limit."""
+        """Share [%] of initial states from which the simulation stays within the limit.
+
+        Raises
+        ------
+        ModelError : no forward simulations were made.
+        """
         if self.rms is None:
             raise ModelError("no forward simulations were made: ask for them with held_out=(start, end)")
         return 100 * float(np.mean(self.rms <= self.limit))

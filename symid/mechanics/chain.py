@@ -38,6 +38,10 @@ class Chain:
     angle_bound, velocity_bound : bounds of the states [rad], [rad/s].
     friction_speed : width of the smoothed jump of any dry friction that is added [rad/s].
 
+    Raises
+    ------
+    ModelError : no links, another number of joints than of links, or a name that occurs twice.
+
     Examples
     --------
     >>> Chain.uniform(3, length=0.5, upright=True).plant().name

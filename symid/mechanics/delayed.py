@@ -22,6 +22,10 @@ class DelayedFullState(Feedback):
     ----------
     lags : times before now at which the states are read [s], not negative, increasing.
 
+    Raises
+    ------
+    ModelError : lags that are negative or not increasing.
+
     Examples
     --------
     >>> len(Chain.uniform(1).with_feedback(DelayedFullState(lags=(0.05, 0.1))).parameters)

@@ -145,7 +145,9 @@ class Feedback(ABC):
 
 @dataclass(frozen=True, kw_only=True)
 class PD(Feedback):
-    """Each joint by its own angle and rate: T = kp (angle - ref) + kd rate.
+    """Each joint by its own angle and rate: T = kp (angle - ref) + kd rate (Wang & van den Bogert 2020).
+
+    Gains kp [N m/rad], kd [N m s/rad] and reference angles ref [rad] are declared as parameters of the model.
 
     Examples
     --------
@@ -167,7 +169,9 @@ class PD(Feedback):
 
 @dataclass(frozen=True, kw_only=True)
 class FullStatePD(Feedback):
-    """Each joint by the angles and rates of all joints: T = K (angles - refs, rates).
+    """Each joint by the angles and rates of all joints: T = K (angles - refs, rates) (Wang & van den Bogert 2020).
+
+    Gains kp_ij [N m/rad], kd_ij [N m s/rad] and reference angles [rad] are declared as parameters of the model.
 
     Examples
     --------

@@ -51,6 +51,10 @@ class NeuralNetwork(Feedback):
     scale : torque [N m] of an output of 1.
     lags : times before now at which the inputs are read [s].
 
+    Raises
+    ------
+    ModelError : an activation that is not known, or less than one hidden node.
+
     Examples
     --------
     >>> len(Chain.uniform(2).with_feedback(NeuralNetwork(hidden=4)).parameters)

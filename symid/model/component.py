@@ -38,7 +38,12 @@ class Component(metaclass=Made):
     index: Iterable[Any] | None = field(default=None, repr=False)
 
     def copies(self) -> dict[Any, Component] | None:
-        """index -> the copy of this part that stands there, without an index; None where it does not repeat itself."""
+        """index -> the copy of this part that stands there, without an index; None where it does not repeat itself.
+
+        Raises
+        ------
+        ModelError : `index` holds no indices.
+        """
         for key in ("expr", "condition"):
             value = getattr(self, key, None)
             if isinstance(value, sm.MatrixBase):
@@ -53,6 +58,12 @@ class Component(metaclass=Made):
 
     @property
     def symbol(self) -> sm.Symbol:
+        """What stands for the part in SymPy.
+
+        Raises
+        ------
+        ModelError : the part is not attached to a model yet.
+        """
         if not self.name:
             raise ModelError(
                 f"this {type(self).__name__} has no name yet: attach it to a model first "

@@ -102,6 +102,11 @@ class Boundary(Component):
         of an Input, which is taken at the same end), a pair (lower, upper), or a prior: `Normal`, `LogNormal`.
     periodic : quantities that end as they began; or quantity -> expression whose initial value
         it has at the end.
+
+    Raises
+    ------
+    ModelError : a condition that is no comparison or expression of the ends, a value of another kind, or ends of an
+        unknown name.
     """
 
     conditions: tuple[Any, ...] = ()
@@ -174,6 +179,10 @@ class Objective(Component):
     ----------
     running : integrated over the motion (Lagrange term).
     terminal : its value at the end (Mayer term); may contain ``.initial`` values and parameters.
+
+    Raises
+    ------
+    ModelError : an argument that it does not take; `Model.check` tells what is wrong with its expressions.
     """
 
     running: sm.Expr = 0

@@ -30,6 +30,10 @@ REQUIRED: Any = None
 class State(AlongTime, Component):
     """A quantity with a time derivative, unknown at every node. Bounds in its unit.
 
+    Raises
+    ------
+    ModelError : an argument that it does not take; `Model.check` tells what is wrong with its values.
+
     Examples
     --------
     >>> m.lean = State(unit="rad", bounds=(-1, 1), meaning="from the vertical")
@@ -52,6 +56,10 @@ class Algebraic(AlongTime, Component):
 
     >>> m.lift = Algebraic(unit="N")
     >>> m.aerodynamics = Equation(m.lift - m.c * m.speed**2)
+
+    Raises
+    ------
+    ModelError : an argument that it does not take; `Model.check` tells what is wrong with its values.
     """
 
     unit: str = REQUIRED
@@ -72,6 +80,10 @@ class Control(AlongTime, Component):
         objective: it makes the control an estimated disturbance that is as smooth as the data allow. The objective is
         the integral of squared errors, or -2 log of the likelihood where the noise is given. Standard errors do not
         count what a smooth control takes up: a State that Process noise drives does the same with a likelihood.
+
+    Raises
+    ------
+    ModelError : an argument that it does not take; `Model.check` tells what is wrong with its values.
     """
 
     unit: str = REQUIRED
@@ -95,6 +107,10 @@ class Process(Control):
         standard deviation size / sqrt(T). The objective gets the integral of (noise / size)^2, that is -2 log of
         its likelihood (Jazwinski 1970, section 5.3). `Identification.solve` estimates it where it is left out; a
         Study and an Optimization need it.
+
+    Raises
+    ------
+    ModelError : an argument that it does not take; `Model.check` tells what is wrong with its values.
     """
 
     hold: str = "zero"
@@ -114,6 +130,10 @@ class Input(AlongTime, Component):
         1978, chapter IV). "smooth" stands for "cubic" wherever nothing can tell; a scheme of second order whose nodes
         are the samples takes the means of neighbours, which is the same to its order. In a diagnosis "smooth" becomes
         "either": straight lines, or cubics where these are likelier.
+
+    Raises
+    ------
+    ModelError : an argument that it does not take; `Model.check` tells what is wrong with its values.
 
     Examples
     --------
@@ -135,6 +155,10 @@ class Parameter(Quantity, Component):
     guess : used as a start if given.
     prior : what is known before the data: `Normal` or `LogNormal`.
 
+    Raises
+    ------
+    ModelError : an argument that it does not take; `Model.check` tells what is wrong with its values.
+
     Examples
     --------
     >>> m.damping = Parameter(unit="N*s/m", bounds=(0, 10), meaning="of the bearing")
@@ -150,6 +174,10 @@ class Parameter(Quantity, Component):
 class Constant(Quantity, Component):
     """A known number, in its unit. Changing the value never needs new code.
 
+    Raises
+    ------
+    ModelError : an argument that it does not take, or no value; `Model.check` tells what is wrong with it.
+
     Examples
     --------
     >>> m.mass = Constant(2.0, unit="kg")
@@ -163,6 +191,10 @@ class Constant(Quantity, Component):
 class Noise(Quantity, Component):
     """Process noise: drawn for an episode, then known. Zero in a deterministic problem.
 
+    Raises
+    ------
+    ModelError : an argument that it does not take; `Model.check` tells what is wrong with its unit.
+
     Examples
     --------
     >>> m.jitter = Noise(unit="N")          # its size is given by Episodes
@@ -174,6 +206,11 @@ class Noise(Quantity, Component):
 @dataclass(frozen=True)
 class Expression(Quantity, Component):
     """A named intermediate quantity, such as a joint torque, that a Term can redefine.
+
+    Raises
+    ------
+    ModelError : an argument that it does not take, or no expression, when it is attached;
+        `Model.check` tells what is wrong with it.
 
     Examples
     --------
@@ -189,6 +226,11 @@ class Expression(Quantity, Component):
 class Equation(Component):
     """A residual that must be zero at all times.
 
+    Raises
+    ------
+    ModelError : an argument that it does not take, or no expression, when it is attached; `Model.check` says
+        whose terms differ in unit.
+
     Examples
     --------
     >>> m.motion = Equation(m.x.dot - m.speed)
@@ -202,6 +244,11 @@ class Output(Quantity, Component):
     """What a sensor shows, to be compared with the recorded `channel`.
 
     The channel and the unit default to those of the state when `expr` is one state.
+
+    Raises
+    ------
+    ModelError : an argument that it does not take, or no expression, when it is attached;
+        `Model.check` tells what is wrong with it.
 
     Examples
     --------
@@ -223,6 +270,10 @@ class Port(Component):
     into : equation name -> coefficient with which a force along +rate enters that residual.
     unit : unit of the force (``"N*m"`` at a joint); where it is left out, that of the first
         equation that the force enters, for which this must have been declared before.
+
+    Raises
+    ------
+    ModelError : `into` is no mapping of equations to coefficients, or an argument that it does not take.
 
     Examples
     --------

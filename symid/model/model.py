@@ -48,6 +48,10 @@ class Model(Kinds, Derived):
     groups : of parts that repeat themselves: name -> index -> name of the copy.
     delays : delayed signals by the symbol that stands for them.
     terms : the missing-physics terms that were added, in order.
+
+    Raises
+    ------
+    ModelError : attached is what is no part, or by a name that is taken or that Python does not read as a name.
     """
 
     name: str

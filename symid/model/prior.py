@@ -20,6 +20,10 @@ class Normal:
     """Gaussian with this mean and standard deviation, in the unit of what it is about.
 
     >>> m.mass = Parameter(unit="kg", bounds=(0, 5), prior=Normal(2.0, 0.1))
+
+    Raises
+    ------
+    ModelError : no finite mean, or a deviation that is not positive.
     """
 
     mean: float
@@ -44,6 +48,10 @@ class Normal:
 @dataclass(frozen=True)
 class LogNormal:
     """Positive, with this median; two thirds lie within a `factor` of it: LogNormal(2, 1.5) is 1.33 to 3.
+
+    Raises
+    ------
+    ModelError : a median that is not positive, or a factor that is not above 1.
 
     Examples
     --------

@@ -17,6 +17,10 @@ class Free:
     """A duration [s] to be found between `lower` and `upper`; a solve begins at `guess`, their middle by default.
 
     >>> problem = si.Optimization(model, duration=si.Free(1, 20), nodes=100)
+
+    Raises
+    ------
+    TranscriptionError : bounds that are not positive or not in order, or a guess outside them.
     """
 
     lower: float

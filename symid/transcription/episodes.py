@@ -42,6 +42,10 @@ class Episodes:
     shared_initial_state : whether all episodes start in the same free state (as in the
         authors' files) or each in its own.
 
+    Raises
+    ------
+    TranscriptionError : no whole count from 1 on, a negative amplitude, or a distribution that is not known.
+
     Examples
     --------
     >>> si.Identification(model, recording, episodes=Episodes(3, push=0.2, seed=1)).episodes.count

@@ -47,7 +47,7 @@ def Midpoint() -> Scheme:
 
 
 def BackwardEuler() -> Scheme:
-    """Implicit Euler; strongly damping, for stiff or non-smooth models.
+    """Implicit Euler; strongly damping, for stiff or non-smooth models (Ascher & Petzold 1998, section 3.4).
 
     Examples
     --------
@@ -58,7 +58,8 @@ def BackwardEuler() -> Scheme:
 
 
 def Trapezoid() -> Scheme:
-    """Implicit trapezoidal rule in residual form: the mean of the residuals at both ends.
+    """Implicit trapezoidal rule in residual form: the mean of the residuals at both ends (Ascher & Petzold 1998,
+    section 3.6).
 
     Examples
     --------

@@ -62,6 +62,17 @@ def test_whatever_is_given_and_raised_is_typed_and_told(name):
             assert "Raises" in words or not re.search(r"\braise \w+\(", inspect.getsource(function)), f"{name}.{method}"
 
 
+@pytest.mark.parametrize("name", [n for n in PUBLIC if n not in DATA and inspect.isclass(PUBLIC[n])])
+def test_what_a_constructor_or_a_property_raises_is_told(name):
+    thing, raises = PUBLIC[name], r"\braise \w+\(|\bchecked\.(?!shown)"
+    for k, v in vars(thing).items():
+        function = getattr(v, "fget", v)
+        if k in ("__init__", "__post_init__") or isinstance(v, property):
+            written = "symid" in function.__code__.co_filename  # not by dataclass
+            told = f"{thing.__doc__} {v.__doc__ if isinstance(v, property) else ''}"
+            assert not (written and re.search(raises, inspect.getsource(function))) or "Error" in told, f"{name}.{k}"
+
+
 @pytest.fixture(scope="module")
 def prepared():
     """What the examples take for granted: a model, a recording, and `m`, which has a few parts already."""
