@@ -7,7 +7,7 @@ from pathlib import Path
 from symid.discrepancy import Diagnosis
 from symid.discrepancy.locate.latent import latent_torques
 from symid.discrepancy.policy import POLICY
-from symid.discrepancy.say.names import place_name
+from symid.discrepancy.say.names import law_name, place_name
 from symid.discrepancy.say.rest import rest_words
 from symid.errors import RecordingError
 from symid.files import write_atomically
@@ -107,7 +107,9 @@ def effects_table(d: Diagnosis) -> str:
     rows = []
     for e in d.named:
         values = "; ".join(f"{_said(k)} {quantity(v, s, d.unit_of(e, k))}" for k, (v, s) in e.parameters.items())
-        rows.append([_plain(e.name), place_name(e.location), kept.get((e.name, e.location), ""), values or e.sentence])
+        rows.append(
+            [law_name(e.name), place_name(e.location), kept.get((e.name, e.location), ""), values or e.sentence]
+        )
         if timed:
             rows[-1].append("always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s")
     return table(["effect", "place", "on both halves", "parameters", *["when"] * timed], rows)
@@ -128,7 +130,7 @@ def _plain(name: str) -> str:
 def _equivalents(d: Diagnosis) -> str:
     rows = [
         [
-            _plain(c.suspect.term.name),
+            law_name(c.suspect.term.name),
             place_name(c.suspect.term.location),
             f"{c.score:,.0f}",
             experiment(c.suspect.term.name),
@@ -238,7 +240,7 @@ def _suspects(d: Diagnosis) -> list[str]:
         parts.append(figure(plot_scores(d), caption))
     rows = [
         [
-            _plain(c.suspect.term.name),
+            law_name(c.suspect.term.name),
             place_name(c.suspect.term.location),
             typeset(f"{c.score:,.1f}"),
             typeset(f"{c.log_ratio:,.1f}"),
@@ -259,7 +261,9 @@ def _suspects(d: Diagnosis) -> list[str]:
 def _remainder(d: Diagnosis) -> list[str]:
     if not d.remainder:
         return [paragraph("Not tested.")]
-    rows = [[place_name(t.place), t.what, float(t.log_ratio), t.size, _odds(t.minus_log10_p)] for t in d.remainder[:5]]
+    rows = [
+        [place_name(t.place), t.what, f"{t.log_ratio:.1f}", t.size, _odds(t.minus_log10_p)] for t in d.remainder[:5]
+    ]
     systematic = max(t.minus_log10_p for t in d.remainder) > POLICY.remainder
     heads = ["place", "test for", "statistic", "degrees of freedom", "by chance 1 in"]
     return [
@@ -283,7 +287,7 @@ def _odds(minus_log10_p: float) -> str:
 def _parameters(d: Diagnosis) -> str:
     rows = []
     own = {
-        parameter_name(e.name, e.location, k): f"{_plain(e.name)}, {place_name(e.location)}: {_said(k)}"
+        parameter_name(e.name, e.location, k): f"{law_name(e.name)}, {place_name(e.location)}: {_said(k)}"
         for e in d.named
         for k in e.parameters
     }

@@ -200,13 +200,8 @@ def _errors_note(solution: Solution) -> str:
         return paragraph(
             "Not solved, so there are no standard errors, and the values are where the solver stopped.", "bad"
         )
-    return paragraph(
-        " ".join(
-            f"{note[0].upper()}{note[1:]}."
-            for note in (*error_notes(solution), "A parameter at a bound has no standard error")
-        ),
-        "note",
-    )
+    at_bound = ["A parameter at a bound has no standard error"] if any(solution.parameters["at_bound"]) else []
+    return paragraph(" ".join(f"{note[0].upper()}{note[1:]}." for note in (*error_notes(solution), *at_bound)), "note")
 
 
 def _fit(solution: Solution, held_out: Solution | None) -> str:
@@ -218,7 +213,8 @@ def _fit(solution: Solution, held_out: Solution | None) -> str:
     for name in [n for n in solution.fit["rms"] if n != "all" or len(outputs) > 1]:
         row = [outputs[name].channel.replace("_", " ") if name in outputs else "all"]
         for fit in fits.values():
-            shares = [number(round(fit[k][name], 4)) if name in fit[k] else "" for k in ("vaf_percent", "r_squared")]
+            measures = {"vaf_percent": ".1f", "r_squared": ".3f"}
+            shares = [format(fit[k][name], form) if name in fit[k] else "" for k, form in measures.items()]
             row += [rms_text(fit["rms"][name], units[name]), *shares]
         rows.append(row)
     heads = [f"{kind}: {measure}" for kind in fits for measure in ("RMS error", "VAF [%]", "R²")]

@@ -85,7 +85,7 @@ def test_a_parameter_at_a_bound_is_marked_everywhere(at_bound):
     (axes,) = plots.plot_parameters(at_bound).axes
     assert "at its bound" in axes.texts[0].get_text()
     assert '<tr class="mark">' in report_html(at_bound)
-    assert "at bound" in at_bound._repr_html_()
+    assert "at its bound" in at_bound._repr_html_()
 
 
 def test_an_interval_far_larger_than_the_values_does_not_hide_them():
