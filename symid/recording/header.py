@@ -124,8 +124,9 @@ def _parse(cells: list[str], first_row: list[str]) -> tuple[list[Column], list[s
 
 def map_them(without_unit: list[str]) -> str:
     """What to do about columns that state no unit, with one of them as the example."""
-    name = next((n for n in without_unit if len(n) <= LONG), "Angle")
-    example = f"columns={{'time_s': 'Time', 'angle_deg': '{name}', ...}}"
+    time = next((n for n in without_unit if n.lower() in ("t", "time")), "Time")
+    name = next((n for n in without_unit if n != time and len(n) <= LONG), "Angle")
+    example = f"columns={{'time_s': '{time}', 'angle_deg': '{name}', ...}}"
     return f"{HOW_NAMED}; or say what they are: read_recording({example}), --columns MAP.toml"
 
 

@@ -200,7 +200,7 @@ def test_what_is_no_such_file_ends_in_one_sentence(tmp_path, ending, content):
 
 def test_a_table_without_units_says_how_to_map_it(tmp_path):
     pd.DataFrame({"t": TIME, "Ankle": ANKLE}).to_excel(tmp_path / "own.xlsx", index=False)
-    with pytest.raises(RecordingError, match="'angle_deg': 'Ankle'.*--columns MAP.toml"):
+    with pytest.raises(RecordingError, match="'time_s': 't', 'angle_deg': 'Ankle'.*--columns MAP.toml"):
         read_recording(tmp_path / "own.xlsx")
 
 
