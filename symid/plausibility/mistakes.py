@@ -75,6 +75,13 @@ CURRENTS = (
     (1e3, "is a thousand times too small (mA or mV labelled wrongly)"),
     (1e-3, "is a thousand times too large (mA or mV labelled as A or V)"),
 )
+POWER = ((1e3, "holds kilowatts but is labelled as watts"), (1e-3, "holds watts but is labelled as kilowatts"))
+PRESSURES = (
+    (1e3, "holds kilopascals but is labelled as pascals"),
+    (1e-3, "holds pascals but is labelled as kilopascals"),
+    (1e5, "holds bars but is labelled as pascals"),
+    (1e-5, "holds pascals but is labelled as bars"),
+)
 CONFUSED = {
     "rad": ANGLES,
     "rad/s": (*ANGLES, *SPEEDS),
@@ -86,6 +93,8 @@ CONFUSED = {
     "N*m": FORCES,
     "A": CURRENTS,
     "V": CURRENTS,
+    "W": POWER,
+    "Pa": PRESSURES,
 }
 POWERS = {
     "mass": (0.1, 10.0, 1e-3, 1e3),
@@ -219,7 +228,7 @@ def _of_channels(channels: tuple[str, ...], unit: str) -> Iterator[Change]:
 
 
 def body_changes(model: Model) -> Iterator[Change]:
-    """Powers of ten of masses, inertias and lengths, each alone and all of a kind."""
+    """Powers of ten of masses, inertias and lengths, each alone, all of a kind, and of masses with their inertias."""
     roles = {c.name: c.role or OF_UNIT.get(c.unit, "") for c in model.constants.values()}
     parts = [c for c in model.constants.values() if roles[c.name] in POWERS]
     for c in parts:
@@ -229,6 +238,12 @@ def body_changes(model: Model) -> Iterator[Change]:
         group = [c.name for c in parts if roles[c.name] == role]
         for factor in POWERS[role] if len(group) > 1 else ():
             yield Change(f"all {kind} are {_times(1 / factor)}", dict.fromkeys(group, factor))
+    masses, inertias = ([c for c in parts if roles[c.name] == role] for role in ("mass", "inertia"))
+    bodies = {f"{a.name} and {b.name}": (a, b) for a in masses for b in inertias if a.at == b.at}
+    bodies |= {"all masses and inertias": (*masses, *inertias)} if bodies and len(parts) > 2 else {}
+    for said, group in bodies.items():
+        for factor in POWERS["mass"]:
+            yield Change(f"{said} are {_times(1 / factor)}", {c.name: factor for c in group})
 
 
 def _times(factor: float) -> str:

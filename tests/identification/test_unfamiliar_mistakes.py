@@ -42,6 +42,57 @@ def test_a_constant_in_kilograms_is_a_mass_whether_its_model_says_so_or_not():
     assert any("mass is 10 times too large" in text for text in remarks(heavy, drawn.recordings[0]))
 
 
+def geared_arm() -> System:
+    """A motor turns an arm with a weight through a gear and a shaft; both angles are measured."""
+    rng = np.random.default_rng(31)
+    m = declared(
+        "geared arm",
+        {"motor": "rad", "load": "rad", "vm": "rad/s", "vl": "rad/s"},
+        {"k": ("N*m/rad", (1, 1000)), "d": ("N*m*s/rad", (0, 10)), "b": ("N*m*s/rad", (0, 0.1))},
+    )
+    m.torque = si.Input(unit="N*m", hold="zero")
+    m.jm, m.jl = si.Constant(2e-5, unit="kg*m^2"), si.Constant(0.01, unit="kg*m^2")
+    m.mass, m.com = si.Constant(0.8, unit="kg"), si.Constant(0.1, unit="m")
+    shaft = m.k * (m.motor / 20 - m.load) + m.d * (m.vm / 20 - m.vl)
+    m.one, m.two = si.Equation(m.motor.dot - m.vm), si.Equation(m.load.dot - m.vl)
+    m.three = si.Equation(m.jm * m.vm.dot + shaft / 20 + m.b * m.vm - m.torque)
+    m.four = si.Equation(m.jl * m.vl.dot - shaft + 9.81 * m.mass * m.com * sm.sin(m.load))
+    m.y, m.z = si.Output(m.motor), si.Output(m.load)
+    t = np.arange(0, 8, 0.005)
+    torque = np.repeat(smooth(rng, t[::4], 2.0, 0.04), 4)
+    return system(m, {"k": 25.0, "d": 0.05, "b": 1e-4}, [([0.0] * 4, t, {"torque": torque})], 0.01, rng)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({}, ""),
+        ({"mass": 8.0, "jl": 0.1}, "mass and jl are 10 times too large"),
+        ({"mass": 8.0, "jl": 0.1, "jm": 2e-4}, "all masses and inertias are 10 times too large"),
+        ({"mass": 0.08, "jl": 1e-3, "jm": 2e-6}, "all masses and inertias are 10 times too small"),
+    ],
+)
+def test_masses_that_are_wrong_together_with_their_inertias_are_named(wrong, said):
+    drawn = geared_arm()
+    found = remarks(drawn.model.with_constants(**wrong), drawn.recordings[0])
+    assert all(said in text for text in found) and len(found) == bool(said)
+
+
+def test_a_power_in_kilowatts_that_is_labelled_as_watts_is_named():
+    rng, t = np.random.default_rng(37), np.arange(0, 10800, 10.0)
+    m = declared("heated block", {"core": "K", "shell": "K"}, {"h": ("W/K", (0, 1000)), "o": ("W/K", (0, 1000))})
+    m.power = si.Input(unit="W", hold="zero")
+    m.one = si.Equation(1800 * m.core.dot - m.power + m.h * (m.core - m.shell))
+    m.two = si.Equation(500 * m.shell.dot - m.h * (m.core - m.shell) + m.o * (m.shell - 293))
+    m.y, m.z = si.Output(m.core), si.Output(m.shell)
+    power = 100.0 * (np.sin(t / 300) > 0)
+    drawn = system(m, {"h": 8.0, "o": 3.0}, [([295.0, 294.0], t, {"power": power})], 0.01, rng)
+    recording = drawn.recordings[0]
+    assert remarks(m, recording) == []
+    wrong = replace(recording, channels=dict(recording.channels) | {"power": power / 1e3})
+    assert any("power holds kilowatts" in text for text in remarks(m, wrong))
+
+
 def pendulum(offset: float, seed: int) -> System:
     """A driven pendulum, whose sensor shows a little more."""
     rng = np.random.default_rng([seed, 29])
