@@ -22,8 +22,6 @@ def export(what: Solution | Model, path: str | Path) -> None:
     ``.c``: self-contained C99 with the functions rates, outputs and step. ``.py``: a module with the same functions,
     which needs NumPy alone. ``.tex``: equations and a table of the values, in the letters of `model.show`.
 
-    >>> si.export(problem.solve(), "loop.c")  # doctest: +SKIP
-
     Parameters
     ----------
     what : a solved Solution, whose parameters become constants; or a Model (as C or Python without free parameters).
@@ -34,6 +32,10 @@ def export(what: Solution | Model, path: str | Path) -> None:
         `what` is neither, was not solved, has parameters of single recordings, or the suffix is another.
     CodegenError
         The model has delays, algebraic variables or free parameters, which such a function cannot hold.
+
+    Examples
+    --------
+    >>> si.export(problem.solve(), "loop.c")  # doctest: +SKIP
     """
     path = checked.path(path, "export", ModelError)
     if path.suffix not in TEXTS:

@@ -54,18 +54,20 @@ def c_function(name: str, source: str, arguments: int = 1) -> type[CFunction]:
     and by two arguments ``NAME_00``, ``NAME_01``, ``NAME_11``, the lower place first. All numbers are SI, and the
     value is one without unit: multiply by a Constant of one unit. <math.h> is included.
 
+    Raises
+    ------
+    ModelError
+        The name is none in C, or the source lacks the function or a derivative. What the compiler refuses is told when
+        the problem is built.
+
+    Examples
+    --------
     >>> drag = si.c_function("drag", '''
     ... double drag(double v)    { return v * fabs(v); }
     ... double drag_0(double v)  { return 2 * fabs(v); }
     ... double drag_00(double v) { return v < 0 ? -2 : 2; }
     ... ''')
     >>> m.motion = si.Equation(m.speed.dot + m.c * drag(m.speed))
-
-    Raises
-    ------
-    ModelError
-        The name is none in C, or the source lacks the function or a derivative. What the compiler refuses is told when
-        the problem is built.
     """
     checked.kind(name, str, "the name of a C function", ModelError)
     checked.kind(source, str, f"the source of the C function '{name}'", ModelError)

@@ -38,10 +38,6 @@ class Row:
 class Constraint(Component):
     """A condition at every node of the motion; one on parameters alone holds once.
 
-    >>> m.track = Constraint(abs(m.x) <= 1)
-    >>> m.corridor = Constraint(m.x + m.y, lower=0, upper=2)
-    >>> m.share = Constraint(m.p1 + m.p2 <= 1)
-
     Parameters
     ----------
     condition : a comparison (``<=``, ``>=``, ``sympy.Eq``), or an expression that lies between
@@ -53,6 +49,12 @@ class Constraint(Component):
     ------
     ModelError
         `condition` is no expression, or is always true or false.
+
+    Examples
+    --------
+    >>> m.track = Constraint(abs(m.x) <= 1)
+    >>> m.corridor = Constraint(m.x + m.y, lower=0, upper=2)
+    >>> m.share = Constraint(m.p1 + m.p2 <= 1)
     """
 
     condition: object
@@ -90,11 +92,6 @@ COMMON: dict[str, Any] = {"meaning": "", "role": "", "at": "", "latex": "", "nam
 class Boundary(Component):
     """Conditions at the ends of the motion.
 
-    >>> m.begin = Boundary(initial={m.x: 0, m.angle: sympy.pi})
-    >>> m.end = Boundary(terminal={m.x: (1, 2)})                   # between 1 and 2
-    >>> m.gait = Boundary(periodic={m.left: m.right, m.right: m.left})
-    >>> m.whole = Boundary(m.x.terminal - m.x.initial >= 5)
-
     Parameters
     ----------
     *conditions : comparisons or expressions (that are zero) of ``.initial`` and ``.terminal`` values.
@@ -107,6 +104,13 @@ class Boundary(Component):
     ------
     ModelError : a condition that is no comparison or expression of the ends, a value of another kind, or ends of an
         unknown name.
+
+    Examples
+    --------
+    >>> m.begin = Boundary(initial={m.x: 0, m.angle: sympy.pi})
+    >>> m.end = Boundary(terminal={m.x: (1, 2)})                   # between 1 and 2
+    >>> m.gait = Boundary(periodic={m.left: m.right, m.right: m.left})
+    >>> m.whole = Boundary(m.x.terminal - m.x.initial >= 5)
     """
 
     conditions: tuple[Any, ...] = ()
@@ -172,9 +176,6 @@ class Boundary(Component):
 class Objective(Component):
     """What an Optimization makes small; an Identification adds it to the squared output error.
 
-    >>> m.cost = Objective(running=m.force**2)
-    >>> m.quick = Objective(terminal=m.clock.terminal)
-
     Parameters
     ----------
     running : integrated over the motion (Lagrange term).
@@ -183,6 +184,11 @@ class Objective(Component):
     Raises
     ------
     ModelError : an argument that it does not take; `Model.check` tells what is wrong with its expressions.
+
+    Examples
+    --------
+    >>> m.cost = Objective(running=m.force**2)
+    >>> m.quick = Objective(terminal=m.clock.terminal)
     """
 
     running: sm.Expr = 0

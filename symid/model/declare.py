@@ -54,12 +54,14 @@ class State(AlongTime, Component):
 class Algebraic(AlongTime, Component):
     """A quantity without a time derivative, determined at every instant by an equation (index-1 DAE).
 
-    >>> m.lift = Algebraic(unit="N")
-    >>> m.aerodynamics = Equation(m.lift - m.c * m.speed**2)
-
     Raises
     ------
     ModelError : an argument that it does not take; `Model.check` tells what is wrong with its values.
+
+    Examples
+    --------
+    >>> m.lift = Algebraic(unit="N")
+    >>> m.aerodynamics = Equation(m.lift - m.c * m.speed**2)
     """
 
     unit: str = REQUIRED
@@ -69,8 +71,6 @@ class Algebraic(AlongTime, Component):
 @dataclass(frozen=True, kw_only=True)
 class Control(AlongTime, Component):
     """An unknown input, to be chosen by an Optimization or estimated by an Identification.
-
-    >>> m.force = Control(unit="N", bounds=(-20, 20))
 
     Parameters
     ----------
@@ -84,6 +84,10 @@ class Control(AlongTime, Component):
     Raises
     ------
     ModelError : an argument that it does not take; `Model.check` tells what is wrong with its values.
+
+    Examples
+    --------
+    >>> m.force = Control(unit="N", bounds=(-20, 20))
     """
 
     unit: str = REQUIRED
@@ -95,8 +99,6 @@ class Control(AlongTime, Component):
 @dataclass(frozen=True, kw_only=True)
 class Process(Control):
     """Process noise that is estimated along with the motion: white, constant from node to node.
-
-    >>> m.gust = Process(unit="N", size=0.3)            # or Process(unit="N"), whose size is estimated, too
 
     The parameters are those of the likelihood of the recordings alone, over all motions (`identification.marginal`), to
     first order where the system is not linear, and the motion is the likeliest beside them.
@@ -111,6 +113,10 @@ class Process(Control):
     Raises
     ------
     ModelError : an argument that it does not take; `Model.check` tells what is wrong with its values.
+
+    Examples
+    --------
+    >>> m.gust = Process(unit="N", size=0.3)            # or Process(unit="N"), whose size is estimated, too
     """
 
     hold: str = "zero"

@@ -36,11 +36,6 @@ MOST_TOLD = 20
 class Model(Kinds, Derived):
     """A system of implicit differential equations, declared part by part.
 
-    >>> m = Model("falling mass")
-    >>> m.height = State(unit="m")
-    >>> m.speed = State(unit="m/s")
-    >>> m.kinematics = Equation(m.height.dot - m.speed)
-
     Attributes
     ----------
     name, description : text.
@@ -52,6 +47,13 @@ class Model(Kinds, Derived):
     Raises
     ------
     ModelError : attached is what is no part, or by a name that is taken or that Python does not read as a name.
+
+    Examples
+    --------
+    >>> m = Model("falling mass")
+    >>> m.height = State(unit="m")
+    >>> m.speed = State(unit="m/s")
+    >>> m.kinematics = Equation(m.height.dot - m.speed)
     """
 
     name: str

@@ -19,11 +19,13 @@ from symid.errors import ModelError
 class Normal:
     """Gaussian with this mean and standard deviation, in the unit of what it is about.
 
-    >>> m.mass = Parameter(unit="kg", bounds=(0, 5), prior=Normal(2.0, 0.1))
-
     Raises
     ------
     ModelError : no finite mean, or a deviation that is not positive.
+
+    Examples
+    --------
+    >>> m.mass = Parameter(unit="kg", bounds=(0, 5), prior=Normal(2.0, 0.1))
     """
 
     mean: float

@@ -26,9 +26,6 @@ def table(of: Any, places: Sequence[float], values: Sequence[float]) -> sm.Expr:
     Value, slope and curvature are continuous (de Boor 2001, ch. IV), so that a solver has exact first and second
     derivatives everywhere.
 
-    >>> m.lift = si.Constant(2.0, unit="N")
-    >>> m.curve = si.Expression(m.lift * si.table(m.angle, [-1, 0, 1, 2], [0.0, 0.1, 0.8, 0.9]), unit="N")
-
     Parameters
     ----------
     of : a part or an expression, in the unit of `places`.
@@ -38,6 +35,11 @@ def table(of: Any, places: Sequence[float], values: Sequence[float]) -> sm.Expr:
     ------
     ModelError
         The table is no two rows of finite numbers of one length, or its places do not increase.
+
+    Examples
+    --------
+    >>> m.lift = si.Constant(2.0, unit="N")
+    >>> m.curve = si.Expression(m.lift * si.table(m.angle, [-1, 0, 1, 2], [0.0, 0.1, 0.8, 0.9]), unit="N")
     """
     try:
         x, y = (np.array(row, dtype=float) for row in (places, values))

@@ -16,11 +16,13 @@ NAME = "duration"
 class Free:
     """A duration [s] to be found between `lower` and `upper`; a solve begins at `guess`, their middle by default.
 
-    >>> problem = si.Optimization(model, duration=si.Free(1, 20), nodes=100)
-
     Raises
     ------
     TranscriptionError : bounds that are not positive or not in order, or a guess outside them.
+
+    Examples
+    --------
+    >>> problem = si.Optimization(model, duration=si.Free(1, 20), nodes=100)
     """
 
     lower: float

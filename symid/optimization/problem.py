@@ -31,8 +31,6 @@ TOLERANCE = 1e-8
 class Optimization:
     """Find the motion, the controls and the free parameters that make a model's objectives least.
 
-    >>> plan = si.Optimization(model, duration=10, nodes=101).solve()
-
     Parameters
     ----------
     model : a complete Model; what it must satisfy and make small are its Constraint, Boundary and Objective parts.
@@ -47,6 +45,10 @@ class Optimization:
     ------
     ModelError, TranscriptionError
         When the program is first needed, if the model is incomplete or has an Input, which needs a recording.
+
+    Examples
+    --------
+    >>> plan = si.Optimization(model, duration=10, nodes=101).solve()
     """
 
     model: Model

@@ -34,6 +34,7 @@ def methods(kind: type) -> dict[str, str | None]:
 def test_a_public_name_has_a_docstring_with_an_example(name):
     thing = PUBLIC[name]
     assert thing.__doc__ and ">>>" in thing.__doc__ or "::" in thing.__doc__, name
+    assert ">>>" not in thing.__doc__.partition("Examples\n")[0], f"{name}: pages set examples as code below Examples"
     if inspect.isclass(thing):
         silent = [n for n, text in methods(thing).items() if not text]
         assert not silent, f"{name} has methods that say nothing: {silent}"
