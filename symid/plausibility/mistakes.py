@@ -134,7 +134,7 @@ def model_remarks(model: Model, recording: Recording, window: tuple[float, float
         told = foretold(motion)
         looks = [(m, law_open) for m, law_open in ((told, False), (motion, False), (told, True)) if m is not None]
         for one, law_open in looks:
-            remark = _judged(model, one, law_open)
+            remark = _judged(model, one, law_open, witness)
             if remark is not None:
                 return [f"{recording.name}: {remark}"] if remark else []
     except (SymidError, np.linalg.LinAlgError, ValueError):
@@ -150,14 +150,21 @@ def _slowed(witness: Witness) -> bool:
     return bool(as_read.size > 1 and (as_given < TINY).all() and (as_read > USUAL).all() and (as_read <= 1.0).all())
 
 
-def _judged(model: Model, motion: Motion, law_open: bool) -> str | None:
-    """The sentence, "" where all is well, None where this motion does not show it."""
+def _judged(model: Model, motion: Motion, law_open: bool, whole: Witness) -> str | None:
+    """The sentence, "" where all is well, None where this motion does not show it.
+
+    whole : asked about the whole motion.
+    """
     witness = Witness(model, motion, law_open)
     given = witness.unexplained()
     if given <= EXPLAINED:
         return ""
     most = given <= MOSTLY and bool(model.parameters)  # without unknowns nothing can make up for a mistake
-    as_given, changes, promising = witness.generalised(), list(channel_changes(model)), _first_look(witness, law_open)
+    as_given, changes, promising = (
+        witness.generalised(),
+        list(channel_changes(model)),
+        _first_look(witness, law_open, whole),
+    )
     shares = {c.said: witness.generalised(c) for c in changes if (c.is_of_sign or not most) and promising(c)}
     remark = _sentence(as_given, shares, SIGN_BETTER if most else BETTER)
     if remark is None and most:
@@ -171,15 +178,16 @@ def _judged(model: Model, motion: Motion, law_open: bool) -> str | None:
     return remark or ("" if given < CLEAR else None)
 
 
-def _first_look(witness: Witness, law_open: bool) -> Callable[[Change], bool]:
-    """Whether `FEW` samples leave no more unexplained with a change than without; all are promising where the motion
-    has hardly more."""
-    part = thirds_of(witness.motion, FEW)
-    if part is witness.motion:
-        return lambda change: True
-    few = Witness(witness.model, part, law_open)
-    as_given = few.generalised()
-    return lambda change: few.generalised(change) <= as_given
+def _first_look(witness: Witness, law_open: bool, whole: Witness) -> Callable[[Change], bool]:
+    """Whether `FEW` samples leave no more unexplained with a change than without (all do where the motion has hardly
+    more), nor the whole motion: the part that inputs foretell linearly is no motion of a strongly nonlinear model."""
+    part, judges = thirds_of(witness.motion, FEW), []
+    if part is not witness.motion:
+        judges.append((Witness(witness.model, part, law_open), 1.0))
+    if not law_open and witness.motion is not whole.motion:
+        judges.append((whole, AS_GOOD))
+    limits = [(judge, most * judge.generalised()) for judge, most in judges]
+    return lambda change: all(judge.generalised(change) <= most for judge, most in limits)
 
 
 def _sentence(given: float, shares: dict[str, float], better: float) -> str | None:
