@@ -9,6 +9,7 @@ from conftest import pendulum, pendulum_recording
 from symid.errors import TranscriptionError
 from symid.identification import Identification
 from symid.identification.starts import stable
+from symid.identification.starts.shooting import LARGEST
 from symid.identification.starts.stable import DisplacedRuns, displaced, stable_start, survives
 from symid.nlp import check_derivatives, with_ridge
 from symid.transcription import Episodes
@@ -44,6 +45,18 @@ def test_slopes_of_the_displaced_runs_are_those_of_their_errors(problem, damping
         h = 1e-6 * np.eye(len(z))[i]
         slope = (loop.residual(z + h) - loop.residual(z - h)) / 2e-6
         assert np.allclose(jacobian[:, i], slope, atol=1e-6 * np.abs(jacobian).max())
+
+
+def test_slopes_that_explode_stay_numbers_that_least_squares_can_compute_with(problem, monkeypatch):
+    loop = DisplacedRuns(problem.transcription, price=0.3, runs=2)
+    simulate = loop.simulator.simulate
+
+    def exploding(*arguments, **options):
+        run = simulate(*arguments, **options)
+        return run if run.dy is None else replace(run, dy=run.dy * 1e200)
+
+    monkeypatch.setattr(loop.simulator, "simulate", exploding)
+    assert np.abs(loop.jacobian(loop.unknowns(np.array([0.4])))).max() == LARGEST
 
 
 def test_price_weighs_the_displaced_runs_against_the_episodes(problem):

@@ -99,9 +99,9 @@ class Loop:
         blocks = []
         for e, d in enumerate(self.t.program.data):
             scale = np.sqrt(d.step) * self.weights[self.t.recording_of[e]]
-            slopes = computable(self.run(z, e, slopes=True).dy * scale[:, None])
+            slopes = self.run(z, e, slopes=True).dy * scale[:, None]
             block = np.zeros((slopes.shape[0] * slopes.shape[1], len(z)))
-            block[:, self._own(e)] = slopes.reshape(len(block), -1) * self.scale[self._own(e)]
+            block[:, self._own(e)] = computable(slopes.reshape(len(block), -1) * self.scale[self._own(e)])
             blocks.append(block)
         return np.concatenate([*blocks, self.ridge * np.eye(self.q, len(z))])
 

@@ -11,9 +11,9 @@ from symid.transcription import Measured, Transcription
 from symid.transcription.scales import RANGE
 
 MAX_EVALUATIONS = 15
-DIVERGED, SQUARABLE = 1e3, 1e100
+DIVERGED, LARGEST = 1e3, 1e45
 """The weighted error of a simulation that has diverged; and the largest number that least squares are given, of which
-sums of squares still are finite."""
+sums of sixth powers still are finite: SciPy's trust region takes them."""
 
 
 def can_shoot(t: Transcription) -> bool:
@@ -180,8 +180,8 @@ def with_hidden(t: Transcription, motion: list[np.ndarray], hidden: list[np.ndar
 
 
 def computable(values: np.ndarray, nan: float = 0.0) -> np.ndarray:
-    """`values` with finite squares; `nan` in the place of NaN."""
-    return np.clip(np.nan_to_num(values, nan=nan), -SQUARABLE, SQUARABLE)
+    """`values`, none larger than `LARGEST`; `nan` in the place of NaN."""
+    return np.clip(np.nan_to_num(values, nan=nan), -LARGEST, LARGEST)
 
 
 def root_weights(t: Transcription) -> np.ndarray:

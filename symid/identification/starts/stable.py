@@ -23,6 +23,7 @@ import scipy
 
 from symid.identification.starts.loop import Loop
 from symid.identification.starts.search import evolve, one_relaxed
+from symid.identification.starts.shooting import computable
 from symid.simulation import Trajectory, simulator
 from symid.threads import one_blas_thread
 from symid.transcription import Episodes, Transcription
@@ -189,7 +190,7 @@ class DisplacedRuns(Loop):
             free = np.abs(run.y - m.targets[m.nodes]) < self.spread[r]  # False where the run has ended, too
             slopes = np.where(free[..., None], run.dy, 0.0) * (self.price * np.sqrt(m.step) * self.weights[r])[:, None]
             block = np.zeros((error.size, len(z)))
-            block[:, : self.q] = slopes.reshape(error.size, -1) * self.scale[: self.q]
+            block[:, : self.q] = computable(slopes.reshape(error.size, -1) * self.scale[: self.q])
             blocks.append(block)
         return np.concatenate(blocks)
 
