@@ -20,6 +20,10 @@ def plot_fit(solution: Solution, episode: int = 0, window: tuple[float, float] |
     Parameters
     ----------
     window : part of the time [s] that is drawn, all by default; the errors in the titles are those of this part.
+
+    Examples
+    --------
+    >>> plot_fit(solution, window=(0, 2)).savefig("fit.png")
     """
     frame = solution.trajectories[episode]
     frame = frame if window is None else frame.loc[window[0] : window[1]]
@@ -71,7 +75,12 @@ def _period(solution: Solution, episode: int) -> float:
 
 
 def plot_inputs(solution: Solution, episode: int = 0) -> Picture:
-    """What drove the model in one episode: its recorded inputs over time."""
+    """What drove the model in one episode: its recorded inputs over time.
+
+    Examples
+    --------
+    >>> plot_inputs(solution).savefig("inputs.png")
+    """
     t = solution.transcription
     measured = t.measured[t.recording_of[episode]]
     inputs = solution.model.inputs
@@ -91,7 +100,12 @@ def plot_inputs(solution: Solution, episode: int = 0) -> Picture:
 
 
 def plot_residual_spectra(solution: Solution, episode: int = 0) -> Picture:
-    """Power spectral density of each output's recording and residual in one episode (Welch 1967)."""
+    """Power spectral density of each output's recording and residual in one episode (Welch 1967).
+
+    Examples
+    --------
+    >>> plot_residual_spectra(solution).savefig("spectra.png")
+    """
     from scipy.signal import welch
 
     frame = solution.trajectories[episode]
@@ -129,6 +143,10 @@ def plot_parameters(solution: Solution, truth: dict[str, float] | None = None) -
     Parameters
     ----------
     truth : known values [SI] to be shown beside, for a synthetic recording.
+
+    Examples
+    --------
+    >>> plot_parameters(solution, truth={"damping": 0.4}).savefig("parameters.png")
     """
     groups = list(solution.parameters.groupby("unit", sort=False))
     rows = [len(table) for _, table in groups]
@@ -187,7 +205,16 @@ def _limits(value: np.ndarray, half: np.ndarray, others: list[float]) -> tuple[f
 
 
 def plot_starts(solution: Solution) -> Picture:
-    """How every start ended: its error by its number, and how far its parameters are from the best's."""
+    """How every start ended: its error by its number, and how far its parameters are from the best's.
+
+    Parameters
+    ----------
+    solution : of several starts; errors are in the unit of its outputs.
+
+    Examples
+    --------
+    >>> plot_starts(problem.solve(starts=2)).savefig("starts.png")
+    """
     rows, names = solution.starts, list(solution.values)
     together = common_unit(y.unit for y in solution.model.outputs.values())
     error = np.array([r.rms for r in rows])

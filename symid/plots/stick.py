@@ -50,11 +50,16 @@ def plot_poses(solution: Solution | Plan, episode: int = 0, window: tuple[float,
 
     Parameters
     ----------
+    solution : or a plan, of a chain. episode : which one, from 0.
     window : part of the time [s] that is drawn, all by default.
 
     Raises
     ------
     ModelError : the model is no such chain.
+
+    Examples
+    --------
+    >>> plot_poses(fit, window=(0, 2)).savefig("poses.png")         # doctest: +SKIP
     """
     time, model, recorded = _motion(solution, episode, window)
     rows = np.linspace(0, len(time) - 1, POSES).round().astype(int)
@@ -82,11 +87,19 @@ def animate(
 
     Parameters
     ----------
+    solution : or a plan, of a chain. episode : which one, from 0.
     window : part of the time [s] that is shown, the first `SECONDS` by default. speed : 0.5 is half as fast as it was.
 
     Raises
     ------
     ModelError : the model is no such chain.
+
+    Examples
+    --------
+    >>> body = si.mechanics.DoubleLinkPendulum.from_json("data/standing_synthetic/body.json")
+    >>> standing = si.read_recording("data/standing_synthetic/recording.csv")
+    >>> problem = si.Identification(body.with_feedback(si.mechanics.PD()), standing, window=(0, 5))
+    >>> animate(problem.solve(), speed=0.5).save("standing.gif")                # doctest: +SKIP
     """
     time, model, recorded = _motion(solution, episode, window)
     end = time[-1] if window is not None else min(time[-1], time[0] + SECONDS)

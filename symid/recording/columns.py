@@ -29,6 +29,11 @@ def load_columns(source: Mapping[str, str] | str | os.PathLike) -> dict[str, str
     Raises
     ------
     RecordingError : the file is missing or no such TOML, or an entry is no text.
+
+    Examples
+    --------
+    >>> load_columns({"time_s": "Zeit", "hip_angle_deg": "-Hip Flexion"})["hip_angle_deg"]
+    '-Hip Flexion'
     """
     table, name = source, "columns"
     if not isinstance(source, Mapping):

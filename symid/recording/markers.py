@@ -25,6 +25,7 @@ def joint_angles(
 
     Parameters
     ----------
+    recording : of markers [m], three channels each.
     ankle, hip, shoulder : name of a marker, or of several, whose mean is taken (left and right, for instance).
     forward, up : axis of the laboratory, "x", "y" or "z", with "-" before it where it points the other way.
 

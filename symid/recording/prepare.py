@@ -34,6 +34,11 @@ def fill_gaps(recording: Recording, max_gap_s: float, *channels: str) -> Recordi
     ------
     RecordingError
         If there is no such channel, a gap is longer, or a channel begins or ends with a missing value.
+
+    Examples
+    --------
+    >>> fill_gaps(recording, 0.1, "angle").history[-1]
+    'gaps of angle up to 0.1 s filled by PCHIP: 0 value(s)'
     """
     chosen = channels or tuple(recording.channels)
     for name in chosen:
@@ -69,11 +74,20 @@ def resample(recording: Recording, rate_hz: float) -> Recording:
     80 % of the new Nyquist frequency comes first, against aliasing. Unevenly sampled times are
     put onto an even grid of their own median rate before.
 
+    Parameters
+    ----------
+    rate_hz : samples a second afterwards [Hz].
+
     Raises
     ------
     RecordingError
         If the rate is not positive, values are missing, or a gap in time is wider than one and a
         half steps (`fill_gaps` first).
+
+    Examples
+    --------
+    >>> 1 / resample(recording, 25.0).sampling_interval
+    25.0
     """
     rate_hz = checked.number(rate_hz, "resample: rate_hz", RecordingError)
     if not rate_hz > 0 or not np.isfinite(rate_hz):
@@ -118,6 +132,11 @@ def lowpass(recording: Recording, cutoff_hz: float, *channels: str, order: int =
     ------
     RecordingError
         If samples are uneven or missing, too few, or the cut-off is not below Nyquist.
+
+    Examples
+    --------
+    >>> lowpass(recording, 6.0, "angle").history[-1][:28]
+    'angle low-passed at 6 Hz, Bu'
     """
     from scipy.signal import butter, sosfiltfilt
 
@@ -151,10 +170,20 @@ def differentiate(recording: Recording, channel: str, name: str | None = None) -
     ``ankle_angle`` gives ``ankle_velocity``, that ``ankle_acceleration``, and anything else
     ``<name>_rate``, unless a name is given. Source: Savitzky & Golay 1964.
 
+    Parameters
+    ----------
+    channel : of any unit; what is added has that unit per second.
+    name : of what is added.
+
     Raises
     ------
     RecordingError
         If samples are uneven, missing, or fewer than seven in a segment.
+
+    Examples
+    --------
+    >>> differentiate(recording, "angle", "turning").units["turning"]
+    'rad/s'
     """
     from scipy.signal import savgol_filter
 

@@ -37,6 +37,11 @@ def smooth_states(recording: Recording, *channels: str, noise: float | None = No
     ------
     RecordingError
         If no channel is named, samples are uneven, missing, or fewer than five in a segment.
+
+    Examples
+    --------
+    >>> list(smooth_states(recording.select("angle"), "angle").channels)
+    ['angle', 'velocity', 'acceleration']
     """
     if not channels:
         raise RecordingError(f"{recording.name}: smooth_states needs the name of a channel")

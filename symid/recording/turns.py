@@ -17,6 +17,7 @@ def unwrap(recording: Recording, *names: str, period: float | None = None) -> Re
 
     Parameters
     ----------
+    recording : with angles [rad], or counters of any unit.
     names : the channels
     period : in SI; by default a full turn of angles, and of whole numbers the counter that `find_wraps` finds
 

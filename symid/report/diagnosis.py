@@ -41,7 +41,12 @@ def write_diagnosis_report(
 
     Parameters
     ----------
-    name : title of the page. provenance : what was compared with what, as words.
+    path : of the file; its folder must exist. name : title of the page. provenance : what was compared with what, as words.
+
+    Examples
+    --------
+    >>> found = si.diagnose_case(si.read_case("data/concealed/cases/r01"))       # doctest: +SKIP
+    >>> write_diagnosis_report(found, "diagnosis.html", name="Diagnosis of r01")  # doctest: +SKIP
     """
     return write_atomically(path, diagnosis_html(diagnosis, name, provenance))
 

@@ -41,8 +41,14 @@ def write_report(
 
     Parameters
     ----------
+    path : of the file; its folder must exist.
     held_out : what `Solution.free_run` gave on a window that was not fitted.
     truth : known parameter values [SI], where the recording is synthetic.
+
+    Examples
+    --------
+    >>> write_report(solution, "report.html").name
+    'report.html'
     """
     return write_atomically(path, report_html(solution, held_out, truth))
 

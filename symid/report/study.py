@@ -23,6 +23,10 @@ SAME = 1e-3
 def write_study_report(result: StudyResult, path: str | Path, name: str = "Study") -> Path:
     """Write a report on a study as one HTML file with its figures inside, whole or not at all.
 
+    Parameters
+    ----------
+    path : of the file; its folder must exist. name : title of the page.
+
     Examples
     --------
     ::

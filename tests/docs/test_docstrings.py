@@ -4,6 +4,7 @@ import doctest
 import inspect
 import re
 import types
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -16,6 +17,24 @@ DATA_FOLDER = ROOT / "data"
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEPTION_DETAIL
 PUBLIC = {name: getattr(si, name) for name in si.__all__ if name != "mechanics"}
 PUBLIC |= {f"mechanics.{name}": getattr(si.mechanics, name) for name in si.mechanics.__all__}
+for room, names in {
+    "recording": (
+        "differentiate",
+        "fill_gaps",
+        "join",
+        "joint_angles",
+        "lowpass",
+        "resample",
+        "smooth_states",
+        "unwrap",
+    ),
+    "recording.columns": ("load_columns",),
+    "report": ("write_diagnosis_report", "write_report", "write_study_report"),
+    "plots.solution": ("plot_fit", "plot_inputs", "plot_parameters", "plot_residual_spectra", "plot_starts"),
+    "plots.stick": ("animate", "plot_poses"),
+}.items():
+    PUBLIC |= {name: getattr(import_module(f"symid.{room}"), name) for name in names}
+"""What the pages refer to, beside the exported names."""
 DATA = ("mechanics.CANONICAL", "mechanics.LIBRARY")
 """Tables, described where they are defined."""
 
@@ -126,6 +145,7 @@ def test_its_examples_are_true(name, prepared, monkeypatch, tmp_path):
         around["m"].force = si.Control(unit="N")
     if name.startswith("mechanics."):
         around |= {n: getattr(si.mechanics, n) for n in si.mechanics.__all__}
+    around |= {} if "." in name else {name: PUBLIC[name]}
     tests = [t for t in doctest.DocTestFinder(recurse=False).find(PUBLIC[name], name, globs=around) if t.examples]
     runner, told = doctest.DocTestRunner(optionflags=FLAGS), []
     for test in tests:
