@@ -11,7 +11,6 @@ import numpy as np
 
 from symid import checked
 from symid.errors import RecordingError
-from symid.recording.names import rate_name, rate_unit
 from symid.recording.recording import Recording
 from symid.recording.timing import MOST_SAMPLES
 from symid.units import FloatArray
@@ -141,7 +140,7 @@ def lowpass(recording: Recording, cutoff_hz: float, *channels: str, order: int =
     from scipy.signal import butter, sosfiltfilt
 
     chosen = channels or tuple(recording.channels)
-    step = _even(recording, "lowpass")
+    step = even(recording, "lowpass")
     if not 0 < cutoff_hz < 0.5 / step:
         raise RecordingError(
             f"{recording.name}: a cut-off of {cutoff_hz:g} Hz is not between 0 and half the "
@@ -162,43 +161,6 @@ def lowpass(recording: Recording, cutoff_hz: float, *channels: str, order: int =
         f"and backward (zero phase: samples contain the future, noise is not white)"
     )
     return _mapped(recording, chosen, smooth, note)
-
-
-def differentiate(recording: Recording, channel: str, name: str | None = None) -> Recording:
-    """With the time derivative of a channel added, by a Savitzky-Golay cubic over seven samples.
-
-    ``ankle_angle`` gives ``ankle_velocity``, that ``ankle_acceleration``, and anything else
-    ``<name>_rate``, unless a name is given. Source: Savitzky & Golay 1964.
-
-    Parameters
-    ----------
-    channel : of any unit; what is added has that unit per second.
-    name : of what is added.
-
-    Raises
-    ------
-    RecordingError
-        If samples are uneven, missing, or fewer than seven in a segment.
-
-    Examples
-    --------
-    >>> differentiate(recording, "angle", "turning").units["turning"]
-    'rad/s'
-    """
-    from scipy.signal import savgol_filter
-
-    step = _even(recording, "differentiate")
-    values = np.empty(len(recording))
-    for run in recording.runs:
-        if run.stop - run.start < 7:
-            raise RecordingError(
-                f"{recording.name}: {run.stop - run.start} samples are too few to differentiate; seven are needed"
-            )
-        values[run] = savgol_filter(recording[channel][run], 7, 3, deriv=1, delta=step)
-    name = name or rate_name(channel)
-    unit = rate_unit(recording.units[channel])
-    note = f"{name} is the derivative of {channel}, Savitzky-Golay cubic over 7 samples"
-    return recording.with_channel(name, values, unit, note=note)
 
 
 def _by_segment(recording: Recording, verb: Callable[[Recording], Recording]) -> Recording:
@@ -298,7 +260,7 @@ def _require_values(recording: Recording, verb: str):
             )
 
 
-def _even(recording: Recording, verb: str) -> float:
+def even(recording: Recording, verb: str) -> float:
     """Sampling interval [s] of a recording without gaps."""
     _require_values(recording, verb)
     return recording.even_step(verb)

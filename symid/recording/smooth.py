@@ -1,4 +1,4 @@
-"""States from noisy angles: a smoothing spline gives angle, velocity and acceleration together.
+"""Rates: a smoothing spline gives a channel, its velocity and acceleration together, a polynomial one derivative.
 
 Meant for starting guesses and for looking, not for the fit itself: a smoothed channel is a
 mixture of past and future.
@@ -11,6 +11,7 @@ import scipy
 
 from symid.errors import RecordingError
 from symid.recording.names import rate_name, rate_unit
+from symid.recording.prepare import even
 from symid.recording.recording import Recording
 from symid.units import FloatArray
 
@@ -49,6 +50,43 @@ def smooth_states(recording: Recording, *channels: str, noise: float | None = No
         level = recording.noise.get(channel) if noise is None else noise
         recording = _smoothed(recording, channel, level)
     return recording
+
+
+def differentiate(recording: Recording, channel: str, name: str | None = None) -> Recording:
+    """With the time derivative of a channel added, by a Savitzky-Golay cubic over seven samples.
+
+    ``ankle_angle`` gives ``ankle_velocity``, that ``ankle_acceleration``, and anything else
+    ``<name>_rate``, unless a name is given. Source: Savitzky & Golay 1964.
+
+    Parameters
+    ----------
+    channel : of any unit; what is added has that unit per second.
+    name : of what is added.
+
+    Raises
+    ------
+    RecordingError
+        If samples are uneven, missing, or fewer than seven in a segment.
+
+    Examples
+    --------
+    >>> differentiate(recording, "angle", "turning").units["turning"]
+    'rad/s'
+    """
+    from scipy.signal import savgol_filter
+
+    step = even(recording, "differentiate")
+    values = np.empty(len(recording))
+    for run in recording.runs:
+        if run.stop - run.start < 7:
+            raise RecordingError(
+                f"{recording.name}: {run.stop - run.start} samples are too few to differentiate; seven are needed"
+            )
+        values[run] = savgol_filter(recording[channel][run], 7, 3, deriv=1, delta=step)
+    name = name or rate_name(channel)
+    unit = rate_unit(recording.units[channel])
+    note = f"{name} is the derivative of {channel}, Savitzky-Golay cubic over 7 samples"
+    return recording.with_channel(name, values, unit, note=note)
 
 
 def smooth_curves(values: FloatArray, step: float) -> FloatArray:

@@ -41,7 +41,8 @@ def write_diagnosis_report(
 
     Parameters
     ----------
-    path : of the file; its folder must exist. name : title of the page. provenance : what was compared with what, as words.
+    path : of the file; its folder must exist.
+    name : title of the page. provenance : what was compared with what, as words.
 
     Examples
     --------
