@@ -60,11 +60,14 @@ def state_scale(measured: Sequence[Measured]) -> np.ndarray:
     return np.where(scale > 0, scale, np.nan)
 
 
-def hidden_scale(slopes: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """`scale` (n,) with its NaN replaced, so that the entries of the equations are of like size.
+def hidden_scale(slopes: np.ndarray, scale: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """`scale` (n,) with its NaN replaced, so that the entries of the equations are of like size; and where these say
+    nothing of a state (n,), as where all that they have of it is its rate.
 
     Geometric scaling by least squares of the logarithms (Curtis & Reid 1972): it turns with the unit
-    of a hidden state as the state itself does. slopes : (equations, n), as in `Sizes.states`.
+    of a hidden state as the state itself does.
+
+    slopes : (equations, n), as in `Sizes.states`.
     """
     hidden, out = np.isnan(scale), scale.copy()
     rows, columns = np.nonzero(slopes)
@@ -75,7 +78,9 @@ def hidden_scale(slopes: np.ndarray, scale: np.ndarray) -> np.ndarray:
     size = -np.log(slopes[rows, columns])
     size[known] -= np.log(scale[columns[known]])
     out[hidden] = np.exp(np.linalg.lstsq(table, size, rcond=None)[0][len(slopes) :][hidden])
-    return out
+    _, power, directions = np.linalg.svd(table)
+    loose = np.abs(directions[np.sum(power > ROUNDING * power[:1]) :]).max(axis=0, initial=0.0) > ROUNDING
+    return out, hidden & loose[len(slopes) :]
 
 
 def rate_scale(measured: Sequence[Measured], scale: np.ndarray) -> np.ndarray:

@@ -53,7 +53,11 @@ def scaled_by_data(
     hidden, states = first_guess(bounds), state_scale(measured)
     shown = np.isfinite(states)
     if np.isnan(states).any():
-        hidden = states = hidden_scale(sizes(hidden, parameter_guesses(model)).states, states)
+        hidden, loose = hidden_scale(sizes(hidden, parameter_guesses(model)).states, states)
+        if loose.any():
+            at_rest = sizes(np.where(loose, 0.0, hidden), parameter_guesses(model)).parameters
+            hidden = _beside_inputs(model, loose, hidden, at_rest)
+        states = hidden
     natural = natural_size(sizes(hidden, parameter_guesses(model, small=True)), rate_scale(measured, states))
     parameters = np.ones(len(layout.parameter_names))
     parameters[layout.parameter_index] = parameter_scale(model.parameters.values(), natural)
@@ -64,6 +68,26 @@ def scaled_by_data(
         by_name.get(str(model.delays[y].of), s) for y, s in zip(late_signals(model), layout.late_scale, strict=True)
     ]
     return replace(layout, state_scale=scale, parameter_scale=parameters, late_scale=np.array(late))
+
+
+def _beside_inputs(model: Model, loose: np.ndarray, scale: np.ndarray, at_rest: np.ndarray) -> np.ndarray:
+    """`scale` (n,), with that of each `loose` state so large as what a parameter multiplies beside it.
+
+    The lag of a filter multiplies the difference of its input and its state: that says of how many volts the state is,
+    before the lag is known.
+
+    at_rest : (equations, q) sizes of the derivatives to the parameters where these states are zero.
+    """
+    out, parameters = scale.copy(), list(model.parameters.values())
+    residuals, states = model.residual(), [s.symbol for s in model.states.values()]
+    for i in np.flatnonzero(loose):
+        found = []
+        for e, q in np.argwhere(at_rest > 0):
+            own = residuals[e].diff(parameters[q].symbol, states[i])
+            if own.is_number and own != 0:
+                found.append(at_rest[e, q] / abs(float(own)))
+        out[i] = min(found, default=scale[i])
+    return out
 
 
 def _curvature(

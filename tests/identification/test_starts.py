@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import small_systems
 from conftest import pendulum, pendulum_recording
+from drawn_systems import system
 from more_systems import OTHERS
 from unseen_systems import UNSEEN, lotka_volterra
 from small_systems import PRACTISED
@@ -84,6 +85,32 @@ def test_units_change_neither_the_answer_nor_the_way_to_it(size, time):
 
     (steps, values), (other_steps, others) = solved(1.0, 1.0), solved(size, time)
     assert others == pytest.approx(values, rel=1e-6) and abs(steps - other_steps) <= 1
+
+
+@pytest.mark.parametrize("volt", [1e-9, 1e9])
+def test_a_hidden_state_that_an_input_alone_tells_the_unit_of_has_a_size(volt):
+    """A servo behind a filter, in other units of its voltage: nothing bounds a parameter, and no equation holds the
+    filtered voltage but by a parameter. It ended a billion times off."""
+
+    def solved(volt):
+        m = si.Model("servo")
+        m.q, m.w, m.filtered = si.State(unit="rad"), si.State(unit="rad/s"), si.State(unit="1")
+        m.voltage = si.Input(unit="1", hold="zero")
+        for name in ("gain", "damping", "lag", "spring"):
+            setattr(m, name, si.Parameter(unit="1"))
+        m.one = si.Equation({0: m.q.dot - m.w, 1: m.filtered.dot - m.lag * (m.voltage - m.filtered)})
+        m.two = si.Equation(m.w.dot - m.gain * m.filtered + m.damping * m.w + m.spring * m.q)
+        m.y = si.Output(m.q)
+        rng, t = np.random.default_rng(5), np.arange(0, 6, 0.01)
+        u = volt * np.repeat(rng.uniform(-6, 6, 20), 30)
+        truth = {"gain": 60.0 / volt, "damping": 5.0, "lag": 40.0, "spring": 30.0}
+        drawn = system(m, truth, [([0.0] * 3, t, {"voltage": u})], 0.01, rng, scheme=si.HermiteSimpson())
+        solution = drawn.problem().solve(check=False)
+        return solution.result.iterations, [solution.values[k] / v for k, v in truth.items()]
+
+    (steps, values), (other_steps, others) = solved(1.0), solved(volt)
+    assert others == pytest.approx(values, rel=1e-6) and abs(steps - other_steps) <= 1
+    assert values == pytest.approx([1.0] * 4, rel=0.02)
 
 
 def unbounded() -> si.Model:
