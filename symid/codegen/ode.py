@@ -23,8 +23,8 @@ from symid.model import TIME, Model, c_texts, explicit, symbol
 
 INCLUDED = "#include <math.h>\n#include <stddef.h>\n"
 TOGETHER = "#define sin(x) __builtin_sin(x)\n#define cos(x) __builtin_cos(x)\n"
-"""A simulation takes one step after the other, so that nothing is a vector: the compiler may make one call of the sine and
-cosine of an angle, which `codegen.build` forbids it to. A tenth of the time of a network's simulation."""
+"""A simulation takes one step after the other, so that nothing is a vector: the compiler may make one call of the sine
+and cosine of an angle, which `codegen.build` forbids it to. A tenth of the time of a network's simulation."""
 TABLE = Path(__file__).with_name("ode.h").read_text()
 """The C declaration of what a model exports and the integrating loop reads."""
 ARGUMENTS = ("xd", "x", "l", "u", "w", "p", "c")
