@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, permutations
 
 import numpy as np
 import scipy
@@ -21,6 +21,8 @@ AT_REST = 0.1
 """Of every state, where what stands beside the rates is compared: near rest, and not where an angle's sine vanishes."""
 TURNS = ("rad", "deg", "rpm", "rev")
 """Words in units of angular speed, which has the dimension of any rate."""
+MOST_BODIES = 6
+"""Of so many the orders of their equations are tried one by one: 720."""
 NOTHING = 1e-300
 """Instead of a zero whose logarithm is needed."""
 
@@ -98,14 +100,26 @@ def _own_states(
     """The state whose balance each equation is: that with which the product of what stands beside the rates is largest.
 
     What stands beside the rates of Lagrange's equations is a positive definite matrix, of which no permutation has a
-    larger product than its diagonal (Hadamard 1893), whatever the units.
+    larger product than its diagonal (Hadamard 1893), whatever the units. Where it holds parameters that are not known,
+    their product is not, either; but then it is symmetric in its own order alone.
     """
-    beside = np.array([[_size(model, sm.diff(residuals[n], s.dot)) for s in moving] for n in balances])
-    if not beside.size:
+    beside = [[sm.diff(residuals[n], s.dot) for s in moving] for n in balances]
+    if not balances:
         return {}
-    size = np.log(np.maximum(beside, NOTHING))
-    rows, columns = scipy.optimize.linear_sum_assignment(size, maximize=True)
-    return {balances[i]: moving[j] for i, j in zip(rows, columns, strict=True)}
+    size = np.log(np.maximum(np.abs(_values(model, beside, {})), NOTHING))
+    rows, own = scipy.optimize.linear_sum_assignment(size, maximize=True)
+    if len(balances) == len(moving) <= MOST_BODIES:
+        unknown = list(model.parameters)
+        drawn = dict(zip(unknown, np.random.default_rng(0).uniform(0.5, 2.0, len(unknown)), strict=True))
+        value = _values(model, beside, drawn)
+        orders = [list(o) for o in permutations(rows) if _is_symmetric(value[:, o])]
+        own = max(orders, key=lambda o: float(size[rows, o].sum()), default=own)
+    return {balances[i]: moving[j] for i, j in zip(rows, own, strict=True)}
+
+
+def _is_symmetric(matrix: np.ndarray) -> bool:
+    """Whether a matrix is symmetric, and nothing on its diagonal is zero."""
+    return bool(np.allclose(matrix, matrix.T, rtol=1e-9, atol=0.0) and np.all(np.diag(matrix)))
 
 
 def _port(model: Model, name: str, residual: sm.Expr, state: State, rates: Mapping[str, str]) -> Port:
@@ -117,7 +131,7 @@ def _port(model: Model, name: str, residual: sm.Expr, state: State, rates: Mappi
     return Port(
         position=sm.S.Zero if turns and not second else coordinate,
         rate=state.symbol if turns or second else sm.S.Zero,
-        into={name: -1.0 if _value(model, beside) >= 0 else 1.0},
+        into={name: -1.0 if _value(model, beside, {}) >= 0 else 1.0},
         unit=_unit(model, residual, about) or unit_of(model, beside * state.dot, about),
         role="joint" if turns or second else "balance",
         at=shown[0] if shown else str(coordinate),
@@ -142,15 +156,16 @@ def _unit(model: Model, residual: sm.Expr, about: sm.Expr) -> str:
     return units.most_common(1)[0][0] if units else ""
 
 
-def _value(model: Model, expr: sm.Expr) -> float:
-    """Of what stands beside a rate: a mass or an area, with each unknown one, at rest."""
+def _value(model: Model, expr: sm.Expr, drawn: Mapping[str, float]) -> float:
+    """Of what stands beside a rate: a mass or an area, with each unknown one, or as `drawn` by name, at rest."""
     moved = {s.symbol for s in model.states.values()}
     sizes: dict[sm.Symbol, float] = {s: AT_REST if s in moved else 1.0 for s in expr.free_symbols}
+    sizes |= {model[name].symbol: value for name, value in drawn.items()}
     return float(sm.re(expr.subs(sizes | {c.symbol: c.value for c in model.constants.values()})))
 
 
-def _size(model: Model, expr: sm.Expr) -> float:
-    return abs(_value(model, expr)) if expr.free_symbols or expr else 0.0
+def _values(model: Model, beside: Sequence[Sequence[sm.Expr]], drawn: Mapping[str, float]) -> np.ndarray:
+    return np.array([[_value(model, expr, drawn) for expr in row] for row in beside])
 
 
 def places(model: Model) -> list[Port]:

@@ -74,6 +74,22 @@ def test_each_of_lagranges_equations_belongs_to_its_own_coordinate_in_any_order_
     assert (m["pole_place"].at, str(m["pole_place"].rate), m["pole_place"].unit) == ("a", "w", "N*m")
 
 
+@pytest.mark.parametrize("names", [("lean", "steer"), ("steer", "lean")])
+def test_where_masses_are_not_known_each_equation_belongs_to_the_coordinate_that_makes_them_symmetric(names):
+    """Of a bicycle, whose light fork is known: one for every unknown mass would make its own the smallest."""
+    m = si.Model("bicycle")
+    m.phi, m.delta = si.State(unit="rad"), si.State(unit="rad")
+    m.p, m.d = si.State(unit="rad/s"), si.State(unit="rad/s")
+    m.whole, m.both = (si.Parameter(unit="kg*m^2", bounds=(0, 500)) for _ in range(2))
+    m.fork = si.Constant(0.3, unit="kg*m^2")
+    m.k1, m.k2 = si.Equation(m.phi.dot - m.p), si.Equation(m.delta.dot - m.d)
+    balances = {"lean": m.whole * m.p.dot + m.both * m.d.dot, "steer": m.both * m.p.dot + m.fork * m.d.dot}
+    for name in names:
+        setattr(m, name, si.Equation(balances[name]))
+    places = with_places(m)
+    assert [places[f"{name}_place"].position.name for name in ("lean", "steer")] == ["phi", "delta"]
+
+
 def test_suspects_of_a_model_without_ports_are_those_of_its_joints_sensors_and_drives():
     found = {str(s.term) for s in si.suspects(slide())}
     assert {"coulomb_friction@slide", "sensor_delay@sensor:slide", "input_dead_zone@input:push"} <= found
