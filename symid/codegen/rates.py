@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import sympy as sm
 
@@ -48,6 +49,22 @@ def slopes_program(model: Model) -> Program:
         local=(*rates, *states, *late_symbols(model)),
         constants=uniform_symbols(model),
     )
+
+
+def with_rates_solved(model: Model) -> Model:
+    """The model without rates in its outputs: an accelerometer shows what the equations give for its acceleration.
+
+    Raises
+    ------
+    CodegenError : an output holds a rate, and the equations cannot be solved for x'.
+    """
+    rates = [s.dot for s in model.states.values()]
+    shown = {name: y for name, y in model.outputs.items() if model.inline(y.expr).free_symbols & set(rates)}
+    if not shown:
+        return model
+    solution, new = _solved(model, list(model.residual()), rates), model.copy()
+    new.components.update({n: replace(y, expr=model.inline(y.expr).xreplace(solution)) for n, y in shown.items()})
+    return new
 
 
 def late_symbols(model: Model) -> tuple[sm.Symbol, ...]:

@@ -13,6 +13,7 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.estimation.signals.missing import without_missing
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.identification import Solution
+from symid.mechanics.accelerations import with_accelerations
 from symid.mechanics.places import with_places
 from symid.model import Model
 from symid.recording import Recording
@@ -80,7 +81,7 @@ def task_of(subject: Model | Solution, recording: Recording | None, fit_window: 
     start = {
         name: checked.number(v, f"diagnose: start of '{name}'", DiagnosisError) for name, v in (start or {}).items()
     }
-    model = with_places(model.simulated("diagnose").with_unstated_holds("either"))
+    model = with_accelerations(with_places(model.simulated("diagnose").with_unstated_holds("either")))
     task = Task(model, recording, fit_window, start={**values, **start}, values=values, **others)
     _check_parts(task)
     return replace(task, recording=without_missing(recording, model, task.moved))

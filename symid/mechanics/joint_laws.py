@@ -179,6 +179,14 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         "Newton 1687",
     ),
     effort_law(
+        "asymmetric_damping",
+        "joint",
+        (LawParameter("coefficient_Nms_rad", "N*m*s/rad", _BOTH_SIGNS),),
+        lambda m, port, p: -p.coefficient_Nms_rad * sm.Abs(port.rate),
+        "The {place} is damped more one way than the other, by {coefficient_Nms_rad} more and as much less",
+        "Dixon 2007",
+    ),
+    effort_law(
         "rotor_inertia",
         "joint",
         (LawParameter("inertia_kg_m2", "N*m*s^2/rad", _POSITIVE),),

@@ -11,8 +11,9 @@ import numpy as np
 from symid.checked import nearest
 from symid.codegen import compile_program
 from symid.codegen.interval import interval_program, late_signals, objective_program
+from symid.codegen.rates import with_rates_solved
 from symid.codegen.symbols import algebraics_at_nodes, own_points
-from symid.errors import ModelError, TranscriptionError
+from symid.errors import TranscriptionError
 from symid.model import Model
 from symid.nlp import NonlinearProgram
 from symid.transcription.data import Measured
@@ -117,7 +118,7 @@ def transcribe(
     loss : output name -> width [its unit] beyond which its error counts by its size instead of its square.
     """
     model.check(units=False)
-    _refuse_rates_in_outputs(model)
+    model = with_rates_solved(model)
     refuse_late(model, measured)
     _refuse_averaged(model, scheme)
     graded = not all(m.even for m in measured)
@@ -242,13 +243,3 @@ def _linked_episodes(episodes: Episodes, recording_of) -> list[tuple[int, int]]:
     if not episodes.shared_initial_state:
         return []
     return [(e, e + 1) for e in range(len(recording_of) - 1) if recording_of[e] == recording_of[e + 1]]
-
-
-def _refuse_rates_in_outputs(model: Model) -> None:
-    for y, seen in zip(model.outputs.values(), model.observed(), strict=True):
-        for state in model.states.values():
-            if state.dot in seen.free_symbols:
-                raise ModelError(
-                    f"output '{y.name}' uses '{state.dot}', and what is compared with samples has no rates: write what "
-                    f"the equation of {state.name}.dot gives for it, as for an accelerometer the forces over the mass"
-                )

@@ -134,6 +134,7 @@ def test_friction_takes_energy_away(law, rate, size, excess):
         ("cubic_stiffness", -2.0 * 0.4**3),
         ("joint_drag", -2.0 * 0.03**2),
         ("quadratic_stiffness", -2.0 * 0.4**2),
+        ("asymmetric_damping", -2.0 * 0.03),
     ],
 )
 def test_sizes_and_signs_of_joint_forces(law, expected):

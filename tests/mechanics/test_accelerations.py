@@ -1,0 +1,64 @@
+"""Accelerometers: outputs that are forces over a mass are the acceleration."""
+
+import numpy as np
+import pytest
+
+import symid as si
+from symid.mechanics import LIBRARY, with_places
+from symid.mechanics.accelerations import with_accelerations
+from symid.simulation import simulator
+
+
+def car(shown) -> si.Model:
+    """A body over a wheel that a road shakes; `shown` gives what its accelerometer shows, from model and force."""
+    m = si.Model("quarter car")
+    m.z, m.s, m.vz, m.vs = (si.State(unit=u) for u in ("m", "m", "m/s", "m/s"))
+    m.road, m.mass, m.wheel = si.Input(unit="m"), si.Constant(320.0, unit="kg"), si.Parameter(unit="kg", bounds=(1, 99))
+    m.k, m.c = si.Parameter(unit="N/m", bounds=(0, 1e6)), si.Parameter(unit="N*s/m", bounds=(0, 1e4))
+    m.force = si.Expression(m.k * (m.s - m.z) + m.c * (m.vs - m.vz), unit="N")
+    m.e1, m.e2 = si.Equation(m.z.dot - m.vz), si.Equation(m.s.dot - m.vs)
+    m.below = si.Equation(m.wheel * m.vz.dot - 2e5 * (m.road - m.z) - m.force)
+    m.above = si.Equation(m.mass * m.vs.dot + m.force)
+    m.felt = si.Output(shown(m), unit="m/s^2")
+    m.moved = si.Output(m.vs, channel="moved")
+    return m
+
+
+def test_forces_over_the_mass_are_the_acceleration_and_a_speed_is_none():
+    m = with_accelerations(car(lambda m: -m.force / m.mass))
+    assert m["felt"].expr == m.vs.dot
+    assert m["moved"].expr == m.vs.symbol
+
+
+def test_an_accelerometer_the_other_way_up_that_counts_in_g():
+    m = with_accelerations(car(lambda m: m.force / m.mass / 9.81))
+    assert float(m["felt"].expr.coeff(m.vs.dot)) == pytest.approx(-1 / 9.81)
+
+
+def test_what_is_no_acceleration_stays_as_it_is():
+    m = car(lambda m: m.force / m.mass + 0.1 * m.vs)
+    assert with_accelerations(m)["felt"].expr == m["felt"].expr
+
+
+def test_a_friction_that_is_added_is_felt():
+    m = with_accelerations(with_places(car(lambda m: -m.force / m.mass)))
+    place = next(p.at for p in m.ports.values() if p.position == m.s.symbol)
+    more = m.with_term(LIBRARY["viscous_friction"].at(place))
+    values = {"wheel": 40.0, "k": 2e4, "c": 1e3, f"viscous_friction_{place}_coefficient_Nms_rad": 640.0}
+    run = simulator(more).simulate(values, np.array([0, 0, 0, 0.5]), np.array([0, 1e-6]), {"road": np.zeros(2)})
+    assert run.y[0, 0] == pytest.approx(-(1e3 + 640.0) * 0.5 / 320.0)
+
+
+def test_an_output_with_a_rate_is_identified_as_what_the_equations_give_for_it():
+    time = np.arange(0, 3, 0.01)
+    road = 0.02 * np.sin(9 * time) + 0.01 * np.sin(31 * time + 1)
+    truth, still = {"wheel": 40.0, "k": 2e4, "c": 1e3}, np.zeros(4)
+    felt, moved = simulator(car(lambda m: m.vs.dot)).simulate(truth, still, time, {"road": road}, substeps=8).y.T
+    units = {"road": "m", "felt": "m/s^2", "moved": "m/s"}
+    recording = si.Recording("car", time, {"road": road, "felt": felt, "moved": moved}, units)
+    found = [
+        si.Identification(car(shown), recording, window=(0, 2.9)).solve().values
+        for shown in (lambda m: m.vs.dot, lambda m: -m.force / m.mass)
+    ]
+    assert found[0] == pytest.approx(found[1], rel=1e-9)
+    assert found[0]["c"] == pytest.approx(1e3, rel=0.02)
