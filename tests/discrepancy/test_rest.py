@@ -1,5 +1,7 @@
 """What is left is described: where, when, which way energy goes; and a flexible law stands for it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import sympy as sm
@@ -10,6 +12,7 @@ import symid as si
 from symid.discrepancy.locate.flexible_law import flexible_law
 from symid.discrepancy.locate.rest import rest_of
 from symid.discrepancy.say.rest import rest_words
+from symid.discrepancy.say.words import left_beside_noise
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between
@@ -160,3 +163,16 @@ def test_a_flexible_law_closes_the_held_out_error_of_a_law_without_a_name(seed):
     x = np.array([[0.0, 0.2], [0.09, 0.2]])
     force = law.force(x) - law.force(x * [1, 0])
     assert force[0] - force[1] < -0.5  # it brakes in the middle
+
+
+@pytest.mark.parametrize(("noises", "told"), [({}, True), ({"gust": None}, False)])
+def test_a_rest_of_a_model_without_noise_says_how_random_forces_are_declared(noises, told):
+    story = SimpleNamespace(
+        verdict="unexplained",
+        driven=False,
+        runs={"augmented_train": SimpleNamespace(errors=np.array([3e-3]))},
+        audit=SimpleNamespace(noise=np.array([1e-3])),
+        model=SimpleNamespace(noises=noises),
+        error=lambda errors: "3 mm",
+    )
+    assert ("declares a Noise" in " ".join(left_beside_noise(story))) is told

@@ -20,6 +20,7 @@ LOSSES = (
     "bouc_wen_hysteresis",
 )
 """Laws by which a mechanism loses energy."""
+UNRECORDED = "Random forces that nobody recorded, of wind or waves, count where the model declares a Noise for them"
 ABOVE = 2.0
 """A rest this many times larger than the sensors' noise is spoken of."""
 
@@ -32,7 +33,7 @@ def words(story: Story) -> str:
         *first,
         nameless_words(story.evidence.unnamed, story.error) if story.verdict == "unexplained" else [],
         _alike(story),
-        proof_words(story) + _rest(story),
+        proof_words(story) + left_beside_noise(story),
         halves_words(story) + verdicts_of_halves(story),
         _caveats(story),
     )
@@ -111,7 +112,7 @@ def _alike(s: Story) -> list[str]:
     ]
 
 
-def _rest(s: Story) -> list[str]:
+def left_beside_noise(s: Story) -> list[str]:
     """How far the improved model's free runs are from the noise of the sensors, where nothing random drives."""
     if s.verdict == "adequate":
         worst = s.left[0] if s.left else None
@@ -129,7 +130,8 @@ def _rest(s: Story) -> list[str]:
         return []
     return [
         f"In the fit window an error of {s.error(errors)} remains, {times:.0f} times the noise of the sensors "
-        f"({s.error(s.audit.noise)}): unexplained."
+        f"({s.error(s.audit.noise)}): unexplained.",
+        *([] if s.model.noises else [f"{UNRECORDED}."]),
     ]
 
 
