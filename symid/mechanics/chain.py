@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 MOST_LINKS = 20
 """Equations of longer chains take minutes to derive."""
+MOST_SIZE = 1e100
+"""Of a rod's length [m] and mass [kg]: mass times length squared must be a number."""
 
 
 @dataclass(frozen=True)
@@ -79,7 +81,7 @@ class Chain:
         """
         if not isinstance(n, int) or not 1 <= n <= MOST_LINKS:
             raise ModelError(f"a chain has 1 to {MOST_LINKS} links, not {str(n)[:20]}")
-        if not (0 < length < 1e300 and 0 < mass < 1e300):
+        if not (0 < length < MOST_SIZE and 0 < mass < MOST_SIZE):
             raise ModelError(f"a rod has a positive length and mass, not {str(length)[:20]} m and {str(mass)[:20]} kg")
         rod: dict[str, Any] = {"mass": mass, "com": length / 2, "inertia": mass * length**2 / 12}
         return cls(

@@ -263,3 +263,8 @@ def test_bench_parameters_leave_identified_numbers_out():
 def test_a_chain_with_confused_names_is_refused(links, joints):
     with pytest.raises(ModelError, match="one joint before each link"):
         Chain(links, joints)
+
+
+def test_a_rod_whose_inertia_is_no_number_is_refused():
+    with pytest.raises(ModelError, match="a rod has a positive length and mass, not 1.34"):
+        Chain.uniform(1, 1.3407807929942597e154)
