@@ -42,11 +42,12 @@ def with_accelerations(model: Model) -> Model:
     accelerations, outputs = values
     new = model.copy()
     for j, name in enumerate(shown):
-        for i in moving:
+        for i in (i for i in moving if accelerations[:, i].all()):
             ratio = outputs[:, j] / accelerations[:, i]
-            if ratio[0] and np.ptp(ratio) <= EQUAL * abs(ratio[0]):
+            near = EQUAL * abs(ratio[0])
+            if ratio[0] and np.ptp(ratio) <= near:
                 whole = round(float(ratio[0]))
-                factor = whole if abs(ratio[0] - whole) <= EQUAL else float(ratio[0])
+                factor = whole if abs(ratio[0] - whole) <= near else float(ratio[0])
                 new.components[name] = replace(model.outputs[name], expr=factor * rates[i])
     return new
 

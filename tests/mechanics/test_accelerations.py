@@ -30,9 +30,18 @@ def test_forces_over_the_mass_are_the_acceleration_and_a_speed_is_none():
     assert m["moved"].expr == m.vs.symbol
 
 
-def test_an_accelerometer_the_other_way_up_that_counts_in_g():
-    m = with_accelerations(car(lambda m: m.force / m.mass / 9.81))
-    assert float(m["felt"].expr.coeff(m.vs.dot)) == pytest.approx(-1 / 9.81)
+@pytest.mark.parametrize("unit", [9.81, 1e11, 1e-11])
+def test_an_accelerometer_the_other_way_up_that_counts_in_g_or_in_any_unit(unit):
+    m = with_accelerations(car(lambda m: m.force / m.mass / unit))
+    assert float(m["felt"].expr.coeff(m.vs.dot)) == pytest.approx(-1 / unit)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_state_that_stays_as_it_is_is_no_acceleration():
+    m = car(lambda m: -m.force / m.mass)
+    m.still = si.State(unit="m")
+    m.stays = si.Equation(m.still.dot)
+    assert with_accelerations(m)["felt"].expr == m.vs.dot
 
 
 def test_what_is_no_acceleration_stays_as_it_is():

@@ -24,7 +24,7 @@ from symid.units import known_unit
 PAUSE = 50
 """Samples between two runs of one recording."""
 SUBSTEPS = 8
-"""Of the integrator in each sample: a fit compares with its own, and needs four at most where no friction is dry."""
+"""Of the integrator in each sample. A judgement: finer than most fits need, so that its error is no physics."""
 
 
 def is_free(data: Data) -> bool:

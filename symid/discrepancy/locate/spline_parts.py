@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import log
+
 import numpy as np
 
 from symid.discrepancy.locate.flexible import along
