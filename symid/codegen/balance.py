@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import sympy as sm
@@ -31,7 +32,7 @@ def balance_program(model: Model) -> Program:
 
 @dataclass(frozen=True)
 class Shown:
-    """The outputs at single moments, of states and constants alone.
+    """The outputs at single moments, of states and constants, and of parameters that are an offset of a sensor.
 
     Parameters
     ----------
@@ -43,10 +44,18 @@ class Shown:
     shows: tuple[frozenset[str], ...]
 
 
-def shown_program(model: Model) -> Shown:
-    """Which states the outputs show, and how."""
+def shown_program(model: Model, guesses: Mapping[str, float]) -> Shown:
+    """Which states the outputs show, and how.
+
+    guesses : of parameters by name; those that are offsets have these values.
+    """
     states, constants = ({c.symbol for c in part.values()} for part in (model.states, model.constants))
-    rows = [y if free_symbols(y) <= states | constants else sm.Integer(0) for y in model.observed()]
+    offsets = {p.symbol: sm.Float(guesses[name]) for name, p in model.parameters.items()}
+    rows = []
+    for y in model.observed():
+        added = [s for s in free_symbols(y) & offsets.keys() if free_symbols(y.diff(s)) <= constants]
+        y = y.xreplace({s: offsets[s] for s in added})
+        rows.append(y if free_symbols(y) <= states | constants else sm.Integer(0))
     return Shown(
         Program(
             f"outputs of {model.name}",

@@ -18,11 +18,15 @@ INVOLVED = 1e-6
 
 @dataclass(frozen=True)
 class Combination:
-    """Something that is determined: its text, value, and gradient (q,) with respect to the parameters [SI]."""
+    """Something that is determined: its text, value, and gradient (q,) with respect to the parameters [SI].
+
+    local : whether its coefficients are those of a tangent, and hold near these values only.
+    """
 
     text: str
     value: float
     gradient: np.ndarray
+    local: bool = False
 
 
 def involved(null: np.ndarray) -> np.ndarray:
@@ -74,7 +78,8 @@ def _of_group(
             gradient[group] = value * row / values
         else:
             value, gradient[group] = float(row @ values), row
-        texts.append(Combination(product_text(row, names) if as_product else sum_text(row, names), value, gradient))
+        text = product_text(row, names) if as_product else sum_text(row, names)
+        texts.append(Combination(text, value, gradient, local=not _simple(rows)))
     return texts
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -14,7 +15,8 @@ from symid.errors import SolveError
 from symid.transcription import Transcription
 
 DAMPING = 1e-11
-"""Curvature, relative to the largest, added to every state: an unobserved one would make the system singular."""
+"""Curvature, relative to the largest, added to every state in units of its motion (or of its scale, if that is larger):
+an unobserved one would make the system singular."""
 ROUNDS = 3
 """Turns in which the damping is about the last answer and not about zero, so that none of it is left (proximal point:
 Rockafellar 1976). With it four parameters of a motor seemed determined, of which its speed shows three combinations."""
@@ -175,6 +177,15 @@ class Sensitivity:
         ]
 
 
+def motion_sizes(t: Transcription, z: np.ndarray) -> np.ndarray:
+    """(n,) the largest size of each unknown over time, as it is scaled; its own of a parameter."""
+    sizes, block = np.abs(z), max(t.layout.block, 1)
+    for first, end in itertools.pairwise(t.layout.offsets):
+        over_time = np.pad(sizes[first:end], (0, -(end - first) % block)).reshape(-1, block).max(axis=0, initial=0.0)
+        sizes[first:end] = np.resize(over_time, end - first)
+    return sizes
+
+
 def _factor(matrix: scipy.sparse.csc_matrix) -> scipy.sparse.linalg.SuperLU:
     try:
         return scipy.sparse.linalg.splu(matrix, permc_spec="COLAMD")
@@ -199,7 +210,8 @@ class Reduced:
         hessian = hessian / unit
         inner = hessian[self.states][:, self.states]
         damping = DAMPING * (abs(inner.diagonal()).max(initial=0.0) or 1.0)
-        inner = inner + damping * scipy.sparse.identity(len(self.states))
+        damping = damping / np.maximum(1.0, motion_sizes(s.t, s.z)[self.states]) ** 2
+        inner = inner + scipy.sparse.diags(damping)
         a = s.constraints[:, self.states]
         nothing = -1e-14 * scipy.sparse.identity(
             a.shape[0]
@@ -210,7 +222,7 @@ class Reduced:
         ).toarray()
         solved, about = self.factor.solve(border), border.copy()
         for _ in range(ROUNDS):
-            about[: len(self.states)] = border[: len(self.states)] + damping * solved[: len(self.states)]
+            about[: len(self.states)] = border[: len(self.states)] + damping[:, None] * solved[: len(self.states)]
             solved = self.factor.solve(about)
         self.follow = -solved[: len(self.states)]
         self.beside, self.prior = (self._reduced(m, self.follow) for m in (s.beside, s.prior))

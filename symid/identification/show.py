@@ -5,6 +5,8 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from symid.identification.elsewhere import excess_note
 from symid.identification.fit import common_unit, fit_text, rms_text
 from symid.identification.weighting import by_noise
@@ -138,8 +140,10 @@ def error_notes(solution: Solution) -> list[str]:
         notes.append(f"Process noise (size): {', '.join(sizes)}")
     lost = [name for name, u in zip(solution.values, e.undetermined, strict=True) if u]
     if lost:
-        found = ", ".join(f"{text}: {value:.5g} +- {error:.2g}" for text, (value, error) in solution.determined.items())
-        notes.append(f"These data do not determine {', '.join(lost)}" + (f": only {found}" if found else " at all"))
+        found = e.determined(list(solution.values), np.array(list(solution.values.values())))
+        only = "near these values only" if any(c.local for c, _ in found) else "only"
+        told = ", ".join(f"{c.text}: {c.value:.5g} +- {error:.2g}" for c, error in found)
+        notes.append(f"These data do not determine {', '.join(lost)}" + (f": {only} {told}" if told else " at all"))
     return [*notes, *excess_note(solution), *_unverified(solution)]
 
 

@@ -15,6 +15,9 @@ from symid.recording.prepare import even
 from symid.recording.recording import Recording
 from symid.units import FloatArray
 
+SAMPLES_A_TERM = 10
+"""Samples for each number that is regressed: fewer would be explained by chance."""
+
 
 def smooth_states(recording: Recording, *channels: str, noise: float | None = None) -> Recording:
     """Each channel smoothed, with its velocity and acceleration added.
@@ -104,6 +107,21 @@ def left_by_smoother(values: FloatArray) -> FloatArray:
     memory is taken for motion: what is left of it is less.
     """
     return np.array([_noise_of(column) for column in values.T])
+
+
+def beside_inputs(values: FloatArray, inputs: list[FloatArray]) -> FloatArray:
+    """values, shape(N, m), without the part that inputs, their integrals or the integrals of these explain.
+
+    By a regression of second differences, where what is smooth hardly shows. A voltage that is held makes a current
+    jump, a speed bend and an angle curve suddenly, and no smoother follows that.
+    """
+    moving = [u / np.ptp(u) for u in inputs if np.ptp(u) > 0]
+    terms = [column for u in moving for column in (u, np.cumsum(u), np.cumsum(np.cumsum(u)))]
+    if not terms or len(values) < SAMPLES_A_TERM * len(terms):
+        return values
+    bends = np.diff(np.column_stack(terms), 2, axis=0)
+    found = np.linalg.lstsq(bends, np.diff(values, 2, axis=0), rcond=None)[0]
+    return values - np.column_stack(terms) @ found
 
 
 def _noise_of(values: FloatArray) -> float:

@@ -12,7 +12,7 @@ from symid.errors import TranscriptionError
 from symid.model import Model
 from symid.recording import Recording
 from symid.recording.between import cubic
-from symid.recording.smooth import left_by_smoother, smooth_curves
+from symid.recording.smooth import beside_inputs, left_by_smoother, smooth_curves
 from symid.transcription.inverse import seen_together
 from symid.units import same_dimension
 
@@ -55,8 +55,9 @@ class Measured:
 
     @cached_property
     def left(self) -> np.ndarray:
-        """(outputs,) what a free smoother leaves of the targets."""
-        return left_by_smoother(self.targets[self.nodes])
+        """(outputs,) what a free smoother leaves of the targets, or of what the inputs do not explain of them."""
+        y, inputs = self.targets[self.nodes], [u[self.nodes] for u in self.inputs.values()]
+        return np.minimum(left_by_smoother(y), left_by_smoother(beside_inputs(y, inputs)))
 
     def signal(self, name: str, model: Model) -> np.ndarray:
         """(samples,) a state, input or control."""

@@ -9,6 +9,7 @@ import numpy as np
 from symid.codegen import compile_program
 from symid.codegen.balance import shown_program
 from symid.model import Model
+from symid.transcription.guesses import parameter_guesses
 
 DRAWS, STEPS = 64, 30
 """Random first values for the first sample, and Gauss-Newton steps from each."""
@@ -26,11 +27,12 @@ def seen_together(
 ) -> dict[str, np.ndarray]:
     """States (samples,) [SI] beside the `known` ones, with which outputs are as recorded.
 
-    From outputs that are functions of states and constants alone; none where these have fewer equations than unknown
-    states, or no solution within the states' bounds is found. Of several solutions the nearest to zero begins, and the
-    motion goes on from it.
+    From outputs that are functions of states and constants alone, but for an offset, which is as guessed; none where
+    these have fewer equations than unknown states, or no solution within the states' bounds is found. Of several
+    solutions the nearest to zero begins, and the motion goes on from it.
     """
-    names, program = list(model.states), shown_program(model)
+    guesses = dict(zip(model.parameters, parameter_guesses(model), strict=True))
+    names, program = list(model.states), shown_program(model, guesses)
     rows = [i for i, of in enumerate(program.shows) if of and not of <= known.keys()]
     unknown = sorted(set().union(*(program.shows[i] for i in rows)) - known.keys()) if rows else []
     if not unknown or len(rows) < len(unknown):

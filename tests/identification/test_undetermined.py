@@ -8,15 +8,17 @@ from small_systems import dc_motor
 import symid as si
 
 
-@pytest.mark.parametrize("seed", [0, 5, 6, 23, 28])
+@pytest.mark.parametrize("seed", [[0, 2026], [5, 2026], [6, 2026], [23, 2026], [28, 2026], [7014, 7]])
 def test_four_parameters_of_a_motor_of_which_its_speed_shows_three_combinations(seed):
     """The curvature that keeps unobserved states from being singular hid it: 0.027 +- 0.0006 where 3.84 was true, and a
-    friction of 1e-4 seemed to have no part in it, or that happened to end at its bound made the others seem known."""
-    drawn = dc_motor(np.random.default_rng([seed, 2026]))
+    friction of 1e-4 seemed to have no part in it, or that happened to end at its bound made the others seem known. The
+    last one ends with a hidden current 600 times larger than its scale."""
+    drawn = dc_motor(np.random.default_rng(seed))
     solution = drawn.problem().solve(check=False)
     assert drawn.failure(solution) == "" and np.isinf(solution.parameters["std_error"]).all()
     assert len(solution.determined) == 3 and not solution.parameters["at_bound"].any()
-    assert "These data do not determine resistance, inductance, constant, friction" in str(solution)
+    said = "These data do not determine resistance, inductance, constant, friction: near these values only "
+    assert said in str(solution)  # what is determined is no linear combination
     k = solution.values  # the gain at rest and both time constants are those of the truth
     shown = [
         [
@@ -27,7 +29,7 @@ def test_four_parameters_of_a_motor_of_which_its_speed_shows_three_combinations(
         for p in (k, drawn.truth)
         for stiff in [p["resistance"] * p["friction"] + p["constant"] ** 2]
     ]
-    assert shown[0] == pytest.approx(shown[1], rel=0.05)
+    assert shown[0] == pytest.approx(shown[1], rel=0.1)
 
 
 def test_a_parameter_that_the_data_push_to_its_bound_stays_there():
@@ -50,4 +52,5 @@ def test_what_is_confounded_is_so_in_any_unit(size):
     solution = si.Identification(double, seen).solve(check=False)
     assert list(np.isinf(solution.parameters["std_error"])) == [True, True, False]
     ((text, (value, error)),) = solution.determined.items()
+    assert f"do not determine b, b2: only {text}" in str(solution)
     assert text == "b + b2" and abs(value / size - 2) < 4 * error / size

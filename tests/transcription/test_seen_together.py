@@ -59,6 +59,15 @@ def test_a_gear_is_undone_and_a_known_angle_is_used():
     )
 
 
+def test_an_offset_of_a_sensor_does_not_hide_what_it_shows():
+    """Gyroscopes with biases: all rates began at zero, and a tumbling body ended at 37 times its noise."""
+    truth = motion(0.0)
+    m = arm(lambda m: m.p)
+    m.bias = si.Parameter(unit="rad", bounds=(-0.1, 0.3))
+    m.redefine("y0", m.p + m.bias)
+    np.testing.assert_allclose(seen_together(m, {"y0": truth["p"]}, {})["p"], truth["p"] - 0.1, atol=1e-9)
+
+
 @pytest.mark.parametrize("size", [1e-9, 1.0, 1e9])
 def test_units_do_not_matter(size):
     """Length and angle from the place of a bob, in metres or in nanometres."""

@@ -12,6 +12,7 @@ from symid.checked import nearest
 from symid.errors import SolveError
 from symid.identification.starts.bounds import guesses, parameter_bounds
 from symid.identification.starts.led import motion_with, shoot
+from symid.identification.starts.shooting import computable
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
@@ -110,7 +111,7 @@ def equation_error(
             dense = np.zeros((len(values), len(used), len(p)))
             dense[:, np.searchsorted(used, rows), t.layout.parameter_index[e][cols]] = values
             blocks.append(dense.reshape(-1, len(p)))
-        return np.concatenate(blocks)
+        return computable(np.concatenate(blocks))  # of x^n by n at x = 0 the kernel gives no number
 
     p = np.clip(z[at:], np.nextafter(lower, np.inf), np.nextafter(upper, -np.inf))
     if not (len(p) and len(used) and np.isfinite(residual(p)).all()):

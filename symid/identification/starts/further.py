@@ -11,7 +11,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from symid.identification.starts.bounds import guesses
-from symid.identification.starts.led import free, tracked
+from symid.identification.starts.led import around, free, tracked
 from symid.identification.starts.shooting import Shooting, can_shoot, with_hidden
 from symid.identification.sensitivity import outputs_and_targets
 from symid.identification.starts.default import equation_error
@@ -71,6 +71,9 @@ def further_starts(t: Transcription, z: np.ndarray, solved: bool) -> Iterator[tu
             yield t.start(*found), True
     if shooting is not None and not (seen or large):
         for found in free(shooting):
+            yield t.start(*found), True
+    if shooting is not None and solved and not large:
+        for found in around(shooting, shooting.of_solution(z)):
             yield t.start(*found), True
 
 

@@ -36,6 +36,10 @@ SAME = 1e-3
 ALIKE = 1.02
 """Costs within 2 % are taken for those of the same optimum."""
 
+HOPS, FARTHEST, LEAST = 40, 1.5, 1e-3
+"""Fits from beside an optimum, of which a step has up to ten to the second standard errors; and the least singular
+value, relative to the largest, that makes these errors: along what the outputs do not show, there is no end. Of a
+pendulum that turns over in noise of two radians most of them find the turn that was lost."""
 SHARES = (1.0, 0.1, 0.01)
 """Of the size of a hidden state, from which its initial value is looked for: bounds may be all that is known of it."""
 
@@ -147,10 +151,36 @@ def free(shooting: Shooting) -> Iterator[Motion]:
     """Simulations that nothing leads, fitted from the random parameters with which they err least.
 
     Where states are hidden, a strong lead can follow the recording best where these hardly change: of two tanks where
-    the upper one, as large as a lake, feeds the lower one evenly. All led simulations then end there.
+    the upper one, as large as a lake, feeds the lower one evenly. All led simulations then end there. And where the
+    recorded motion is small, the parameters that move nothing err least: as many are fitted that nobody looked at.
     """
-    ends = sorted((shooting.fit(z, 0.0, PATIENCE) for z in likely(shooting, 0.0)), key=lambda end: end.cost)
+    draws = [*likely(shooting, 0.0), *(drawn(shooting, k) for k in range(DRAWS))]
+    ends = sorted((shooting.fit(z, 0.0, PATIENCE) for z in draws), key=lambda end: end.cost)
     for end in unlike(ends)[:BEST]:
+        found = _ended(shooting, end.x, 0.0)
+        if found is not None:
+            yield found
+
+
+def around(shooting: Shooting, z: np.ndarray) -> Iterator[Motion]:
+    """Simulations that nothing leads, of less error than that of `z`, fitted from unknowns beside it.
+
+    A motion that has lost a turn, or follows a slow part of it by a slower one, is some standard errors from one that
+    has not; from parameters anywhere within their bounds hardly a fit comes near to either.
+    """
+    jacobian, residual = shooting.jacobian(z), shooting.residual(z)
+    size = np.linalg.norm(jacobian, axis=0)
+    size = np.where(size > 0, size, 1.0)
+    _, values, directions = np.linalg.svd(jacobian / size, full_matrices=False)
+    if not values[0] > 0:
+        return  # nothing that was simulated moves an output
+    error = np.sqrt(np.mean(residual**2)) / np.maximum(values, LEAST * values[0])
+    draw, ends = np.random.default_rng(0), []
+    for _ in range(HOPS):
+        step = (draw.standard_normal(len(error)) * error) @ directions / size
+        ends.append(shooting.fit(z + 10 ** draw.uniform(0, FARTHEST) * step, 0.0, PATIENCE))
+    better = sorted((e for e in ends if ALIKE * e.cost < 0.5 * residual @ residual), key=lambda end: end.cost)
+    for end in unlike(better)[:BEST]:
         found = _ended(shooting, end.x, 0.0)
         if found is not None:
             yield found
