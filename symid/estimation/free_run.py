@@ -99,10 +99,19 @@ def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
 
 
 def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:
-    """States fitted to the first second (of its pace) only, then to the whole: rates come out near enough."""
-    count = max(8, int(data.pace / data.segments[0].step))
-    head = Data(tuple(e.head(count) for e in data.segments), data.sensor_noise, driven=False, pace=data.pace)
-    try:
-        return [Fitter(fit.model, head, fixed=tuple(fit.values)).fit(fit.values, plain, fit.process).initial]
-    except SymidError:
-        return []
+    """States fitted to the first second (of its pace) only, then to the whole: rates come out near enough.
+
+    Where a run from rest does not last so long, to the first tenth and more of it by and by.
+    """
+    for parts in ((1.0,), (0.1, 0.3, 1.0)):
+        initial = plain
+        try:
+            for part in parts:
+                count = max(8, int(part * data.pace / data.segments[0].step))
+                heads = tuple(e.head(count) for e in data.segments)
+                head = Data(heads, data.sensor_noise, driven=False, pace=data.pace)
+                initial = Fitter(fit.model, head, fixed=tuple(fit.values)).fit(fit.values, initial, fit.process).initial
+        except SymidError:
+            continue
+        return [initial]
+    return []
