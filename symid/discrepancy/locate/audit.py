@@ -6,19 +6,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.signal import welch
 
 from symid.estimation.sensors.cutoff import estimated_filter
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.swings import pace_of
 from symid.estimation.sensors.sensor_noise import noise_before, white_noise
 from symid.estimation.sensors.smoothing import Smoothing
+from symid.estimation.sensors.spectrum import DIFFERENCES, power_spectrum
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
 
-DIFFERENCES = 2, 4
-"""Orders of the differences of which spectra are taken."""
+FEWEST_SAMPLES = 128
+"""Shorter recordings show no band above the motion; one look at a spectrum has as many samples."""
 FALLING = 4.0
 """A spectrum that still falls by this factor in the upper half of its band shows no floor of sensor noise."""
 FLAT = 1.12
@@ -150,9 +150,10 @@ def _emptiness(pieces: list[np.ndarray], step: float, pace: float) -> tuple[floa
     And whether its spectrum ends in a floor there.
     """
     x = max(pieces, key=len)
-    if len(x) < 128:
+    if len(x) < FEWEST_SAMPLES:
         return np.nan, False
-    f, power = _spectrum(x, step, pace)
+    samples = min(len(x) - max(DIFFERENCES), max(FEWEST_SAMPLES, int(5 * pace / step)))
+    f, power = power_spectrum(x, step, samples)
     total = np.cumsum(power[::-1])[::-1]
     middle, top, lower, upper = (
         float(np.sqrt(np.median(power[(f > a * f[-1]) & (f <= b * f[-1])])))
@@ -165,20 +166,3 @@ def _emptiness(pieces: list[np.ndarray], step: float, pace: float) -> tuple[floa
     if of_sensor or (floor > ROUNDING and ends):
         return np.nan, False
     return float(f[np.argmax(total < NOTHING**2 * total[1])]), ends and floor > DIGITS
-
-
-def _spectrum(x: np.ndarray, step: float, pace: float) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies [Hz] above zero and the power of each, without what slow motion leaks into the fast.
-
-    Differences, which are nearer to white, are looked at through a window and their gain is taken out again
-    (prewhitening; Blackman & Tukey 1958). Those of fourth order leave least of a large slow motion, those of second
-    order least of noise in the slow: of what leaks neither way the lesser is nearer to the truth.
-    """
-    n, found = min(len(x) - max(DIFFERENCES), max(128, int(5 * pace / step))), []
-    for order in DIFFERENCES:
-        f, power = welch(np.diff(x, order), 1 / step, window="blackmanharris", nperseg=n, detrend="linear")
-        power[1:] /= (2 * np.sin(np.pi * f[1:] * step)) ** (2 * order)
-        found.append(power)
-    power = np.minimum(*found)
-    power[0] = power[1]
-    return f, power

@@ -3,7 +3,7 @@
 Beyond the motion lies the noise of sensors, flat or falling, and what random forces do, which falls with
 the fourth power of the frequency, faster above a resonance: a + b / f^2 + c / f^4 + d / f^6, times the square of
 the filter's gain, and the rounding of a file that came after it. The filter is the one of greatest likelihood
-(Whittle 1953) for what no input explains linearly (Bendat & Piersol 2010, 6.2).
+(Whittle 1953) for what no input explains linearly.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from math import inf
 
 import numpy as np
 from scipy.optimize import minimize, minimize_scalar, nnls
-from scipy.signal import csd, welch
 
 from symid.estimation.sensors.smoothing import Smoothing
+from symid.estimation.sensors.spectrum import power_spectrum
 from symid.estimation.sensors.zero_phase import ZeroPhase
 
 ORDERS = (2, 3, 4)
@@ -115,15 +115,9 @@ def _smoothing(f: np.ndarray, power: np.ndarray, rate: float) -> tuple[float, Sm
 
 def _unexplained(outputs, inputs, step: float, look: float) -> tuple[np.ndarray, np.ndarray]:
     """Frequencies and power spectra of what is no linear answer to any one input."""
-    n = int(min(look / step, len(outputs[0]) / SHORTEST)) // 2 * 2
-    how = {"fs": 1 / step, "window": "blackmanharris", "nperseg": n, "noverlap": 2 * n // 3, "detrend": "linear"}
-    found = []
-    for y in outputs:
-        frequency, power = welch(y, **how)
-        for u in inputs:
-            power = power - np.abs(csd(u, y, **how)[1]) ** 2 / np.maximum(welch(u, **how)[1], 1e-300)
-        found.append(np.maximum(power, 1e-300))
-    return frequency, np.array(found)
+    samples = int(min(look / step, len(outputs[0]) / SHORTEST)) // 2 * 2
+    found = [power_spectrum(y, step, samples, inputs) for y in outputs]
+    return found[0][0], np.array([power for _, power in found])
 
 
 def _end_of_motion(frequency: np.ndarray, power: np.ndarray) -> float:

@@ -1,0 +1,44 @@
+"""Power spectra in which what is large and slow does not cover what is small and fast."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.signal import csd, welch
+
+DIFFERENCES = 2, 4
+"""Orders of the differences of which spectra are taken."""
+TINY = 1e-300
+"""Stands for no power."""
+
+
+def power_spectrum(
+    x: np.ndarray, step: float, samples: int, inputs: Sequence[np.ndarray] = ()
+) -> tuple[np.ndarray, np.ndarray]:
+    """Frequencies [Hz], and the power of (N,) `x` at each that is no linear answer to one of the (N,) `inputs`.
+
+    Differences, which are nearer to white, are looked at through a window and their gain is taken out again
+    (prewhitening; Blackman & Tukey 1958). Those of fourth order leave least of a large slow motion, those of second
+    order least of noise in the slow: of what leaks neither way the lesser is nearer to the truth. A motion that is
+    looked at as it is leaks so much through the window that a filter seems to end ten times its cutoff above it in a
+    floor, and another filter fits better (tests/estimation/test_cutoff.py). The answer to an input is found by its
+    coherence (Bendat & Piersol 2010, 6.2).
+
+    Parameters
+    ----------
+    step : between samples [s]. samples : of one look.
+    """
+    found = []
+    for order in DIFFERENCES:
+        how = {"fs": 1 / step, "window": "blackmanharris", "nperseg": samples, "noverlap": 2 * samples // 3}
+        how["detrend"] = "linear"
+        y = np.diff(x, order)
+        frequency, power = welch(y, **how)
+        for u in (np.diff(u, order) for u in inputs):
+            power = power - np.abs(csd(u, y, **how)[1]) ** 2 / np.maximum(welch(u, **how)[1], TINY)
+        power[1:] /= (2 * np.sin(np.pi * frequency[1:] * step)) ** (2 * order)
+        found.append(power)
+    least = np.maximum(np.minimum(*found), TINY)
+    least[0] = least[1]
+    return frequency, least

@@ -1,0 +1,52 @@
+"""The zero-phase filter behind a recording is told from its spectra."""
+
+import numpy as np
+import pytest
+from scipy.signal import butter, filtfilt
+
+from symid.estimation.sensors.cutoff import estimated_filter
+from symid.estimation.sensors.spectrum import power_spectrum
+
+STEP = 0.01
+
+
+def swaying(seed: int, seconds: float = 100.0) -> np.ndarray:
+    """A slow resonance under white forces, and noise of a sensor ten thousand times smaller."""
+    rng = np.random.default_rng(seed)
+    x, v, out = 0.0, 0.0, []
+    for force in rng.standard_normal(round(seconds / STEP)):
+        v += STEP * (force - 0.4 * v - 4.0 * x)
+        x += STEP * v
+        out.append(x)
+    return np.array(out) + 1e-4 * rng.standard_normal(len(out))
+
+
+@pytest.mark.parametrize(("order", "cutoff"), [(2, 4.0), (2, 8.0), (3, 6.0), (4, 6.0)])
+@pytest.mark.parametrize("seed", range(2))
+def test_order_and_rate_are_told_behind_a_large_slow_motion(order, cutoff, seed):
+    """What leaks from the motion through the window passed for another filter: order 2 at 4 Hz for one at 400 Hz."""
+    y = filtfilt(*butter(order, 2 * STEP * cutoff), swaying(seed))
+    found = estimated_filter([y], [], STEP)
+    assert found.order == order
+    assert found.rate == pytest.approx(1 / STEP)
+    assert found.cutoff == pytest.approx(cutoff, rel=0.15)
+
+
+def test_a_slow_motion_does_not_cover_what_a_filter_left():
+    """The gain of the filter is seen over ten powers of ten of the power."""
+    b, a = butter(2, 2 * STEP * 4.0)
+    noise = np.random.default_rng(3).standard_normal(20000)
+    time = np.arange(len(noise)) * STEP
+    f, power = power_spectrum(1e3 * np.sin(0.7 * time) + filtfilt(b, a, noise), STEP, 1200)
+    _, alone = power_spectrum(filtfilt(b, a, noise), STEP, 1200)
+    seen = (f > 2.0) & (f < 40.0)
+    assert alone[seen].min() < 1e-9 * alone[seen].max()
+    assert np.median(np.abs(np.log(power[seen] / alone[seen]))) < 0.1
+
+
+def test_what_an_input_explains_is_left_out():
+    rng = np.random.default_rng(4)
+    u, noise = rng.standard_normal(20000), 0.01 * rng.standard_normal(20000)
+    _, power = power_spectrum(u + noise, STEP, 1000, [u])
+    _, alone = power_spectrum(noise, STEP, 1000)
+    assert np.median(power / alone) == pytest.approx(1.0, abs=0.1)
