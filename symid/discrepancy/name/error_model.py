@@ -46,7 +46,7 @@ def with_error_model(
         search = searched(base, data)
     found, ranking = search.run()
     if holds_of(found.fit, search.base) != holds_of(search.base, search.base):
-        progress("with what was found inputs are smooth between their samples; looking again")
+        progress("inputs are likelier to do something else between their samples; looking again")
         search, found, ranking = _again(search, found, search.data, found.fit, searched)
     if not has_settled(found.fit, search.data):
         progress("with what was found the cutoff of the filter moves; looking again")

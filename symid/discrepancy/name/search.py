@@ -14,6 +14,7 @@ from symid.discrepancy.locate.remainder import Test, remainder
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
+from symid.discrepancy.name.held import held
 from symid.discrepancy.name.jump import with_fitted_jumps
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
@@ -34,6 +35,7 @@ class Search:
     base : the model as given, fitted to `data`. pool : the suspects.
     flexible : the best flexible law at one place, made when asked for.
     jumps : constants of the model that say how abruptly dry friction sets in and that nobody stated.
+    unstated : inputs of which nobody stated what they do between their samples.
     """
 
     base: Fit
@@ -41,6 +43,7 @@ class Search:
     pool: Sequence[Suspect]
     flexible: Callable[[], Hypothesis]
     jumps: Sequence[str] = ()
+    unstated: Sequence[str] = ()
     threads: int = 2
     progress: Callable[[str], None] = lambda text: None
     left: dict[int, list[Test]] = field(default_factory=dict)
@@ -69,8 +72,8 @@ class Search:
     def run(self) -> tuple[Hypothesis, list[Hypothesis]]:
         """The best hypothesis, and each suspect alone, best first.
 
-        It ends early where with what was found the inputs are likelier to follow curves between their samples, as they
-        then do in the model of its fit, and something is left: all else hangs on that.
+        It ends early where with what was found, or instead of it, the inputs are likelier to do something else between
+        their samples, as they then do in the model of its fit: all else hangs on that.
         """
         best, single = Hypothesis((), self.base, self.base, self.data), self.single
         while len(best.suspects) < POLICY.most_effects:
@@ -86,6 +89,8 @@ class Search:
                 if not self._worth(more, best):
                     break
             best = polished(more)
+            if (without := held(best, self.data, self.unstated, self.better)) is not best:
+                return without, single
             curved = with_likeliest_curves(best.fit, self.data)
             if curved is not best.fit:
                 best = replace(best, fit=curved)

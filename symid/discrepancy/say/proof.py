@@ -16,7 +16,7 @@ def unproved(s: Story) -> list[str]:
     if s.proof is None or s.proof.confirmed:
         return []
     return [
-        "The held-out data do not confirm this yet." if s.proof.margin > 0 else "The held-out data speak against this."
+        "The held-out data speak against this." if s.proof.margin <= 0 else "The held-out data do not confirm this yet."
     ]
 
 

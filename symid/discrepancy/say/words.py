@@ -143,6 +143,12 @@ def _caveats(s: Story) -> list[str]:
             f"Between its samples {listed(curved)} is taken to follow a smooth curve; straight lines would lose "
             "some of it."
         )
+    held = [u.channel for u in s.model.inputs.values() if u.hold == "zero"]
+    if held:
+        out.append(
+            f"Between its samples {listed(held)} is taken to be held, as a computer's output is; straight lines would "
+            "look like a delay of half a sample."
+        )
     if s.pieces:
         out.append(
             "In this motion small differences soon become large ones: it is compared in pieces of about "

@@ -1,0 +1,59 @@
+"""An input that a computer holds from sample to sample is not late; a late one is."""
+
+import numpy as np
+import pytest
+
+import symid as si
+
+STEP, FINE = 0.1, 20
+
+
+def lag() -> si.Model:
+    m = si.Model("lag")
+    m.x = si.State(unit="1")
+    m.a, m.k = si.Parameter(unit="1/s", bounds=(0.1, 10)), si.Parameter(unit="1/s", bounds=(0.1, 10))
+    m.u = si.Input(unit="1")
+    m.rate = si.Equation(m.x.dot + m.a * m.x - m.k * m.u)
+    m.y = si.Output(m.x, channel="y")
+    return m
+
+
+def recorded(seed: int, hold: bool, delay_s: float) -> si.Recording:
+    """Of a slow random input, as it is or held from one sample to the next, that acts late."""
+    rng = np.random.default_rng(seed)
+    fine = np.arange(0, 24, STEP / FINE)
+    phases, frequencies = rng.uniform(0, 2 * np.pi, 8), rng.uniform(0.1, 1.2, 8)
+
+    def signal(t: np.ndarray) -> np.ndarray:
+        t = STEP * np.floor(t / STEP + 1e-6) if hold else t
+        return np.sin(2 * np.pi * np.multiply.outer(t, frequencies) + phases).sum(axis=-1)
+
+    u, x = signal(fine - delay_s), np.zeros(len(fine))
+    keep, push = np.exp(-1.5 * STEP / FINE), 2.0 / 1.5 * (1 - np.exp(-1.5 * STEP / FINE))
+    middle = u if hold else 0.5 * (u + np.append(u[1:], u[-1]))
+    for i in range(len(fine) - 1):
+        x[i + 1] = keep * x[i] + push * middle[i]
+    y = x[::FINE] + 0.005 * rng.standard_normal(len(x[::FINE]))
+    time = fine[::FINE]
+    return si.Recording("lag", time, {"u": signal(time), "y": y}, {"u": "1", "y": "1"})
+
+
+def found(recording: si.Recording) -> si.Diagnosis:
+    suspects = [s for s in si.suspects(lag()) if s.term.name == "input_delay"]
+    return si.diagnose(lag(), recording, fit_window=(0, 16), held_out=(16, 24), driven=False, suspects=suspects)
+
+
+def test_a_held_input_is_not_late():
+    said = found(recorded(0, hold=True, delay_s=0.0))
+    assert said.verdict == "adequate"
+    assert "is taken to be held" in str(said)
+
+
+@pytest.mark.parametrize("delay_s", [0.02, 0.13])
+def test_a_late_input_is_late_by_what_it_is(delay_s):
+    said = found(recorded(2, hold=False, delay_s=delay_s))
+    (effect,) = said.effects
+    assert effect.name == "input_delay"
+    value, error = effect.parameters["delay_s"]
+    assert value == pytest.approx(delay_s, abs=3 * error)
+    assert "is taken to be held" not in str(said)
