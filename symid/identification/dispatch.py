@@ -59,49 +59,59 @@ def _aloud(solve: Solve, on_iteration: Callable[[Iteration], bool | None] | None
 
 
 def on_executor(todo: Mapping[str, Solve], executor: Executor) -> Iterator[tuple[str, Outcome]]:
-    """Outcomes as they come; a solve whose worker died is sent once more."""
+    """Outcomes as they come; a solve whose worker died is sent once more, then without those that are `together`."""
     packed: dict[int, object] = {}
-    running: dict[Future, str] = {}
+    running: dict[Future, list[str]] = {}
     attempts = dict.fromkeys(todo, 0)
     connection = _connection(executor)
 
-    def send(key: str) -> None:
-        solve = todo[key]
-        if id(solve.problem) not in packed:
-            packed[id(solve.problem)] = getattr(executor, "share", lambda same: same)(pack(solve.problem))
-        attempts[key] += 1
-        running[executor.submit(solve_packed, packed[id(solve.problem)], replace(solve, problem=None))] = key
+    def send(keys: list[str]) -> None:
+        solves = [todo[key] for key in keys]
+        for key, solve in zip(keys, solves, strict=True):
+            attempts[key] += 1
+            if id(solve.problem) not in packed:
+                packed[id(solve.problem)] = getattr(executor, "share", lambda same: same)(pack(solve.problem))
+        problems = [packed[id(solve.problem)] for solve in solves]
+        running[executor.submit(solve_packed, [replace(solve, problem=None) for solve in solves], *problems)] = keys
 
     try:
-        waiting = list(reversed(todo))
+        waiting = list(reversed(_together(todo)))
         while waiting or running:
             while waiting:
-                key = waiting.pop()
+                keys = waiting.pop()
                 try:
-                    send(key)
+                    send(keys)
                 except BrokenExecutor as broken:
-                    yield key, _lost(todo[key], broken)
-            with alive(lambda: f"{len(running)} solves are at work or wait for their turn"):
+                    yield from ((key, _lost(todo[key], broken)) for key in keys)
+            with alive(lambda: f"{sum(map(len, running.values()))} solves are at work or wait for their turn"):
                 ended, _ = wait(running, LOOK_S, FIRST_COMPLETED)
                 while running and not ended and _connection(executor) is connection:
                     ended, _ = wait(running, LOOK_S, FIRST_COMPLETED)
             if not ended:
-                for key in running.values():
-                    yield key, _lost(todo[key], CancelledError("the connection to the scheduler was lost"))
+                gone = CancelledError("the connection to the scheduler was lost")
+                yield from ((key, _lost(todo[key], gone)) for keys in running.values() for key in keys)
                 return
             for future in ended:
-                key, error = running.pop(future), _error(future)
+                keys, error = running.pop(future), _error(future)
                 if error is None:
-                    yield key, future.result()
+                    yield from zip(keys, future.result(), strict=True)
                 elif isinstance(error, SymidError):  # from the executor: a solve catches its own
                     raise error
-                elif isinstance(error, BrokenExecutor) and attempts[key] < ATTEMPTS:
-                    waiting.append(key)
+                elif isinstance(error, BrokenExecutor) and attempts[keys[0]] < ATTEMPTS:
+                    waiting += [[key] for key in reversed(keys)]
                 else:
-                    yield key, _lost(todo[key], error)
+                    yield from ((key, _lost(todo[key], error)) for key in keys)
     finally:
         for future in running:
             future.cancel()
+
+
+def _together(todo: Mapping[str, Solve]) -> list[list[str]]:
+    """Keys of the solves that one worker does, in the order of the first of them."""
+    found: dict[str, list[str]] = {}
+    for key, solve in todo.items():
+        found.setdefault(f"together {solve.together}" if solve.together else key, []).append(key)
+    return list(found.values())
 
 
 def _connection(executor: Executor):

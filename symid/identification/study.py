@@ -41,6 +41,8 @@ class Solve:
     number, seed : of a random start.
     options : for `symid.ipopt_solver.solve_nlp`.
     labels : what this solve is called in the study's table, column -> value.
+    together : of several processes one does all solves with the same word, in turn, and what their starts share once;
+        their progress is told when all have ended.
 
     Examples
     --------
@@ -54,6 +56,7 @@ class Solve:
     seed: int = 0
     options: Mapping[str, Any] = field(default_factory=dict)
     labels: Mapping[str, Any] = field(default_factory=dict)
+    together: str = ""
 
     def __post_init__(self) -> None:
         if isinstance(self.start, Solution):  # what a worker needs of it is the free vector alone

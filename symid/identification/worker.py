@@ -5,7 +5,7 @@ from __future__ import annotations
 import pickle
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -104,11 +104,14 @@ def pack(problem: Identification) -> bytes:
     return pickle.dumps(replace(problem, model=model), protocol=pickle.HIGHEST_PROTOCOL)
 
 
-def solve_packed(packed: bytes, solve: Solve) -> Outcome:
-    """What a worker runs: `solve` comes without its problem, which is `packed`."""
-    with _BUILDING:  # a dask worker may run several solves as threads
-        problem = _unpacked(packed)
-    return solve_here(replace(solve, problem=problem))
+def solve_packed(solves: Sequence[Solve], *packed: bytes) -> list[Outcome]:
+    """What a worker runs, one after the other: each solve comes without its problem, which is `packed`."""
+    outcomes = []
+    for solve, content in zip(solves, packed, strict=True):
+        with _BUILDING:  # a dask worker may run several solves as threads
+            problem = _unpacked(content)
+        outcomes.append(solve_here(replace(solve, problem=problem)))
+    return outcomes
 
 
 @lru_cache(maxsize=2)

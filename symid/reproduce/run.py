@@ -30,6 +30,8 @@ SOLVER = {
     kind: {"max_iterations": 200, "dual_limit": EXPLODED, "time_limit_s": 3600.0}
     for kind in ("search", "relaxed", "stable")
 } | {"random": {"max_iterations": 500}}
+SHARED = ("search", "stable")
+"""Kinds whose first steps are those of one episode: start k begins alike for all numbers of episodes."""
 DRAWS = 1000
 """Draws of process noise that belong to one seed: start k has number seed * DRAWS + k."""
 
@@ -102,7 +104,8 @@ def reproduce(
             labels = {"controller": case.controller, "episodes": case.episodes, "noise seed": seed}
             for k in range(starts):
                 one, kind = problem(case, body, recording, DRAWS * seed + k, distribution), _start_kind(case)
-                solves[f"{case.name}/{seed}/{k}"] = Solve(one, kind, k, 0, SOLVER[kind], labels)
+                shared = f"{case.controller}/{seed}/{k}" if kind in SHARED else ""
+                solves[f"{case.name}/{seed}/{k}"] = Solve(one, kind, k, 0, SOLVER[kind], labels, shared)
     study = Study(solves, store)
     result = study.run_here(on_finished) if executor is None else study.run(executor, on_finished=on_finished)
     table, findings, failed = result.table, [], {}

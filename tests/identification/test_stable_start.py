@@ -9,6 +9,7 @@ from conftest import pendulum, pendulum_recording
 from symid.errors import TranscriptionError
 from symid.identification import Identification
 from symid.identification.starts import stable
+from symid.identification.starts.search import PARENTS, evolve
 from symid.identification.starts.shooting import LARGEST
 from symid.identification.starts.stable import DisplacedRuns, displaced, stable_start, survives
 from symid.nlp import check_derivatives, with_ridge
@@ -106,10 +107,38 @@ def test_of_the_loops_that_survive_the_one_that_follows_best_is_kept(problem, mo
     t = problem.transcription
     loop = DisplacedRuns(t, 0.0, 4)
     far, near = (loop.unknowns(np.array([damping])) for damping in (1.0, 0.45))
-    ends = {0: [far, near], 1: []}
+    ends = {0: [(far, True), (near, False)], 1: []}
     monkeypatch.setattr(stable, "_candidates", lambda *_: [0, 1])
     monkeypatch.setattr(stable, "_descend", lambda _, z: ends[z])
     assert t.layout.parameters(stable_start(problem, 0, 0))[0] == pytest.approx(0.45)
+    monkeypatch.setattr(stable, "survives", lambda t, parameters, least: False)  # near was not known to
+    assert t.layout.parameters(stable_start(problem, 0, 0))[0] == pytest.approx(1.0)
+
+
+def test_a_search_that_stops_simulating_what_is_worse_finds_the_same_loops(problem):
+    class Patient(DisplacedRuns):
+        def distance(self, z, most=np.inf):
+            return super().distance(z)
+
+    runs = []
+    loops = [kind(problem.transcription, 0.3, 8) for kind in (DisplacedRuns, Patient)]
+    for loop in loops:
+        loop.variance = 0.0  # so that all generations are evolved
+        simulated = loop._displaced_run
+        loop._displaced_run = lambda *a, loop=loop, simulated=simulated: (runs.append(loop), simulated(*a))[1]
+    first = loops[0].unknowns(np.array([0.9]))
+    hasty, patient = (evolve(loop, first, np.random.default_rng(0), 20)[:PARENTS] for loop in loops)
+    assert np.array_equal(hasty, patient)
+    assert runs.count(loops[0]) < runs.count(loops[1])
+
+
+def test_starts_of_other_numbers_of_episodes_share_their_first_step(problem, monkeypatch):
+    fewer = replace(problem, episodes=Episodes(2, amplitude=0.3, seed=5))
+    alone = stable_start(fewer, 4, 1)
+    stable_start(problem, 5, 1)
+    monkeypatch.setattr(stable, "one_relaxed", lambda *_: pytest.fail("what another start has made was made again"))
+    assert stable_start(fewer, 5, 1).shape == alone.shape
+    assert np.array_equal(stable_start(fewer, 4, 1), alone)
 
 
 def test_ridge_about_a_point_has_its_least_there(problem):

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
 from multiprocessing import active_children, get_context
 from pathlib import Path
 
@@ -195,6 +196,23 @@ def test_a_solve_that_kills_two_workers_is_lost_and_no_other(pool, tmp_path, und
     assert [f.row.status for f in again].count("lost") == 1 and again[-1].name == "poison", (
         "only the lost one is repeated"
     )
+
+
+def test_one_worker_does_what_belongs_together(pool, undisturbed):
+    alone = study(starts=2).solves
+    together = {name: replace(solve, together=name.split("/")[0]) for name, solve in alone.items()}
+    assert [solve.key for solve in together.values()] == [solve.key for solve in alone.values()]
+    told = []
+    result = Study(together).run(pool, on_finished=lambda finished: told.append(finished.name.split("/")[0]))
+    assert told in (sorted(told), sorted(told, reverse=True)), "those of one word come one after the other"
+    assert numbers(result) == numbers_of(undisturbed, 2)
+
+
+def test_a_solve_that_kills_its_workers_takes_none_with_it(pool, undisturbed):
+    solves = {"poison": poisoned()} | study(starts=1).solves
+    result = Study({name: replace(solve, together="all") for name, solve in solves.items()}).run(pool, on_finished=None)
+    assert result.rows.pop("poison").status == "lost"
+    assert {n: row.status for n, row in result.rows.items()} == {n: s[0] for n, s in numbers_of(undisturbed, 1).items()}
 
 
 def test_a_broken_foreign_pool_ends_in_rows_not_in_a_crash(tmp_path):

@@ -81,8 +81,8 @@ class Loop:
             np.nan_to_num(np.clip(error, -self.spread[r], self.spread[r]), nan=self.spread[r].max()) * self.weights[r]
         )
 
-    def distance(self, z: np.ndarray) -> float:
-        """Mean square of the error without process noise."""
+    def distance(self, z: np.ndarray, most: float = np.inf) -> float:
+        """Mean square of the error without process noise; where it exceeds `most`, a lower bound of it may do."""
         firsts = [self.t.recording_of.index(r) for r in range(len(self.t.measured))]
         return float(np.mean(np.concatenate([self._error(z, e, noise=False).ravel() for e in firsts]) ** 2))
 

@@ -24,10 +24,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import wraps
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from symid.identification.identity import digest
 from symid.identification.starts.loop import Loop
 from symid.identification.starts.default import equation_error, random_start
 from symid.ipopt_solver import Iteration, solve_nlp
@@ -51,6 +53,26 @@ ENOUGH = 0.7  # of the recorded variance: as many loops as are shot err by less,
 FLOOR = 0.005  # least mutation, relative to the bounds
 NEAR = 0.05  # the regression begins within this part of the bounds
 FEW, MANY = 25, 250  # evaluations of the first and of the last shooting
+KEPT = 32
+"""Results of first steps of starts, some vectors each, that a process keeps."""
+Step = Callable[["Identification", int, int], list[np.ndarray]]
+
+
+def kept(step: Step) -> Step:
+    """Decorator: a step of a start is made once a process; problems that differ only in later steps share it."""
+    made: dict[tuple[str, int, int], list[np.ndarray]] = {}
+
+    @wraps(step)
+    def call(problem: Identification, seed: int, number: int) -> list[np.ndarray]:
+        key = digest(problem.identity), seed, number
+        if key not in made:
+            found = step(problem, seed, number)
+            if len(made) == KEPT:
+                del made[next(iter(made))]
+            made[key] = found
+        return made[key]
+
+    return call
 
 
 def can_search(problem: Identification) -> bool:
@@ -81,17 +103,22 @@ def search_start(problem: Identification, seed: int, number: int) -> np.ndarray:
     SolveError
         The model has delays, or parameters of single recordings.
     """
-    t = problem.transcription
-    z = one_relaxed(problem, seed, number)
-    parameters = z[-len(t.layout.parameter_names) :] * t.layout.parameter_scale
+    t, single = problem.transcription, replace(problem, episodes=Episodes())
     if len(t.recording_of) == len(t.measured):
-        return z
+        return one_relaxed(single, seed, number)
     loop = Loop(t, problem.ridge)
-    rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number, 1)))
-    best = evolve(loop, loop.unknowns(parameters), rng)
-    ends = [loop.shoot(z, FEW) for z in best[:SHOTS]]
+    ends = [loop.shoot(z, FEW) for z in _evolved(single, seed, number)]
     z = loop.shoot(min(ends, key=loop.cost), MANY)
     return loop.free_vector(z)
+
+
+@kept
+def _evolved(single: Identification, seed: int, number: int) -> list[np.ndarray]:
+    """z of the loops that follow the recording best without process noise."""
+    t = single.transcription
+    loop, z = Loop(t, single.ridge), one_relaxed(single, seed, number)
+    rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(number, 1)))
+    return evolve(loop, loop.unknowns(t.layout.parameters(z)), rng)[:SHOTS]
 
 
 @one_blas_thread
@@ -116,9 +143,8 @@ def relaxed_start(problem: Identification, seed: int, number: int) -> np.ndarray
     return best if least < np.inf else z
 
 
-def one_relaxed(problem: Identification, seed: int, number: int) -> np.ndarray:
+def one_relaxed(single: Identification, seed: int, number: int) -> np.ndarray:
     """The free vector of one episode of each recording, from a random point, with estimated process noise."""
-    single = replace(problem, episodes=Episodes())
     return relaxed(single, regressed(single, seed, number))
 
 
@@ -161,7 +187,10 @@ def noisy_rows(t: Transcription) -> np.ndarray:
 
 
 def evolve(loop: Loop, first: np.ndarray, rng: np.random.Generator, children: int = CHILDREN) -> list[np.ndarray]:
-    """The best z of the last generation, best first; initial states stay as recorded."""
+    """The best z of the last generation, best first; initial states stay as recorded.
+
+    What is no parent of the next generation is not simulated any further: only that it is worse matters.
+    """
     pool = [(loop.distance(first), 0, first)]
     for spread in SPREADS:
         pool = sorted(pool)[:PARENTS]
@@ -172,5 +201,6 @@ def evolve(loop: Loop, first: np.ndarray, rng: np.random.Generator, children: in
             p = z[: loop.q]
             p += spread * np.maximum(np.abs(p), FLOOR) * rng.standard_normal(loop.q)
             z = np.clip(z, loop.lower, loop.upper)
-            pool.append((loop.distance(z), len(pool) + rng.random(), z))
+            most = sorted(d for d, _, _ in pool)[PARENTS - 1] if len(pool) >= PARENTS else np.inf
+            pool.append((loop.distance(z, most), len(pool) + rng.random(), z))
     return [z for _, _, z in sorted(pool)]

@@ -22,7 +22,7 @@ import numpy as np
 import scipy
 
 from symid.identification.starts.loop import Loop
-from symid.identification.starts.search import evolve, one_relaxed
+from symid.identification.starts.search import evolve, kept, one_relaxed
 from symid.identification.starts.shooting import computable
 from symid.simulation import Trajectory, simulator
 from symid.threads import one_blas_thread
@@ -53,6 +53,8 @@ TRUST = 3
 """Shooting of all episodes: price, evaluations; it is judged after each, later only as long as the loop survives."""
 RUNS = 8, 4
 """Fitted runs of the former and of the latter."""
+ROUNDING = 1e-9
+"""By what part a sum of squares may differ when it is added up in another order, with much room."""
 RELAXED_RIDGE, RIDGE = 4e-4, 1e-5
 """About zero: in the identification with process noise, which has no loop yet to stay near; in all shootings."""
 
@@ -114,10 +116,14 @@ def stable_start(problem: Identification, seed: int, number: int) -> np.ndarray:
     loop = Loop(problem.transcription, RIDGE)
     single = replace(problem, episodes=Episodes(), ridge=RELAXED_RIDGE, ridge_about="zero")
     loops = _candidates(single, seed, number)
-    standing = [end for z in loops for end in _descend(problem.transcription, z)]
-    return loop.free_vector(min(standing, key=loop.cost) if standing else loops[0])
+    t, ends = problem.transcription, [end for z in loops for end in _descend(problem.transcription, z)]
+    for z, stands in sorted(ends, key=lambda end: loop.cost(end[0])):
+        if stands or _stands(t, loop, z):
+            return loop.free_vector(z)
+    return loop.free_vector(loops[0])
 
 
+@kept
 def _candidates(single: Identification, seed: int, number: int) -> list[np.ndarray]:
     """z of the last of `RUNGS`, of one episode, best first."""
     t = single.transcription
@@ -132,17 +138,20 @@ def _candidates(single: Identification, seed: int, number: int) -> list[np.ndarr
     return sorted(loops, key=loop.cost)
 
 
-def _descend(t: Transcription, z: np.ndarray) -> list[np.ndarray]:
-    """Every z after a round of `DESCENT` whose loop survives."""
-    standing = []
+def _descend(t: Transcription, z: np.ndarray) -> list[tuple[np.ndarray, bool]]:
+    """Every z after a round of `DESCENT`, and whether its loop is known to survive: few of the first ones matter."""
+    ends = []
     for n, (price, evaluations) in enumerate(DESCENT):
         loop = DisplacedRuns(t, price, RUNS[1])
         z = loop.shoot(z, evaluations)
-        if survives(t, (z * loop.scale)[: loop.q], SURVIVES):
-            standing.append(z)
-        elif n >= TRUST:
+        if n >= TRUST and not _stands(t, loop, z):
             break
-    return standing
+        ends.append((z, n >= TRUST))
+    return ends
+
+
+def _stands(t: Transcription, loop: Loop, z: np.ndarray) -> bool:
+    return survives(t, (z * loop.scale)[: loop.q], SURVIVES)
 
 
 class DisplacedRuns(Loop):
@@ -174,10 +183,17 @@ class DisplacedRuns(Loop):
             self.residual, z, self.jacobian, bounds=(self.lower, self.upper), max_nfev=evaluations, ftol=1e-6
         ).x
 
-    def distance(self, z: np.ndarray) -> float:
-        errors = np.concatenate([self._displaced_run(z, *d)[0].ravel() for d in self.displaced])
+    def distance(self, z: np.ndarray, most: float = np.inf) -> float:
         seconds = sum(d.step * d.node.size for d in self.t.program.data)
-        return super().distance(z) + float(errors @ errors) / seconds
+        undisplaced, errors = super().distance(z), []
+        bound = undisplaced * (1 - ROUNDING)
+        for displaced_run in self.displaced:
+            if bound > most:
+                return bound
+            errors.append(self._displaced_run(z, *displaced_run)[0].ravel())
+            bound += float(errors[-1] @ errors[-1]) / seconds * (1 - ROUNDING)
+        together = np.concatenate(errors)
+        return undisplaced + float(together @ together) / seconds
 
     def residual(self, z: np.ndarray) -> np.ndarray:
         return np.concatenate([super().residual(z), *(self._displaced_run(z, *d)[0].ravel() for d in self.displaced)])
