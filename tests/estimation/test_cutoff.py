@@ -50,3 +50,12 @@ def test_what_an_input_explains_is_left_out():
     _, power = power_spectrum(u + noise, STEP, 1000, [u])
     _, alone = power_spectrum(noise, STEP, 1000)
     assert np.median(power / alone) == pytest.approx(1.0, abs=0.1)
+
+
+@pytest.mark.parametrize("count", [8, 11, 12, 24, 60])
+@pytest.mark.parametrize("empty", [False, True])
+def test_few_samples_are_no_error(count, empty):
+    """Of fewer than twelve no spectrum can be taken, which ended in SciPy."""
+    noise = np.random.default_rng(5).standard_normal((2, count))
+    found = estimated_filter([noise[0]], [noise[1]], STEP, empty=empty)
+    assert found is None or empty

@@ -59,8 +59,12 @@ def estimated_filter(
     empty : whether their spectra were found to be empty beyond some frequency, so that there is a filter; else it is a
         smoothing or none.
     """
-    frequency, power = _unexplained(outputs, inputs, step, LOOK * pace)
-    low = max(_end_of_motion(frequency, p) for p in power)
+    samples = int(min(LOOK * pace / step, len(outputs[0]) / SHORTEST)) // 2 * 2
+    if not samples:
+        return None  # too few for a spectrum
+    spectra = [power_spectrum(y, step, samples, inputs) for y in outputs]
+    frequency, power = spectra[0][0], np.array([p for _, p in spectra])
+    low = max(frequency[1], *(_end_of_motion(frequency, p) for p in power))
     use = (frequency > low) & (frequency < 0.97 * frequency[-1])
     f, power = frequency[use], power[:, use]
     if not use.any():
@@ -111,13 +115,6 @@ def _smoothing(f: np.ndarray, power: np.ndarray, rate: float) -> tuple[float, Sm
     costs = [sum(_misfit(p, _smoothed(f, one)) for p in power) for one in near]
     best = int(np.argmin(costs))
     return costs[best], near[best]
-
-
-def _unexplained(outputs, inputs, step: float, look: float) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies and power spectra of what is no linear answer to any one input."""
-    samples = int(min(look / step, len(outputs[0]) / SHORTEST)) // 2 * 2
-    found = [power_spectrum(y, step, samples, inputs) for y in outputs]
-    return found[0][0], np.array([power for _, power in found])
 
 
 def _end_of_motion(frequency: np.ndarray, power: np.ndarray) -> float:
