@@ -26,9 +26,8 @@ from symid.estimation.fitting.fit import Fit
 class Search:
     """A search over sets of suspects.
 
-    Each step adds the suspect that is worth most, puts the earlier ones to the test again, and tries others
-    in their place: greedy choices mislead. What follows a clock is looked for where what follows the state
-    leaves something.
+    Each step adds the suspect that is worth most, puts the earlier ones to the test again, and tries others in their
+    place: greedy choices mislead. What follows a clock is looked for where what follows the state leaves something.
 
     Attributes
     ----------

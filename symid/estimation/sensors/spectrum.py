@@ -16,18 +16,18 @@ TINY = 1e-300
 def power_spectrum(
     x: np.ndarray, step: float, samples: int, inputs: Sequence[np.ndarray] = ()
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Frequencies [Hz], and the power of (N,) `x` at each that is no linear answer to one of the (N,) `inputs`.
+    """(F,) frequencies [Hz], and the power of (N,) `x` at each that is no linear answer to one of the (N,) `inputs`.
 
     Differences, which are nearer to white, are looked at through a window and their gain is taken out again
     (prewhitening; Blackman & Tukey 1958). Those of fourth order leave least of a large slow motion, those of second
-    order least of noise in the slow: of what leaks neither way the lesser is nearer to the truth. A motion that is
-    looked at as it is leaks so much through the window that a filter seems to end ten times its cutoff above it in a
-    floor, and another filter fits better (tests/estimation/test_cutoff.py). The answer to an input is found by its
+    order least of noise in the slow: of what leaks neither way the lesser is nearer to the truth. Without
+    the differences a slow motion leaks so much that from about three times its cutoff on nothing of a filter of order 2
+    is seen, and another filter fits better (tests/estimation/test_cutoff.py). The answer to an input is found by its
     coherence (Bendat & Piersol 2010, 6.2).
 
     Parameters
     ----------
-    step : between samples [s]. samples : of one look.
+    step : between samples [s]. samples : of one look, from 2 to N less the largest of `DIFFERENCES`.
     """
     found = []
     for order in DIFFERENCES:

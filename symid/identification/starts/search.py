@@ -53,12 +53,12 @@ ENOUGH = 0.7  # of the recorded variance: as many loops as are shot err by less,
 FLOOR = 0.005  # least mutation, relative to the bounds
 NEAR = 0.05  # the regression begins within this part of the bounds
 FEW, MANY = 25, 250  # evaluations of the first and of the last shooting
-KEPT = 32
+MOST_SHARED = 32
 """Results of first steps of starts, some vectors each, that a process keeps."""
 Step = Callable[["Identification", int, int], list[np.ndarray]]
 
 
-def kept(step: Step) -> Step:
+def shared(step: Step) -> Step:
     """Decorator: a step of a start is made once a process; problems that differ only in later steps share it."""
     made: dict[tuple[str, int, int], list[np.ndarray]] = {}
 
@@ -67,7 +67,7 @@ def kept(step: Step) -> Step:
         key = digest(problem.identity), seed, number
         if key not in made:
             found = step(problem, seed, number)
-            if len(made) == KEPT:
+            if len(made) == MOST_SHARED:
                 del made[next(iter(made))]
             made[key] = found
         return made[key]
@@ -112,7 +112,7 @@ def search_start(problem: Identification, seed: int, number: int) -> np.ndarray:
     return loop.free_vector(z)
 
 
-@kept
+@shared
 def _evolved(single: Identification, seed: int, number: int) -> list[np.ndarray]:
     """z of the loops that follow the recording best without process noise."""
     t = single.transcription

@@ -22,7 +22,7 @@ import numpy as np
 import scipy
 
 from symid.identification.starts.loop import Loop
-from symid.identification.starts.search import evolve, kept, one_relaxed
+from symid.identification.starts.search import evolve, one_relaxed, shared
 from symid.identification.starts.shooting import computable
 from symid.simulation import Trajectory, simulator
 from symid.threads import one_blas_thread
@@ -123,7 +123,7 @@ def stable_start(problem: Identification, seed: int, number: int) -> np.ndarray:
     return loop.free_vector(loops[0])
 
 
-@kept
+@shared
 def _candidates(single: Identification, seed: int, number: int) -> list[np.ndarray]:
     """z of the last of `RUNGS`, of one episode, best first."""
     t = single.transcription
