@@ -17,7 +17,7 @@ from symid.identification import Solution
 from symid.model import Model
 from symid.progress import kept_alive
 from symid.recording import Recording
-from symid.threads import hold_blas_memory, one_blas_thread
+from symid.threads import hold_blas_memory, one_blas_thread, threads_of
 
 
 @one_blas_thread
@@ -42,7 +42,6 @@ def diagnose(
 
     Parameters
     ----------
-    threads : of the compiled simulations. progress : called with a line of text now and then.
     subject, recording : a model and what it is compared with; or a Solution of one recording, which
         brings its model, recording, window and values. Algebraic variables are solved for, process noise is the
         noise of `driven`; priors, constraints, boundary conditions and objectives take no part.
@@ -57,6 +56,8 @@ def diagnose(
         the spectra tell it where it is not.
     start : values [SI] of some parameters from which the first fit begins.
     suspects : what may be missing; every law of the library at every place by default.
+    threads : in which fits that do not hang on each other are made; the result is the same for any number.
+    progress : called with a line of text now and then.
 
     Raises
     ------
@@ -84,13 +85,14 @@ def diagnose(
         driven=driven,
     )
 
-    # Locate and name: what the model as given leaves of the recording, and the laws that explain it.
-    by = explained(task, sensor_noise, filter, named, threads, progress)
-    search, ranking = by.search, by.ranking
+    with threads_of(threads):
+        # Locate and name: what the model as given leaves of the recording, and the laws that explain it.
+        by = explained(task, sensor_noise, filter, named, progress)
+        search, ranking = by.search, by.ranking
 
-    # Prove: what stands every test.
-    evidence = tested(search.settled(by.found), search, ranking, by.task, by.plain)
-    progress("tested for a remainder")
+        # Prove: what stands every test.
+        evidence = tested(search.settled(by.found), search, ranking, by.task, by.plain)
+        progress("tested for a remainder")
 
     # Say: the verdict, and what a reader should know.
     verdict, effects, equivalent = judge(evidence, search, by.audit)

@@ -58,7 +58,6 @@ def explained(
     sensor_noise: float | Mapping[str, float] | None,
     filter: ZeroPhase | None,
     named: Sequence[Suspect] | None,
-    threads: int,
     progress: Callable[[str], None],
 ) -> Explained:
     """The laws that explain a recording, with a filter and without where a fine sensor may look like one.
@@ -77,7 +76,7 @@ def explained(
     pieces = pieces if task.moved else tuple(free_pieces(pieces, len(task.model.states)))
 
     def under(possible: Audit) -> Explained:
-        return _under(possible, task, pieces, named, threads, progress)
+        return _under(possible, task, pieces, named, progress)
 
     if task.random or not checked.doubtful:  # free runs of random forces tell little
         return under(checked)
@@ -112,7 +111,6 @@ def _under(
     given: Task,
     pieces: tuple[Segment, ...],
     named: Sequence[Suspect] | None,
-    threads: int,
     progress: Callable[[str], None],
 ) -> Explained:
     """The laws that explain a recording of which the audit is right."""
@@ -138,7 +136,7 @@ def _under(
         flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
         jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.model.constants]
         unstated = [k for k, u in task.model.inputs.items() if u.hold == "either"]
-        return Search(base, data, pool, flexible, jumps, unstated, threads, progress)
+        return Search(base, data, pool, flexible, jumps, unstated, progress)
 
     search, found, ranking = with_error_model(possible, searched, settle, progress)
     return Explained(task, checked, plain, search, found, ranking)

@@ -36,7 +36,7 @@ def tried_beside_a_delay(monkeypatch, explains: float) -> set[str]:
     monkeypatch.setattr(exploring, "_begin", begin)
     monkeypatch.setattr(exploring, "_converge", lambda fit, data, first, others: first)
     monkeypatch.setattr(exploring, "by_score", lambda found: found)
-    exploring.explore(fit, None, pool, projection=object(), threads=1)
+    exploring.explore(fit, None, pool, projection=object())
     return begun
 
 

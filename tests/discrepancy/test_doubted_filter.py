@@ -57,7 +57,7 @@ def explained(monkeypatch, found: Audit, errors: tuple, driven: bool = False):
     monkeypatch.setattr(steps, "_under", under)
     monkeypatch.setattr(steps, "free_run", run)
     task = Task(swing(), smoothed(), (0.0, 20.0), None, driven=driven)
-    return steps.explained(task, None, None, None, 1, lambda text: None), asked
+    return steps.explained(task, None, None, None, lambda text: None), asked
 
 
 def test_a_smoothing_is_doubted_unless_it_was_stated(found):

@@ -15,6 +15,7 @@ from symid.estimation.fitting.path import fitted_path
 from symid.mechanics.places import ROLES
 from symid.mechanics.unknown_laws import unknown_force, unknown_input, unknown_sensor
 from symid.model import Model, Port, Term
+from symid.threads import in_threads
 
 MOST_ITERATIONS = 20
 
@@ -57,8 +58,8 @@ def along(path: np.ndarray, expr, model: Model) -> np.ndarray:
 
 def flexible_fits(base: Fit, data: Data, terms: Sequence[Term]) -> list[Hypothesis]:
     """Each of these terms added to `base` and refitted, best score first."""
-    found = []
-    for term in terms:
+
+    def tried(term: Term) -> Hypothesis | None:
         suspect = Suspect(term, established=False)
         try:
             fitter = Fitter(base.model.with_term(term), data)
@@ -67,6 +68,7 @@ def flexible_fits(base: Fit, data: Data, terms: Sequence[Term]) -> list[Hypothes
                 base.values | off, extended(base.initial, fitter.sim), base.process, MOST_ITERATIONS, errors=False
             )
         except SymidError:
-            continue
-        found.append(Hypothesis((suspect,), fit, base, data))
-    return sorted(found, key=lambda h: -h.score)
+            return None
+        return Hypothesis((suspect,), fit, base, data)
+
+    return sorted((h for h in in_threads(tried, terms) if h is not None), key=lambda h: -h.score)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from math import log
 
 import numpy as np
@@ -18,6 +19,7 @@ from symid.estimation.sensors.independence import independent_share
 from symid.mechanics.places import places
 from symid.mechanics.spline_law import Block, spline_law
 from symid.model import Model, Port, Term
+from symid.threads import in_threads
 
 FINER = (11, 16)
 """Then finer ones are tried, as long as the evidence grows: precise sensors see more of a law than noisy ones."""
@@ -110,18 +112,21 @@ def flexible_law(
 
     Places and parts are chosen by forecasts, the few best are fitted completely, and chosen anew around that fit.
     """
-    found = []
-    for fit in fits:
-        projection = Projection(fit, data)
-        ranked = sorted((chosen_blocks(fit, data, p, projection) for p in places(fit.model)), key=lambda c: -c[0])
-        for worth, port, blocks in ranked[:TRIED]:
-            law = fitted(fit, data, port, blocks) if worth > 0 else None
-            found += [law] if law is not None else []
+    found = [law for fit in fits for law in _laws(fit, data)]
     found.sort(key=lambda law: -_comparable(law, fits[0]))
     if not found or _comparable(found[0], fits[0]) <= 0:
         return None
     progress(f"a flexible law at {found[0].port.at} is fitted")
     return _refined(found[0], data)
+
+
+def _laws(fit: Fit, data: Data) -> list[FlexibleLaw]:
+    """On top of one fit, at the places that promise most."""
+    projection = Projection(fit, data)
+    chosen = in_threads(lambda p: chosen_blocks(fit, data, p, projection), places(fit.model))
+    best = [c for c in sorted(chosen, key=lambda c: -c[0])[:TRIED] if c[0] > 0]
+    laws = in_threads(lambda c: fitted(fit, data, *c[1:]), best)
+    return [law for law in laws if law is not None]
 
 
 def _comparable(law: FlexibleLaw, first: Fit) -> float:
@@ -154,12 +159,16 @@ def _refined(law: FlexibleLaw, data: Data) -> FlexibleLaw:
 def _pruned(law: FlexibleLaw, data: Data) -> FlexibleLaw:
     """The law without the parts that are not worth their unknowns: a coarse spline of one may have needed another."""
     while len(law.blocks) > 1:
-        fewer = [fitted(law.base, data, law.port, [b for b in law.blocks if b is not part]) for part in law.blocks]
+        fewer = in_threads(partial(_without, law, data), law.blocks)
         best = max((f for f in fewer if f is not None), key=lambda f: f.evidence, default=None)
         if best is None or best.evidence <= law.evidence:
             break
         law = best
     return law
+
+
+def _without(law: FlexibleLaw, data: Data, part: Block) -> FlexibleLaw | None:
+    return fitted(law.base, data, law.port, [b for b in law.blocks if b is not part])
 
 
 def _same(block: Block, blocks: Sequence[Block]) -> bool:

@@ -22,6 +22,7 @@ from symid.estimation.sensors.independence import independent_share
 from symid.estimation.fitting.path import fitted_path
 from symid.mechanics.dictionary import Shape, closed_expression, closed_law, shapes_of
 from symid.model import Law, Model, Port, Term
+from symid.threads import in_threads
 
 MOST_SHAPES = 3
 """Of one closed form; each pays for being one of the dictionary."""
@@ -114,7 +115,7 @@ def closed_form(law: FlexibleLaw, progress: Callable[[str], None] = lambda text:
     choices, tried = len(regression.shapes), 0
     for sets in regression.best():
         sets = sets[: REFITTED if best is None else REFITTED_MORE]
-        found = [p for p in (_fitted(law, shapes, start) for shapes, start in sets) if p is not None]
+        found = [p for p in in_threads(lambda s: _fitted(law, *s), sets) if p is not None]
         tried += len(found)
         progress(f"{tried} closed forms are fitted")
         share = independent_share(max([law.fit, *(p.fit for p in found)], key=lambda f: f.loglik2).remaining)

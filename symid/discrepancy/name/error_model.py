@@ -19,6 +19,7 @@ from symid.estimation.between_samples import holds_of
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.measurement import has_settled, with_memory
+from symid.threads import in_threads
 
 
 FEW = 3
@@ -100,8 +101,7 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
     Its inputs do between their samples what they do there.
     """
     base = replace(base, model=base.model.with_holds(**holds_of(explained, base)))
-    fitter = Fitter(base.model, data)
-    kept = [explained.simulator.states.index(s) for s in fitter.sim.states]
+    kept = [explained.simulator.states.index(s) for s in base.simulator.states]
     begins = explained.initial[:, kept]
     near = replace(
         base,
@@ -112,9 +112,12 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
     )
     if len(base.initial) != len(begins):  # another cutoff cuts free motion into other pieces
         base = replace(base, initial=begins)
-    fits = [fitter.again(base)]
-    try:
-        fits.append(fitter.again(near))
-    except SymidError:
-        pass  # without what was found these values need not hold the model together
-    return max(fits, key=lambda fit: fit.loglik2)
+
+    def from_found() -> Fit | None:
+        try:
+            return Fitter(base.model, data).again(near)
+        except SymidError:
+            return None  # without what was found these values need not hold the model together
+
+    fits = in_threads(lambda made: made(), [lambda: Fitter(base.model, data).again(base), from_found])
+    return max((fit for fit in fits if fit is not None), key=lambda fit: fit.loglik2)

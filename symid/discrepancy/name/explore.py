@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +16,7 @@ from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
+from symid.threads import in_threads
 
 FIRST_ITERATIONS, CONVERGING_ITERATIONS = 6, 20
 SMALL = 0.15
@@ -47,7 +47,6 @@ def explore(
     later: bool = False,
     least: float = 0.0,
     projection: Projection | None = None,
-    threads: int = 2,
     progress: Callable[[str], None] = lambda text: None,
 ) -> list[Hypothesis]:
     """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found.
@@ -58,32 +57,35 @@ def explore(
     refitted, converged = (
         (POLICY.refitted_later, POLICY.converged_later) if later else (POLICY.refitted, POLICY.converged)
     )
-    with ThreadPoolExecutor(threads) as pool:
-        starts = [s for s in pool.map(lambda s: _starts(fit, data, projection, s), suspects) if s]
-        reach = _reaches(starts)
-        starts.sort(key=lambda s: -reach[s[0].suspect])
-        promising = [s for s in starts if reach[s[0].suspect] > POLICY.worth_refitting]
-        chosen = (promising if len(promising) > POLICY.always_refitted else starts[: POLICY.always_refitted])[:refitted]
-        chosen = [s for s in chosen if least <= 0 or reach[s[0].suspect] > KEPT * least]
-        progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
-        first = [c for c in pool.map(lambda s: _begin(fit, data, s), chosen[: POLICY.always_refitted]) if c is not None]
-        # Where the model is far off, fits explain far more than any forecast, which counts in parts of its error.
-        best = min(max((c.log_ratio for c in first), default=0.0), max(reach.values(), default=0.0))
-        worth = [s for s in chosen[POLICY.always_refitted :] if reach[s[0].suspect] > POLICY.beam_share * best]
-        first += [c for c in pool.map(lambda s: _begin(fit, data, s), worth) if c is not None]
-        first += [c for c in pool.map(lambda s: _begin(fit, data, s), _unseen(starts, first)) if c is not None]
-        first += [c for c in pool.map(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first)) if c is not None]
-        first = list({c.suspect: c for c in sorted(first, key=lambda c: c.log_ratio)}.values())
-        first.sort(key=lambda c: -c.log_ratio)
-        others = {
-            s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast and not t.afresh][:2] for s in starts
-        }
-        good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
-        found = list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), good))
-        rest = first[len(good) :]
-        near = max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near
-        close = [c for c in rest if c.log_ratio > max(near, 0.0) and not c.fit.converged]
-        found += list(pool.map(lambda c: _converge(fit, data, c, others[c.suspect]), close))
+    starts = [s for s in in_threads(lambda s: _starts(fit, data, projection, s), suspects) if s]
+    reach = _reaches(starts)
+    starts.sort(key=lambda s: -reach[s[0].suspect])
+    promising = [s for s in starts if reach[s[0].suspect] > POLICY.worth_refitting]
+    chosen = (promising if len(promising) > POLICY.always_refitted else starts[: POLICY.always_refitted])[:refitted]
+    chosen = [s for s in chosen if least <= 0 or reach[s[0].suspect] > KEPT * least]
+    progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
+
+    def begun(several: Sequence[list[Start]]) -> list[Hypothesis]:
+        return [c for c in in_threads(lambda s: _begin(fit, data, s), several) if c is not None]
+
+    first = begun(chosen[: POLICY.always_refitted])
+    # Where the model is far off, fits explain far more than any forecast, which counts in parts of its error.
+    best = min(max((c.log_ratio for c in first), default=0.0), max(reach.values(), default=0.0))
+    worth = [s for s in chosen[POLICY.always_refitted :] if reach[s[0].suspect] > POLICY.beam_share * best]
+    first += begun(worth)
+    first += begun(_unseen(starts, first))
+    first += [c for c in in_threads(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first)) if c is not None]
+    first = list({c.suspect: c for c in sorted(first, key=lambda c: c.log_ratio)}.values())
+    first.sort(key=lambda c: -c.log_ratio)
+    others = {
+        s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast and not t.afresh][:2] for s in starts
+    }
+    good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
+    found = in_threads(lambda c: _converge(fit, data, c, others[c.suspect]), good)
+    rest = first[len(good) :]
+    near = max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near
+    close = [c for c in rest if c.log_ratio > max(near, 0.0) and not c.fit.converged]
+    found += in_threads(lambda c: _converge(fit, data, c, others[c.suspect]), close)
     return by_score(found + [c for c in rest if c not in close])
 
 

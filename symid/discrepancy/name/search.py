@@ -20,6 +20,7 @@ from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
+from symid.threads import in_threads
 
 
 @dataclass(eq=False)
@@ -43,7 +44,6 @@ class Search:
     flexible: Callable[[], Hypothesis]
     jumps: Sequence[str] = ()
     unstated: Sequence[str] = ()
-    threads: int = 2
     progress: Callable[[str], None] = lambda text: None
     left: dict[int, list[Test]] = field(default_factory=dict)
     tried: list[Hypothesis] = field(default_factory=list)
@@ -220,12 +220,22 @@ class Search:
     def _with_jumps(self, found: list[Hypothesis], less: Hypothesis) -> list[Hypothesis]:
         """`found` on top of `less`, with dry friction that is new there as abrupt as the recording likes it."""
         enough = POLICY.beam_share * max((h.log_ratio for h in found), default=0.0)
-        return [with_fitted_jumps(h, self.jumps, less.fit.model) if h.log_ratio > enough else h for h in found]
+
+        def with_jumps(h: Hypothesis) -> Hypothesis:
+            return with_fitted_jumps(h, self.jumps, less.fit.model) if h.log_ratio > enough else h
+
+        return in_threads(with_jumps, found)
 
     def _known_clocks(self, best: Hypothesis, taken: set) -> list[Hypothesis]:
         """`best` with each clock that explained something alone, from where that was found."""
         known = [h for h in self.clocks if h.suspect.term not in taken]
-        tried = [hypothesis([*best.suspects, h.suspect], best.fit, self.base, self.data, h.fit.values) for h in known]
+        return self._together([([*best.suspects, h.suspect], h.fit.values) for h in known], best)
+
+    def _together(
+        self, sets: Sequence[tuple[Sequence[Suspect], dict[str, float] | None]], near: Hypothesis
+    ) -> list[Hypothesis]:
+        """Sets of suspects, each refitted together from where `near` ended and, of what that lacks, from its values."""
+        tried = in_threads(lambda s: hypothesis(s[0], near.fit, self.base, self.data, s[1]), sets)
         return [h for h in tried if h is not None]
 
     def _explored(self, best: Hypothesis, pool: Sequence[Suspect], least: float = 0.0) -> list[Hypothesis]:
@@ -235,7 +245,6 @@ class Search:
             pool,
             later=bool(best.suspects),
             least=least,
-            threads=self.threads,
             progress=self.progress,
             projection=None if best.suspects else self.projection,
         )
@@ -278,8 +287,7 @@ class Search:
                 for other in (o for o in self.pool if is_alike(o, s) and o.term not in taken):
                     sets.append([other if t is s else t for t in found.suspects])
                     off |= other.named({q.key: q.null or 0.0 for q in other.law.parameters})
-            new = [hypothesis(chosen, found.fit, self.base, self.data, off) for chosen in sets]
-            tried = [found, *(h for h in new if h is not None)]
+            tried = [found, *self._together([(chosen, off) for chosen in sets], found)]
             self.tried += tried[1:]
             share = max(tried, key=lambda h: h.log_ratio).share
             best = max(tried, key=lambda h: self.value(h, share))
@@ -293,8 +301,7 @@ class Search:
         sets = [([s for s in found.suspects if s is not earlier], None) for earlier in found.suspects[:-1]]
         rivals = [h for h in single if h.suspect.term not in taken and h.established >= found.suspects[0].established]
         sets += [([h.suspect, *kept], h.fit.values) for h in rivals[: POLICY.rivals]]
-        tried = [hypothesis(chosen, found.fit, self.base, self.data, more) for chosen, more in sets]
-        tried = [found, *(h for h in tried if h is not None)]
+        tried = [found, *self._together(sets, found)]
         self.tried += tried
         share = max(tried, key=lambda h: h.log_ratio).share
         return max(tried, key=lambda h: self.value(h, share))

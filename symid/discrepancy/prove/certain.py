@@ -17,7 +17,7 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.robust_errors import with_robust_errors
 
 
-def honest(found: Hypothesis, white: bool, threads: int) -> Hypothesis:
+def honest(found: Hypothesis, white: bool) -> Hypothesis:
     """The hypothesis with errors that do not believe in white innovations, without what these errors take back."""
     if white:
         names = (
@@ -25,7 +25,7 @@ def honest(found: Hypothesis, white: bool, threads: int) -> Hypothesis:
             if found.established
             else []
         )
-        return replace(found, fit=unbiased(found.fit, found.data, names, threads))
+        return replace(found, fit=unbiased(found.fit, found.data, names))
     kept = steady(found) or found
     return sure(replace(kept, fit=with_robust_errors(kept.fit, kept.data)))
 

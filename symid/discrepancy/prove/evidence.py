@@ -26,6 +26,7 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.prediction import predictions
 from symid.estimation.measurement import away_from_ends, of_window, restored
 from symid.estimation.free_run import FreeRun
+from symid.threads import in_threads
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +66,7 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
     base, data = search.base, search.data
     left = search.remainder(found)
     white = all(t.locates or t.minus_log10_p <= POLICY.remainder for t in left)
-    before, found = found.suspects, honest(found, white, search.threads)
+    before, found = found.suspects, honest(found, white)
     best = float(largest(search.projection, search.projection.rest[:, None])[0])
     found, chance = beyond_chance(found, null_maxima(search.projection, found.fit), best, white)
     if found.suspects != before:
@@ -150,6 +151,7 @@ def _runs(final: Fit, base: Fit, task: Task, windows: dict[str, Data], refitted:
     if task.values:
         given.append(with_values(base, task.values))
     if final is not base and task.held_out is not None:
-        given += output_error_fit(base, windows["train"])
-        better += output_error_fit(final, windows["train"]) if refitted else []
+        fits = in_threads(lambda fit: output_error_fit(fit, windows["train"]), [base, *[final] * refitted])
+        given += fits[0]
+        better += fits[1] if refitted else []
     return free_runs(given, better, windows, task.settling)

@@ -16,6 +16,7 @@ from symid.discrepancy.policy import POLICY
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.fitting.robust_errors import with_robust_errors
+from symid.threads import in_threads
 
 ITERATIONS = 15
 _UNITS = ("Nm", "Nms", "N", "rad", "rad2", "rad3", "s", "s2", "Hz", "kg", "m", "m2")
@@ -62,33 +63,24 @@ def verdicts(
 
     Empty where a half cannot be fitted.
     """
-    found = []
-    for half, initial in zip(data.halves(), _states(fit, data), strict=True):
-        near = replace(fit, initial=initial)
-        given, whole = (
-            refit([], near, base, half, iterations=ITERATIONS),
-            refit(suspects, near, base, half, iterations=ITERATIONS),
-        )
+
+    def verdict(one: tuple[Data, np.ndarray]) -> HalfVerdict | None:
+        half, near = one[0], replace(fit, initial=one[1])
+        given, whole = (refit(added, near, base, half, iterations=ITERATIONS) for added in ((), suspects))
         if given is None or whole is None:
-            return ()
+            return None
         score = whole.loglik2 - given.loglik2 - penalty(suspects, half, given, whole)
-        explained = score > 0 and bool(suspects)
-        verdict = (
-            "unexplained"
-            if remainder(whole, half)[0].minus_log10_p > POLICY.remainder
-            else "missing_physics"
-            if explained
-            else "adequate"
-        )
-        found.append(
-            HalfVerdict(half.span, verdict, _better(rivals, score, given, half) if len(suspects) == 1 else None)
-        )
-    return tuple(found)
+        left = remainder(whole, half)[0].minus_log10_p > POLICY.remainder
+        said = "unexplained" if left else "missing_physics" if score > 0 and suspects else "adequate"
+        return HalfVerdict(half.span, said, _better(rivals, score, given, half) if len(suspects) == 1 else None)
+
+    found = in_threads(verdict, zip(data.halves(), _states(fit, data), strict=True))
+    return () if None in found else tuple(found)
 
 
 def _better(rivals: Sequence[Suspect], score: float, given: Fit, half: Data) -> Suspect | None:
     """The rival that explains a half better than the score of what was found, if one does."""
-    found = [c for c in explore(given, half, rivals, threads=1) if c.score > score] if rivals else []
+    found = [c for c in explore(given, half, rivals) if c.score > score] if rivals else []
     return found[0].suspect if found else None
 
 
@@ -107,11 +99,13 @@ def survivals(
     lasting = [s for s in suspects if s.scanned is None or s.scanned.clock == "frequency"]
     if not lasting or not fit.errors:
         return ()
-    states, found = _states(fit, data), []
-    for half, initial in zip(data.halves(), states, strict=True):
-        found.append(_on_half(lasting, list(others or suspects), replace(fit, initial=initial), base, half, white))
-        if found[-1] is None:
-            return ()
+    all_suspects = list(others or suspects)
+    found = in_threads(
+        lambda half: _on_half(lasting, all_suspects, replace(fit, initial=half[1]), base, half[0], white),
+        zip(data.halves(), _states(fit, data), strict=True),
+    )
+    if None in found:
+        return ()
     pairs = zip(*found, strict=True)
     return tuple(
         Survival(s.term.name, s.term.location, pair, _reason(pair)) for s, pair in zip(lasting, pairs, strict=True)

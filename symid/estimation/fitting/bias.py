@@ -8,7 +8,6 @@ off (parametric bootstrap; Efron & Tibshirani 1993, 10.6).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +16,7 @@ from symid.errors import SymidError
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.fitting.kalman import held
+from symid.threads import in_threads
 
 REPEATS = 8
 ITERATIONS = 8
@@ -26,7 +26,7 @@ WIDER = 1.6
 """Repeats that spread this many times more than the standard error says replace it; 1 of 100 seems to by chance."""
 
 
-def unbiased(fit: Fit, data: Data, names: Sequence[str], threads: int = 2) -> Fit:
+def unbiased(fit: Fit, data: Data, names: Sequence[str]) -> Fit:
     """`fit` without the bias of its values, if that of one of `names` shows in simulated repeats.
 
     Standard errors become as large as the repeats' spread where that is clearly larger; those of
@@ -34,8 +34,8 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str], threads: int = 2) -> Fi
     """
     if not data.driven or fit.kalman_gain is None or not fit.errors or not names:
         return fit
-    with ThreadPoolExecutor(threads) as pool:
-        found = [v for v in pool.map(lambda seed: _repeat(fit, data, seed), range(REPEATS)) if v is not None]
+    repeats = in_threads(lambda seed: _repeat(fit, data, seed), range(REPEATS))
+    found = [v for v in repeats if v is not None]
     if len(found) < REPEATS / 2:
         return fit
     few = np.sqrt(len(found))
