@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from symid.identification.combinations import Combination, combinations, involved
-from symid.identification.noise import Errors, choose
+from symid.identification.disturbances import Disturbances
+from symid.identification.noise import Beside, Errors, choose
 from symid.identification.sensitivity import PROBES, Reduced, Sensitivity
 from symid.ipopt_solver import SolverResult
 from symid.threads import one_blas_thread
@@ -33,6 +34,8 @@ class ParameterErrors:
     model : name of the error model. why : a sentence about it.
     noise : (recordings, m) standard deviation of the noise of each output.
     residuals : of each recording, with what the fit could follow of them.
+    worth_of_disturbances : objective of one of one standard deviation, in the mean of those that are penalised.
+    misfit : penalised disturbance -> its mean square over what its penalty expects beside the noise.
     """
 
     covariance: np.ndarray
@@ -43,6 +46,8 @@ class ParameterErrors:
     why: str
     noise: np.ndarray
     residuals: list[Errors]
+    worth_of_disturbances: float = 0.0
+    misfit: dict[str, float] = field(default_factory=dict)
 
     @property
     def undetermined(self) -> np.ndarray:
@@ -93,12 +98,16 @@ def parameter_errors(
     s = replace(s, fixed=_pushed(s))
     white, at_bound = s.gauss_newton, s.fixed
     inverse, null, shared = determined(white)
-    errors = _errors(white, shared, known)
-    model = choose(errors, choice, t.episodes.count)
+    errors, disturbances = _errors(white, shared, known), Disturbances(white, inverse)
+    beside, told = None, errors
+    if t.model.controls:
+        told = _told(disturbances, errors)
+        beside = Beside(told, disturbances.left, known.shape[1])
+    model = choose(told, choice, t.episodes.count, beside)
     reduced, inverse = (white, inverse) if model.name == "white" else _exact(s, white, inverse)
-    influences = [g @ inverse for g in s.by_recording(s.weights[:, None] * reduced.slopes, np.sum)]
-    total, noise, why = model.covariance(errors, influences)
-    total = total + t.information * inverse @ reduced.prior @ inverse
+    disturbances = Disturbances(reduced, inverse)
+    total, noise, why = model.covariance(told, disturbances.influences)
+    total = total + t.information * inverse @ disturbances.prior @ inverse
     scale, q = t.layout.parameter_scale, len(t.layout.parameter_names)
     free = ~at_bound[t.layout.offsets[-1] :]
     full, unit = np.zeros((q, q)), np.zeros((q, q))
@@ -107,7 +116,12 @@ def parameter_errors(
     )
     directions = np.zeros((q, null.shape[1]))
     directions[free] = null * scale[free, None]
-    return ParameterErrors(full, unit, directions, ~free, model.name, why, noise, errors)
+    noise = noise[:, : known.shape[1]]
+    found = ParameterErrors(full, unit, directions, ~free, model.name, why, noise, errors)
+    if beside is None or not disturbances.names:
+        return found
+    misfit = dict(zip(disturbances.names, map(float, beside.misfit), strict=True))
+    return replace(found, worth_of_disturbances=float(np.mean(beside.worth[known.shape[1] :])), misfit=misfit)
 
 
 def bound_active(t: Transcription, result: SolverResult) -> np.ndarray:
@@ -187,6 +201,25 @@ def _errors(reduced: Reduced, shared: np.ndarray, known: np.ndarray) -> list[Err
         own_slopes = _orthonormal(own_slopes, weights)
         found.append(Errors(error, slopes, own_slopes, weights, known[r], present, t.measured[r].step))
     return found
+
+
+def _told(d: Disturbances, errors: list[Errors]) -> list[Errors]:
+    """Errors of outputs and disturbances together, in which the parameters' own directions are orthonormal."""
+    values, vectors = np.linalg.eigh(d.inverse)
+    root = vectors * np.sqrt(np.maximum(values, 0.0))
+    parts = zip(errors, d.error, d.slopes, d.weights, d.known, d.present, strict=True)
+    return [
+        replace(
+            r,
+            error=error,
+            shared=slopes @ root * present[:, :, None],
+            own=np.zeros((*error.shape, 0)),
+            weights=np.concatenate([r.weights, weights * d.t.episodes.count]),
+            known=np.concatenate([r.known, known]),
+            present=present,
+        )
+        for r, error, slopes, weights, known, present in parts
+    ]
 
 
 def _orthonormal(slopes: np.ndarray, weights: np.ndarray) -> np.ndarray:

@@ -16,6 +16,8 @@ import numpy as np
 import scipy
 
 from symid.identification.covariance import bound_active, determined
+from symid.identification.disturbances import penalised
+from symid.identification.noise import UNFIT
 from symid.identification.sensitivity import Sensitivity
 from symid.identification.weighting import TIGHT
 from symid.threads import one_blas_thread
@@ -36,10 +38,11 @@ def to_marginal(solution: Solution, **solver) -> Solution:
     solver : goes to `Identification.solve_from`. A turn that is not solved ends the turns.
     """
     p = solution.problem
-    if not p.model.processes or not solution.solved or p.weights is not None:
+    if not solution.solved or not likely(solution):
         return solution
     for _ in range(TURNS):
-        tilt, scale = slopes_of(solution)
+        worth = p.transcription.information if p.model.processes else solution.errors.worth_of_disturbances
+        tilt, scale = slopes_of(solution, worth)
         if not tilt:
             break
         problem = replace(p, tilt=tilt)
@@ -55,9 +58,22 @@ def to_marginal(solution: Solution, **solver) -> Solution:
     return solution
 
 
+def likely(solution: Solution) -> bool:
+    """Whether the objective is the likelihood of disturbances that are estimated with the motion, up to its unit."""
+    p, model = solution.problem, solution.problem.model
+    if model.processes:
+        return p.weights is None
+    if model.objectives or any(c.soft is not None for c in model.constraints.values()) or not penalised(model):
+        return False
+    return all(1 / UNFIT < ratio < UNFIT for ratio in solution.errors.misfit.values())
+
+
 @one_blas_thread
-def slopes_of(solution: Solution) -> tuple[dict[str, float], np.ndarray]:
+def slopes_of(solution: Solution, worth: float) -> tuple[dict[str, float], np.ndarray]:
     """Slope of log det H by each parameter, as the objective has it [its unit / SI]; and (q,) standard errors [SI].
+
+    worth : objective of a disturbance of one standard deviation. It is of disturbances as large as those that are there
+    that the objective must not know, whatever their penalty expects.
 
     No slopes where conditions hold beside the equations of motion and the whole initial state.
     """
@@ -70,8 +86,8 @@ def slopes_of(solution: Solution) -> tuple[dict[str, float], np.ndarray]:
         along = np.zeros(len(z))
         along[reduced.states], along[place] = reduced.follow[:, k], 1.0
         logs = [_log_determinant(replace(s, z=z + sign * STEP * along)) for sign in (1, -1)]
-        slopes[place - first] = t.information * (logs[0] - logs[1]) / (2 * STEP)
-    errors[reduced.parameters - first] = np.sqrt(t.information * np.diag(determined(reduced)[0]))
+        slopes[place - first] = worth * (logs[0] - logs[1]) / (2 * STEP)
+    errors[reduced.parameters - first] = np.sqrt(worth * np.diag(determined(reduced)[0]))
     known = np.all(np.isfinite(slopes))
     named = dict(zip(t.layout.parameter_names, map(float, slopes / scale), strict=True))
     return named if known else {}, errors * scale

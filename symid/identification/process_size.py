@@ -76,7 +76,7 @@ def to_sized(solution: Solution, **solver) -> Solution:
         solution = _solved_with(solution, p, sizes, noise, **solver)
         if not solution.solved:
             return solution
-        p = replace(p, tilt=slopes_of(solution)[0])
+        p = replace(p, tilt=slopes_of(solution, solution.transcription.information)[0])
         new, seen, outputs = _updated(solution, names)
         step = {n: np.clip(new[n] / sizes[n], 1 / FASTEST, FASTEST) for n in names}
         sizes = {n: sizes[n] * step[n] for n in names}

@@ -164,9 +164,13 @@ class Sensitivity:
         """With the curvature of outputs and constraints."""
         return Reduced(self, self.symmetric(self.t.program.hessian(self.z, self.multipliers, 1.0)))
 
-    def by_recording(self, rows: np.ndarray, over=np.mean) -> list[np.ndarray]:
-        """(rows, q) in the order of `outputs` -> per recording (K + 1, m, q), the mean (or sum) over its episodes."""
-        m, counts = len(self.t.model.outputs), sample_counts(self.t)
+    def by_recording(self, rows: np.ndarray, over=np.mean, channels: int | None = None) -> list[np.ndarray]:
+        """(rows, q) in the order of `outputs` -> per recording (K + 1, m, q), the mean (or sum) over its episodes.
+
+        channels : m, where they are not the outputs.
+        """
+        m = len(self.t.model.outputs) if channels is None else channels
+        counts = sample_counts(self.t)
         blocks = [
             b.reshape(k, m, rows.shape[1])
             for b, k in zip(np.split(rows, np.cumsum([m * k for k in counts])[:-1]), counts, strict=True)

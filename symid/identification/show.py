@@ -9,6 +9,7 @@ import numpy as np
 
 from symid.identification.elsewhere import excess_note
 from symid.identification.fit import common_unit, fit_text, rms_text
+from symid.identification.noise import UNFIT
 from symid.identification.weighting import by_noise
 from symid.model.show import MEANING_EM
 from symid.units import with_error
@@ -24,6 +25,8 @@ SHOWN = 3
 
 VERIFIED = 25_000
 """Unknowns up to which a solution is verified when it is shown: that takes a second or less."""
+FAR = 100.0
+"""Times that a penalty is too loose from which on the noise hides by how much."""
 
 
 def problem_facts(problem: Identification) -> dict[str, str]:
@@ -87,7 +90,7 @@ def warnings(solution: Solution) -> list[str]:
     states = solution.model.states
     checked = solution.solved and solution.transcription.layout.size <= VERIFIED
     verified = solution.verification.sentences if checked else ()
-    return [*solution.problem.remarks, *_at_bounds(solution), *_joint(solution), *verified] + [
+    return [*solution.problem.remarks, *_at_bounds(solution), *_joint(solution), *_unfit(solution), *verified] + [
         f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} {states[name].unit}) at "
         f"{100 * share:.2g} % of the nodes: they cut the motion off, which biases the parameters; widen them with "
         f"model.with_bounds({name}=(lower, upper))"
@@ -121,6 +124,31 @@ def _joint(solution: Solution) -> list[str]:
         f"{', '.join(solution.values)}: of the largest joint density with the motion, not of the recordings' "
         f"likelihood alone, so that process noise ({', '.join(p.model.processes)}) takes the place of damping; {why}"
     ]
+
+
+def _unfit(solution: Solution) -> list[str]:
+    """A sentence for each estimated disturbance whose penalty is far from what it shows."""
+    found = []
+    for name, ratio in solution.errors.misfit.items() if solution.solved else ():
+        u = solution.model[name]
+        if 1 / UNFIT < ratio < UNFIT:
+            continue
+        if name in solution.model.processes:
+            found.append(
+                f"{name}: its motion is {np.sqrt(ratio):.2g} times what its size {u.size:g} says; leave out size"
+            )
+        elif ratio > 1:
+            found.append(
+                f"{name}: smooth={u.smooth:g} is {ratio:.2g} times too stiff beside the noise, so that the parameters "
+                f"take up what it does not follow; smooth={u.smooth / ratio:.2g} fits"
+            )
+        else:
+            told = f"{1 / ratio:.2g} times" if ratio > 1 / FAR else "far"
+            found.append(
+                f"{name}: smooth={u.smooth:g} is {told} too loose beside the noise, which it follows and which "
+                f"biases the parameters; try smooth={u.smooth / max(ratio, 1 / FAR):.2g}"
+            )
+    return found
 
 
 def error_notes(solution: Solution) -> list[str]:

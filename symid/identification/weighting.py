@@ -127,7 +127,10 @@ def _spread(targets: np.ndarray) -> np.ndarray:
 
 
 def estimated(solution: Solution) -> np.ndarray:
-    """(recordings, m) noise [SI]: as known where the residual does not say otherwise, else the residual's RMS."""
+    """(recordings, m) noise [SI]: as known where the residual does not say otherwise, else the residual's RMS.
+
+    Beside an estimated disturbance, which follows a part of the noise, it is the noise that leaves such a residual.
+    """
     known = noise_levels(replace(solution.problem, noise=None))
     rms = np.array(
         [
@@ -135,6 +138,8 @@ def estimated(solution: Solution) -> np.ndarray:
             for y, d in outputs_and_targets(solution.transcription, solution.result.z)
         ]
     )
+    if solution.model.controls and solution.errors is not None:
+        rms = solution.errors.noise
     return np.where(rms < TRUST * known, known, rms)
 
 

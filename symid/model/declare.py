@@ -78,8 +78,8 @@ class Control(AlongTime, Component):
     hold : "linear" from node to node, or "zero": constant from each node to the next (zero-order hold).
     smooth : weight [objective's unit / (unit/s)^2 / s] of the integral of its squared rate, added to the
         objective: it makes the control an estimated disturbance that is as smooth as the data allow. The objective is
-        the integral of squared errors, or -2 log of the likelihood where the noise is given. Standard errors do not
-        count what a smooth control takes up: a State that Process noise drives does the same with a likelihood.
+        the integral of squared errors, or -2 log of the likelihood where the noise is given. Standard errors count
+        what the control takes up, whatever its weight, and a Solution warns of one that is far from what fits.
 
     Raises
     ------

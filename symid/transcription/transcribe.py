@@ -40,6 +40,7 @@ class Transcription:
     program : values and derivatives of the nonlinear program.
     fingerprint : of the model at this moment; results of another one are refused.
     information : the objective of an error of one standard deviation, by which priors are weighted.
+    cost : the objective of a unit of what the model's own objectives, soft constraints and smooth controls ask for.
     """
 
     model: Model
@@ -52,6 +53,7 @@ class Transcription:
     fingerprint: str
     seconds: dict[str, float]
     information: float = 1.0
+    cost: float = 1.0
 
     @property
     def diverged(self) -> float:
@@ -161,7 +163,17 @@ def transcribe(
         wanted=demands.wanted(),
     )
     return Transcription(
-        model, scheme, episodes, tuple(measured), recording_of, layout, program, model.fingerprint, seconds, information
+        model,
+        scheme,
+        episodes,
+        tuple(measured),
+        recording_of,
+        layout,
+        program,
+        model.fingerprint,
+        seconds,
+        information,
+        cost,
     )
 
 

@@ -9,26 +9,32 @@ import numpy as np
 from symid.checked import shown
 from symid.errors import SolveError
 from symid.identification.noise import hac
+from symid.identification.noise.beside import Beside
 from symid.identification.noise.clusters import FEWEST_CLUSTERS, clustered
 from symid.identification.noise.memory import Memory, memory
 from symid.identification.noise.residual import REFUTED, Errors, likeliest, white, whiteness
 from symid.identification.noise.uneven import by_sample, said
 
 CHOICES = ("auto", "white", "coloured", "clustered")
+ASKED, EPISODES = "as asked for", "episodes with process noise leave residuals with a memory"
 TOLD = 0.5
 """Probability of a memory from which on it is told beside a residual that does not show it: what it was before."""
 
 
 @dataclass(frozen=True, eq=False)
 class ErrorModel:
-    """An error model, why it was chosen, and what is known of the noise's memory where that is one of few numbers."""
+    """An error model, why it was chosen, and what is known of the noise's memory where that is one of few numbers, or
+    of noise beside an estimated disturbance."""
 
     name: str
     why: str
     memory: Memory | None = None
+    beside: Beside | None = None
 
     def covariance(self, errors: list[Errors], influences: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray, str]:
         """(q, q) covariance of scaled parameters, (recordings, m) standard deviations of the noise [SI], and why."""
+        if self.beside is not None:
+            return self._beside(errors, influences), np.sqrt(self.beside.variances), self.why
         if self.name == "clustered":
             return *clustered(errors, influences), self.why
         if self.name == "coloured" and self.memory is None:
@@ -47,9 +53,17 @@ class ErrorModel:
             own = own * np.outer(times, times)
         return own, noise, f"{self.why}; {doubt}"
 
+    def _beside(self, errors: list[Errors], influences: list[np.ndarray]) -> np.ndarray:
+        if self.name == "white":
+            return self.beside.covariance(influences)
+        return (clustered if self.name == "clustered" else hac.coloured)(errors, influences)[0]
 
-def choose(errors: list[Errors], choice: str, episodes: int) -> ErrorModel:
-    """The error model that is asked for, or that the residuals ask for."""
+
+def choose(errors: list[Errors], choice: str, episodes: int, beside: Beside | None = None) -> ErrorModel:
+    """The error model that is asked for, or that the residuals ask for.
+
+    beside : of the same errors, where disturbances are estimated with the motion.
+    """
     if not isinstance(choice, str) or choice not in CHOICES:
         raise SolveError(
             f"error model {shown(choice)}: known are {', '.join(CHOICES)}; "
@@ -61,11 +75,13 @@ def choose(errors: list[Errors], choice: str, episodes: int) -> ErrorModel:
             f"{'is' if len(errors) == 1 else 'are'} {len(errors)}: cut the recording into segments, or choose "
             "'coloured'"
         )
+    if beside is not None:
+        return _chosen_beside(beside, choice, episodes)
     if choice in ("white", "clustered"):
-        return ErrorModel(choice, "as asked for")
-    found, why = memory(errors), "as asked for"
+        return ErrorModel(choice, ASKED)
+    found, why = memory(errors), ASKED
     if choice == "auto" and episodes > 1:
-        why = "episodes with process noise leave residuals with a memory"
+        why = EPISODES
     elif choice == "auto":
         chance = whiteness(likeliest(likeliest(errors)))
         if chance > REFUTED:
@@ -75,6 +91,22 @@ def choose(errors: list[Errors], choice: str, episodes: int) -> ErrorModel:
     if found is not None and whiteness(likeliest(likeliest(found.innovations()))) > REFUTED:
         return ErrorModel("coloured", f"{why}, {_told(found)}", found)
     return ErrorModel("coloured", why)
+
+
+def _chosen_beside(beside: Beside, choice: str, episodes: int) -> ErrorModel:
+    if choice != "auto" or episodes > 1:
+        return ErrorModel(
+            "coloured" if choice == "auto" else choice, ASKED if choice != "auto" else EPISODES, None, beside
+        )
+    chance = f"(p {_chance(beside.whiteness)})"
+    if why := beside.refuted():
+        return ErrorModel("coloured", f"{why} {chance}", None, beside)
+    return ErrorModel(
+        "white",
+        f"beside an estimated disturbance, whose residual its autocorrelation does not refute {chance}",
+        None,
+        beside,
+    )
 
 
 def _white(errors: list[Errors], chance: float, found: Memory | None) -> str:
