@@ -172,7 +172,7 @@ def stability_of(
     """
     chosen = tuple(name for name, s in model.states.items() if s.role != "memory")
     rows = recording_rows(recording, window)
-    recorded = np.stack([recording[_channel(model, name)][rows] for name in chosen], axis=1)
+    recorded = np.stack([recording[_channel(model, name, recording)][rows] for name in chosen], axis=1)
     outputs = {name: recording[o.channel] for name, o in model.outputs.items()}
     points = grid(recorded.min(axis=0), recorded.max(axis=0), per_state)
     states = complete(model, points, values)
@@ -201,10 +201,10 @@ def recording_rows(recording: Recording, window: tuple[float, float]) -> np.ndar
     return rows
 
 
-def _channel(model: Model, state: str) -> str:
-    """Channel of the recording with this state: as the output that shows it, or by its own name."""
+def _channel(model: Model, state: str, recording: Recording) -> str:
+    """Channel with this state: of the output that shows it, of its own name, or of the rate of such a one."""
     shown = {str(o.expr): o.channel for o in model.outputs.values()}
-    if state in shown:
-        return shown[state]
+    if state in shown or state in recording.channels:
+        return shown.get(state, state)
     coordinate = model.rates().get(state)
     return rate_name(shown[coordinate]) if coordinate in shown else state

@@ -156,7 +156,7 @@ def ode_source(model: Model) -> OdeSource:
                 (i, j, d)
                 for i, r in enumerate(rows)
                 for j, s in enumerate(groups[g])
-                if r.has(s) and (d := sm.diff(r, s)) != 0
+                if r.has(s) and (d := slope(r, s)) != 0
             ]
             functions[name][f"d{g}"] = [d for _, _, d in found]
             entries[f"{name}_{g}"] = [i for i, _, _ in found], [j for _, j, _ in found]
@@ -177,6 +177,12 @@ def ode_source(model: Model) -> OdeSource:
         bool(observed.free_symbols & {*rates, *late}),
         written,
     )
+
+
+def slope(expr: sm.Expr, of: sm.Symbol) -> sm.Expr:
+    """The derivative as compiled ones are: that of a step (sign, Heaviside, floor) is zero (`codegen.lower`)."""
+    found = sm.diff(expr, of)
+    return found.xreplace(dict.fromkeys(found.atoms(sm.DiracDelta, sm.Derivative, sm.Subs), sm.Integer(0)))
 
 
 def _check(model: Model, unknown: set[sm.Symbol], equations: int) -> None:

@@ -3,7 +3,8 @@
 from symid.conceal.conceal import Concealed, Unsuitable, conceal
 from symid.conceal.draw import draw_case
 from symid.conceal.equivalents import with_equivalents
-from symid.conceal.setup import Setup, rig_facts, setup_from_facts, standing_facts
+from symid.conceal.facts import rig_facts, standing_facts
+from symid.conceal.setup import Setup, setup_from_facts
 from symid.conceal.write import write_case
 
 __all__ = [

@@ -74,6 +74,7 @@ def conceal(
 
     Parameters
     ----------
+    setup : who moves, and how it is recorded.
     terms : laws at places, of the library or a user's own, each with all of its parameters [SI] by key.
     seed : of the input and of all noise; the same seed gives the same bytes.
     visibility : aimed at by the size of the sway, where the setup leaves that open.
@@ -82,6 +83,15 @@ def conceal(
     Raises
     ------
     Unsuitable : the motion diverges or leaves its range, or the sway would be none that people have.
+
+    Examples
+    --------
+    >>> rng = np.random.default_rng(0)
+    >>> setup = setup_from_facts(rig_facts(rng, conservative=False), rng)
+    >>> friction = si.mechanics.LIBRARY["coulomb_friction"].at("joint2")
+    >>> case = conceal(setup, {friction: {"torque_Nm": 1e-3}}, seed=1)
+    >>> case.kind, bool(case.visibility > 1)                # more than the noise: a diagnosis should find it
+    ('single', True)
     """
     truth = setup.model
     for term in terms:

@@ -8,11 +8,12 @@ from dataclasses import replace
 import numpy as np
 
 from symid.conceal.conceal import Concealed, Unsuitable, conceal, needed
+from symid.conceal.facts import rig_facts, standing_facts
 from symid.conceal.magnitudes import draw_terms, draw_values
-from symid.conceal.setup import SWAY, Setup, rig_facts, setup_from_facts, standing_facts
+from symid.conceal.setup import SWAY, Setup, setup_from_facts
 from symid.errors import SymidError
 from symid.mechanics import CANONICAL, LIBRARY
-from symid.model import Term
+from symid.model import Law, Term
 from symid.simulation import simulator
 
 KINDS = {"none": 0.25, "single": 0.5, "two": 0.15, "unlisted": 0.1}
@@ -33,7 +34,7 @@ def draw_case(
     effects: Sequence[tuple[str, str, Mapping[str, float]]] | None,
     seed: Sequence[int],
     kind: str | None = None,
-    laws=LIBRARY,
+    laws: Mapping[str, Law] = LIBRARY,
     listed: Collection[str] = CANONICAL,
 ) -> Concealed:
     """A case with the effects asked for, or (None) with random ones.
@@ -44,10 +45,17 @@ def draw_case(
     effects : name, place and given parameters of each; what is not given is drawn.
     seed : whole numbers; the same numbers give the same case.
     kind : of `KINDS`, for random effects; drawn if None.
+    laws : by name, those of the library and a user's own. listed : names that an answer may give.
 
     Raises
     ------
     SymidError : no suitable case is found in many attempts; the message says why the last one failed.
+
+    Examples
+    --------
+    >>> case = draw_case("rig", [("coulomb_friction", "joint2", {"torque_Nm": 1e-3})], seed=(1,))  # doctest: +SKIP
+    >>> case.kind                                                                                  # doctest: +SKIP
+    'single'
     """
     rng = np.random.default_rng(seed)
     if effects is None:

@@ -39,7 +39,17 @@ STARTS, EVALUATIONS = 2, 15
 
 
 def with_equivalents(case: Concealed) -> Concealed:
-    """`case` with the answers that are equivalent, or nearly so, to each of its effects."""
+    """`case` with the answers that are equivalent, or nearly so, to each of its effects.
+
+    Parameters
+    ----------
+    case : what `conceal` or `draw_case` made.
+
+    Examples
+    --------
+    >>> with_equivalents(case).equivalent                                        # doctest: +SKIP
+    ((),)
+    """
     white = _whitener(outputs_of(case.setup.model, case.recording) - case.clean)
     found = [_alternatives(case, term, white) for term in case.terms]
     return replace(

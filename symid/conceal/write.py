@@ -97,7 +97,17 @@ def csv_text(case: Concealed) -> str:
 
 
 def write_case(case: Concealed, folder: str | Path, name: str) -> Path:
-    """Write ``cases/NAME/recording.csv``, ``cases/NAME/case.json`` and ``sealed/NAME.json``; the case's directory."""
+    """Write ``cases/NAME/recording.csv``, ``cases/NAME/case.json`` and ``sealed/NAME.json``; the case's directory.
+
+    Parameters
+    ----------
+    case : what `conceal` or `draw_case` made. folder : made if it is not there. name : of the case.
+
+    Examples
+    --------
+    >>> write_case(case, "practice", "r01")                                      # doctest: +SKIP
+    PosixPath('practice/cases/r01')
+    """
     folder = Path(folder)
     directory = folder / "cases" / name
     write_json(folder / "sealed" / f"{name}.json", _short(plain(sealed_document(case, name))))

@@ -20,6 +20,8 @@ from symid.recording import Recording
 
 Part = tuple[float, float] | str
 MOST_THREADS = 1024
+BEYOND = 1.01
+"""Samples that a window may reach beyond the recording, and two windows may share."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +94,8 @@ def _check_parts(task: Task) -> None:
     for name in ("fit_window", "held_out"):
         part = getattr(task, name)
         if part is not None and not isinstance(part, str):
-            checked.window(part, f"diagnose: {name}", DiagnosisError)
+            _refuse_outside(task.recording, checked.window(part, f"diagnose: {name}", DiagnosisError), name)
+    _refuse_overlap(task)
     checked.flag(task.driven, "diagnose: driven", DiagnosisError)
     checked.number(task.settling, "diagnose: settling", DiagnosisError, least=0.0)
     if task.segment_length is not None:
@@ -102,6 +105,30 @@ def _check_parts(task: Task) -> None:
             raise DiagnosisError(
                 f"diagnose: segment_length={length:g} s holds no two samples {step:g} s apart; give more"
             )
+
+
+def _refuse_outside(recording: Recording, window: tuple[float, float], name: str) -> None:
+    """A window reaches at most a sample beyond the recording: ten seconds may end a step before 10 s."""
+    (start, end), (first, last) = window, recording.interval
+    step = BEYOND * float(np.median(np.diff(recording.time)))
+    if start < first - step or end > last + step:
+        raise DiagnosisError(
+            f"diagnose: {name}={start:g} to {end:g} s does not lie in {recording.name}, which has {first:g} to "
+            f"{last:g} s"
+        )
+
+
+def _refuse_overlap(task: Task) -> None:
+    fit, later = task.fit_window, task.held_out
+    if isinstance(fit, str) or isinstance(later, str) or later is None:
+        same, shared = fit == later, f"'{fit}'"
+    else:
+        start, end = max(fit[0], later[0]), min(fit[1], later[1])
+        same, shared = end - start > BEYOND * float(np.median(np.diff(task.recording.time))), f"{start:g} to {end:g} s"
+    if same:
+        raise DiagnosisError(
+            f"diagnose: fit_window and held_out share {shared}: what was fitted proves nothing; give two parts"
+        )
 
 
 def listed_suspects(given: object) -> list[Suspect] | None:

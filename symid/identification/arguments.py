@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
+from math import inf
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from symid import checked
 from symid.errors import SolveError, TranscriptionError
@@ -84,7 +88,8 @@ def refuse_wrong_types(problem: Identification) -> None:
         checked.number(value, f"tilt of '{of}'", TranscriptionError)
     refine = "collocation intervals of a sample interval, refine"
     checked.whole(problem.refine, refine, TranscriptionError, least=1, most=FINEST)
-    checked.number(problem.ridge, "ridge", TranscriptionError)
+    if not checked.number(problem.ridge, "ridge", TranscriptionError, least=0.0) < inf:
+        raise TranscriptionError("ridge=inf: give a finite number of at least 0")
     for name in ("backend", "ridge_about"):
         checked.kind(getattr(problem, name), str, name, TranscriptionError)
     if problem.window is not None and not _is_window(problem.window):
@@ -115,4 +120,25 @@ def _is_window(window) -> bool:
     return all(
         p is None or (isinstance(p, Sequence) and len(p) == 2 and all(isinstance(t, (int, float)) for t in p))
         for p in pairs
+    )
+
+
+def shared_samples(recordings: Sequence[Recording], windows: Sequence[tuple[float, float] | None]) -> Iterator[str]:
+    """A sentence where the same samples are given twice: they would count as two measurements."""
+    whole = [w or r.interval for r, w in zip(recordings, windows, strict=True)]
+    for (i, a), (j, b) in combinations(enumerate(recordings), 2):
+        start, end = max(whole[i][0], whole[j][0]), min(whole[i][1], whole[j][1])
+        if start < end and same_samples(a, b):
+            yield (
+                f"{a.name}: recordings {i + 1} and {j + 1} are the same from {start:g} to {end:g} s; what was measured "
+                "once counts twice, and standard errors are too small"
+            )
+
+
+def same_samples(a: Recording, b: Recording) -> bool:
+    """Whether two recordings hold the same measurements."""
+    return a is b or (
+        np.array_equal(a.time, b.time)
+        and a.channels.keys() == b.channels.keys()
+        and all(np.array_equal(x, b.channels[name], equal_nan=True) for name, x in a.channels.items())
     )

@@ -24,6 +24,8 @@ PATIENCE = {"max_iterations": 200, "time_limit_s": 60.0}
 """For solves that are only meant to tell whether there is something better."""
 SAID = 3.0
 """Residual over what a smoother leaves that is worth a note."""
+MOST_TIMES = 9999
+"""Above this nobody reads the digits."""
 
 
 def better_end(solution: Solution) -> SolverResult | None:
@@ -76,6 +78,8 @@ def _excess_said(solution: Solution) -> str:
 
 
 def _times(ratio: float) -> str:
+    if ratio > MOST_TIMES:  # nothing is left of a recording without noise, or of a sensor that stands still
+        return f"more than {MOST_TIMES}"
     return f"{ratio:.0f}" if ratio >= 10 else f"{ratio:.2g}"
 
 

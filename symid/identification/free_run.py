@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING
 
 from symid import checked
-from symid.errors import SolveError
+from symid.errors import RecordingWarning, SolveError
+from symid.identification.arguments import same_samples
 from symid.identification.problem import Identification
 from symid.recording import Recording
 
@@ -23,6 +25,15 @@ def free_run(solution: Solution, window: tuple[float, float], recording: Recordi
     if len(known) < len(solution.values):
         raise SolveError("fit_on: parameters differ between recordings; fix those you mean with model.fixed()")
     p, run = solution.problem, solution.problem.recordings[0] if recording is None else recording
+    if any(
+        _overlap(window, w or r.interval) and same_samples(run, r) for r, w in zip(p.recordings, p.windows, strict=True)
+    ):
+        warnings.warn(
+            f"fit_on: {window[0]:g} to {window[1]:g} s holds samples that were fitted: its errors are none of held-out "
+            "data",
+            RecordingWarning,
+            stacklevel=3,
+        )
     fitted = solution.transcription.measured[0].first == 0
     bound = fitted and window[0] <= run.time[0]
     other = Identification(
@@ -38,3 +49,8 @@ def free_run(solution: Solution, window: tuple[float, float], recording: Recordi
     if not found.solved:
         raise SolveError(f"fit_on: the free run over {window[0]:g} to {window[1]:g} s was not found: {found.message}")
     return found
+
+
+def _overlap(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    """Whether two windows share more than the sample at which one ends and the other begins."""
+    return max(one[0], other[0]) < min(one[1], other[1])

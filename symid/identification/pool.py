@@ -11,6 +11,7 @@ from concurrent.futures import BrokenExecutor, Executor, Future, ThreadPoolExecu
 from multiprocessing import connection, current_process, get_context, parent_process
 from typing import Any
 
+from symid import checked
 from symid.codegen.build import warn_without_compiler
 from symid.codegen.cache import CodegenWarning
 from symid.errors import SolveError
@@ -41,7 +42,7 @@ class LocalPool(Executor):
     Raises
     ------
     SolveError
-        `jobs` is below 1. Futures raise it where worker processes cannot start.
+        `jobs` is no whole number from 1 on. Futures raise it where worker processes cannot start.
 
     Examples
     --------
@@ -52,9 +53,7 @@ class LocalPool(Executor):
     def __init__(self, jobs: int | None = None):
         if current_process().name == _NAME:  # a worker reads a script that begins a study
             raise SolveError(f"a worker process cannot start workers; {_GUARD}")
-        if jobs is not None and jobs < 1:
-            raise SolveError(f"jobs={jobs}: give at least 1 process")
-        self.jobs = jobs or os.cpu_count() or 1
+        self.jobs = (os.cpu_count() or 1) if jobs is None else checked.whole(jobs, "jobs", SolveError, least=1)
         warn_without_compiler()
         self._keepers = ThreadPoolExecutor(self.jobs, thread_name_prefix="symid-keeper")
         self._own = threading.local()

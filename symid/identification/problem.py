@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
@@ -15,21 +14,21 @@ import numpy as np
 
 from symid import checked
 from symid.errors import RecordingWarning, SolveError, TranscriptionError
-from symid.identification.arguments import Recordings, refuse_wrong_options, refuse_wrong_types
+from symid.identification.arguments import Recordings, refuse_wrong_options, refuse_wrong_types, shared_samples
 from symid.identification.identity import problem_identity
 from symid.identification.marginal import to_marginal
 from symid.identification.process_size import to_sized, unsized
-from symid.identification.program import TRACE, off_its_bounds, program_of
+from symid.identification.program import TRACE, off_its_bounds, program_of, transcription_of
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution
 from symid.identification.start_row import StartRow
 from symid.identification.starts.kinds import start_of
 from symid.identification.study import Solve, Study, start_kinds
-from symid.identification.weighting import by_noise, information_of, to_likelihood, weights_of
+from symid.identification.weighting import to_likelihood
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
-from symid.model import Model
+from symid.model import Model, parts_of, same_parts
 from symid.nlp import NonlinearProgram
-from symid.transcription import Episodes, Midpoint, Scheme, Transcription, measure, transcribe
+from symid.transcription import Episodes, Midpoint, Scheme, Transcription
 
 NEAR = {"mu_strategy": "monotone", "mu_init": 1e-11, "bound_push": TRACE, "bound_frac": TRACE}
 """Options of Ipopt for a start close to an optimum: no barrier drives it from bounds that are near, such as a level of
@@ -121,30 +120,19 @@ class Identification:
             )
         return list(cast("Sequence[tuple[float, float]]", self.window))
 
-    @cached_property
+    @property
     def transcription(self) -> Transcription:
-        """The finite problem: made once, when first needed."""
-        if not self.model.outputs:
-            raise TranscriptionError(f"model '{self.model.name}' has no Output: declare what the recording shows")
-        began = time.perf_counter()
-        measured = [measure(self.model, r, w) for r, w in zip(self.recordings, self.windows, strict=True)]
-        weights = weights_of(self, measured)
-        information = information_of(self, measured, weights)
-        made = transcribe(
-            self.model,
-            measured,
-            self.scheme,
-            self.episodes,
-            weights,
-            self.per_recording,
-            self.backend,
-            int(self.refine),
-            loss=self.loss,
-            information=information,
-            cost=information if by_noise(self) else 1.0,
-        )
-        made.seconds["build"] = time.perf_counter() - began
+        """The finite problem: made once, when first needed; TranscriptionError where the model has changed since."""
+        parts, made = self._transcribed
+        if not same_parts(parts, parts_of(self.model)):
+            raise TranscriptionError(
+                f"model '{self.model.name}' changed since this problem was first used: make an Identification anew"
+            )
         return made
+
+    @cached_property
+    def _transcribed(self) -> tuple[tuple[Any, ...], Transcription]:
+        return parts_of(self.model), transcription_of(self)
 
     @cached_property
     def remarks(self) -> tuple[str, ...]:
@@ -152,7 +140,7 @@ class Identification:
         from symid.plausibility import remarks
 
         found = [text for r, w in zip(self.recordings, self.windows, strict=True) for text in remarks(self.model, r, w)]
-        return tuple(dict.fromkeys(found))
+        return tuple(dict.fromkeys([*shared_samples(self.recordings, self.windows), *found]))
 
     @cached_property
     def identity(self) -> dict[str, str]:

@@ -1,7 +1,8 @@
-"""What Ipopt solves for an Identification: the collocation, with parameters that are kept, the tilt and the ridge."""
+"""What Ipopt solves for an Identification: the collocation, with what is kept of parameters, the tilt and the ridge."""
 
 from __future__ import annotations
 
+import time
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -10,13 +11,41 @@ import numpy as np
 
 from symid.checked import nearest
 from symid.errors import TranscriptionError
+from symid.identification.weighting import by_noise, information_of, weights_of
 from symid.nlp import NonlinearProgram, with_ridge, with_tilt
+from symid.transcription import Transcription, measure, transcribe
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
 
 TRACE = 1e-11
 """Share of a size by which a start keeps off a bound."""
+
+
+def transcription_of(problem: Identification) -> Transcription:
+    """See `Identification.transcription`."""
+    model = problem.model
+    if not model.outputs:
+        raise TranscriptionError(f"model '{model.name}' has no Output: declare what the recording shows")
+    began = time.perf_counter()
+    measured = [measure(model, r, w) for r, w in zip(problem.recordings, problem.windows, strict=True)]
+    weights = weights_of(problem, measured)
+    information = information_of(problem, measured, weights)
+    made = transcribe(
+        model,
+        measured,
+        problem.scheme,
+        problem.episodes,
+        weights,
+        problem.per_recording,
+        problem.backend,
+        int(problem.refine),
+        loss=problem.loss,
+        information=information,
+        cost=information if by_noise(problem) else 1.0,
+    )
+    made.seconds["build"] = time.perf_counter() - began
+    return made
 
 
 def program_of(problem: Identification, start: np.ndarray, kept: Mapping[str, float] | None = None) -> NonlinearProgram:

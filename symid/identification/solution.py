@@ -63,10 +63,9 @@ class Solution:
     @property
     def transcription(self) -> Transcription:
         """The discretised problem that was solved; SolveError where the model has changed since."""
-        t = self.problem.transcription
         if self.problem.model.fingerprint != self.fingerprint:
             raise SolveError(f"model '{self.problem.model.name}' changed since it was solved: solve it again")
-        return t
+        return self.problem.transcription
 
     @property
     def model(self) -> Model:

@@ -16,7 +16,7 @@ import numpy as np
 from symid.checked import nearest
 from symid.errors import TranscriptionError
 from symid.identification.sensitivity import outputs_and_targets
-from symid.transcription import Measured
+from symid.transcription import EXTREME, Measured
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
@@ -58,8 +58,10 @@ def noise_levels(problem: Identification) -> np.ndarray:
         )
     for name, value in ((n, v) for table in tables for n, v in table.items()):
         _refuse(problem, "noise", name)
-        if not (np.isfinite(value) and value > 0):
-            raise TranscriptionError(f"noise: the standard deviation {value:g} of '{name}' must be a positive number")
+        if not 1 / EXTREME < value < EXTREME:
+            raise TranscriptionError(
+                f"noise: the standard deviation {value:g} of '{name}' must be a positive number, {EXTREME:g} at most"
+            )
     return np.array(
         [
             [table.get(name, recording.noise.get(y.channel, np.nan)) for name, y in outputs.items()]

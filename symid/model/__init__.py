@@ -18,6 +18,7 @@ from symid.model.declare import (
     Process,
     State,
 )
+from symid.model.kinds import parts_of, same_parts
 from symid.model.model import TIME, Model
 from symid.model.prior import LogNormal, Normal, Prior
 from symid.model.quantity import free_symbols, initial, symbol, terminal
@@ -60,6 +61,8 @@ __all__ = [
     "explicit",
     "free_symbols",
     "initial",
+    "parts_of",
+    "same_parts",
     "shown_states",
     "symbol",
     "table",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from math import isfinite, isnan, nan
+from math import inf, isfinite, isnan, nan
 from numbers import Real
 
 import sympy as sm
@@ -28,9 +28,12 @@ from symid.model.declare import (
 )
 from symid.model.dimensions import Mismatch, dimension_of, dimensions_of_symbols
 from symid.model.model import TIME, Model
-from symid.model.prior import LogNormal, Prior
+from symid.model.prior import LogNormal, Normal, Prior
 from symid.model.quantity import free_symbols, initial, terminal
 from symid.units import dimension, known_unit
+
+FAR = 5.0
+"""Standard deviations: a prior that allows the bounds once in three million is rather in another unit."""
 
 
 def violations(model: Model, units: bool = True) -> Iterator[str]:
@@ -59,17 +62,28 @@ def _values(model: Model) -> Iterator[str]:
             yield f"the process noise '{c.name}' has size={shown(c.size)}; give a positive number [{c.unit}*sqrt(s)]"
         if isinstance(c, Parameter) and c.prior is not None and not isinstance(c.prior, Prior):
             yield f"the prior {c.prior!r} of '{c.name}' is none: give Normal(mean, std) or LogNormal(median, factor)"
+        if isinstance(c, Parameter) and isinstance(c.prior, Normal) and _far_outside(c.prior, *_ends(c.bounds)):
+            yield (
+                f"the prior {c.prior.mean:g} ± {c.prior.deviation:g} of '{c.name}' and its bounds {c.bounds} "
+                "contradict each other; change one of them"
+            )
         if isinstance(c, Parameter) and isinstance(c.prior, LogNormal) and not _ends(c.bounds)[0] > 0:
             yield f"'{c.name}' has a log-normal prior, which needs a lower bound above 0; its bounds are {c.bounds}"
         if isinstance(c, Constant) and not isfinite(c.value):
             yield f"constant '{c.name}' is {c.value}; give it a finite value [{c.unit}]"
         if isinstance(c, (State, Algebraic, Control, Parameter)):
             lo, hi = _ends(c.bounds)
-            if isnan(lo) or isnan(hi) or lo > hi:
+            if isnan(lo) or isnan(hi) or lo > hi or lo == inf or hi == -inf:
                 yield f"the bounds {c.bounds} of '{c.name}' are not an interval; give (lower, upper)"
+            elif isinstance(c, Parameter) and lo == hi:
+                yield f"the bounds {c.bounds} of '{c.name}' leave it one value; say model.fixed({c.name}={lo:g})"
             elif isinstance(c, Parameter) and c.guess is not None and not lo <= _number(c.guess) <= hi:
                 guess = f"{c.guess:g}" if isfinite(_number(c.guess)) else shown(c.guess)
                 yield f"the guess {guess} of parameter '{c.name}' is outside its bounds ({lo:g}, {hi:g}), or no number"
+
+
+def _far_outside(prior: Normal, lower: float, upper: float) -> bool:
+    return prior.mean + FAR * prior.deviation < lower or prior.mean - FAR * prior.deviation > upper
 
 
 def _holds(part: Input | Control) -> tuple[str, ...]:

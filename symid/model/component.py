@@ -54,7 +54,10 @@ class Component(metaclass=Made):
             return None
         if not isinstance(self.index, Iterable):
             raise ModelError(f"index={self.index!r}: give the indices of the copies, for instance index=range(4)")
-        return {i: replace(self, index=None) for i in self.index}
+        indices = list(self.index)
+        if len(set(indices)) < len(indices):
+            raise ModelError(f"index={str(indices)[:60]}: an index occurs twice; each copy needs one of its own")
+        return {i: replace(self, index=None) for i in indices}
 
     @property
     def symbol(self) -> sm.Symbol:

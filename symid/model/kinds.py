@@ -29,14 +29,24 @@ KEPT = "_kept"
 """Under this name a model keeps what follows from its parts, and the parts that it follows from."""
 
 
+def parts_of(model: Any) -> tuple[Any, ...]:
+    """All that a model consists of: what follows from it stays true as long as these do."""
+    return (*model.components.values(), *model.delays.items())
+
+
+def same_parts(before: tuple[Any, ...], after: tuple[Any, ...]) -> bool:
+    """Whether a model still consists of the same parts; fast where they are the same objects."""
+    return len(before) == len(after) and all(a is b or a == b for a, b in zip(before, after, strict=True))
+
+
 def kept(method: Callable[[Any], Made]) -> Callable[[Any], Made]:
     """`method` of a model, done once as long as its parts stay as they are: to put expressions in takes long."""
 
     @wraps(method)
     def known(model: Any) -> Made:
-        parts = (*model.components.values(), *model.delays.items())
+        parts = parts_of(model)
         before, found = model.__dict__.get(KEPT, ((), {}))
-        if len(before) != len(parts) or any(a is not b and a != b for a, b in zip(before, parts, strict=True)):
+        if not same_parts(before, parts):
             found = {}
             model.__dict__[KEPT] = parts, found
         if method not in found:

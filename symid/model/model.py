@@ -193,6 +193,8 @@ class Model(Kinds, Derived):
         already becomes later by `lag`.
         """
         expr, lag = self.inline(sympified(expr)), sympified(lag)
+        if lag.is_number and not (lag.is_finite and lag >= 0):
+            raise ModelError(f"model '{self.name}': delayed by {lag} s; give a lag of at least 0: no signal is early")
         late = {c.symbol for c in self._of((State, Control, Input)).values()}
         table = {}
         for s in sorted(free_symbols(expr) & (late | self.delays.keys()), key=str):

@@ -50,7 +50,7 @@ def _pace(model: Model, recording: Recording) -> Iterator[str]:
 
 
 def _ranges(model: Model, recording: Recording) -> Iterator[str]:
-    """Recorded states that leave the bounds of their states, or that hardly move."""
+    """Recorded states that leave the bounds of their states, or that hardly move, or not at all."""
     person = all(name in model.constants for name in PERSON)
     for state, channel in shown_states(model).items():
         if channel not in recording.channels or not recording.valid[channel].any():
@@ -68,6 +68,11 @@ def _ranges(model: Model, recording: Recording) -> Iterator[str]:
                 f"{100 * outside:.0f} % of the samples{hint}"
             )
         reach = float(np.ptp(values))
+        if reach == 0:
+            yield (
+                f"{recording.name}: {channel} is {values[0]:g} {unit} in all {len(values)} samples; was its sensor "
+                "connected, and is it the right column?"
+            )
         if unit == "rad" and 0 < reach < STILL[person] and _maybe_degrees(recording, channel):
             yield (
                 f"{recording.name}: {channel} varies by only {np.degrees(reach):.2g} deg; if the file holds radians, "

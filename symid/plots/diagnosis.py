@@ -45,7 +45,13 @@ STANDINGS = {CHOSEN: (MODEL, MODEL), ALIKE: ("white", MODEL), OTHER: ("#9a9a9a",
 
 
 def plot_before_after(diagnosis: Diagnosis) -> Picture:
-    """Recorded, baseline and improved free runs, where the improvement is largest; residuals below."""
+    """Recorded, baseline and improved free runs of a diagnosis, where the improvement is largest; residuals below.
+
+    Examples
+    --------
+    >>> found = si.diagnose_case(si.read_case("data/concealed/cases/r01"))       # doctest: +SKIP
+    >>> plot_before_after(found).savefig("before_after.png")                      # doctest: +SKIP
+    """
     windows = [(k, t) for k, t in WINDOWS if f"baseline_{k}" in diagnosis.runs]
     outputs = list(diagnosis.baseline.model.outputs.values())
     figure = Picture(figsize=(9.5, 2.5 * len(outputs) + 0.6), layout="constrained")
@@ -99,7 +105,13 @@ def _panel(above, below, before: FreeRun, after: FreeRun, rows, i, scale, factor
 
 
 def plot_spectra(diagnosis: Diagnosis) -> Picture:
-    """Power spectral density of the free run's error before and after, per output (Welch 1967)."""
+    """Power spectral density of the free run's error before and after a diagnosis, per output (Welch 1967).
+
+    Examples
+    --------
+    >>> found = si.diagnose_case(si.read_case("data/concealed/cases/r01"))       # doctest: +SKIP
+    >>> plot_spectra(found).savefig("spectra.png")                                # doctest: +SKIP
+    """
     before, after = diagnosis.runs["baseline_train"], diagnosis.runs["augmented_train"]
     outputs = list(diagnosis.baseline.model.outputs.values())
     figure = Picture(figsize=(9.5, 2.9), layout="constrained")
@@ -127,7 +139,13 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
 
 
 def plot_scores(diagnosis: Diagnosis) -> Picture:
-    """How far each single suspect stays behind the best one; at the dashed line all is chance."""
+    """How far each single suspect of a diagnosis stays behind the best one; at the dashed line all is chance.
+
+    Examples
+    --------
+    >>> found = si.diagnose_case(si.read_case("data/concealed/cases/r01"))       # doctest: +SKIP
+    >>> plot_scores(found).savefig("scores.png")                                  # doctest: +SKIP
+    """
     shown = sorted(diagnosis.ranking, key=lambda c: -c.score)[:MOST_SUSPECTS]
     names = [law_name(c.suspect.term.name, c.suspect.term.location).replace(" at ", "\nat ") for c in shown]
     row = 0.42 if any("\n" in name for name in names) else 0.34  # inches; two lines of 8 points fit into the first
@@ -189,6 +207,17 @@ def plot_latent(before: Sequence[Latent], after: Sequence[Latent] = ()) -> Pictu
     """The force that a model lacks at each place: its size over the window, and a stretch with two standard errors.
 
     Places whose forces have one unit share unit and scale.
+
+    Parameters
+    ----------
+    before, after : forces at each place, of the model as given and of the improved one.
+
+    Examples
+    --------
+    >>> found = si.diagnose_case(si.read_case("data/concealed/cases/r01"))       # doctest: +SKIP
+    >>> from symid.discrepancy.locate.latent import latent_torques
+    >>> forces = latent_torques(found.baseline, found.runs["baseline_train"])     # doctest: +SKIP
+    >>> plot_latent(forces).savefig("forces.png")                                 # doctest: +SKIP
     """
     time = before[0].time
     stretch = _loudest(before)

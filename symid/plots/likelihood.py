@@ -9,7 +9,17 @@ from symid.plots.style import MODEL, QUIET, Picture, opened
 
 
 def plot_profile(profile: pd.DataFrame) -> Picture:
-    """The deviance over the parameter, with its 95 % limit and interval; a parabola is what standard errors suppose."""
+    """The deviance over the parameter, with its 95 % limit and interval; a parabola is what standard errors suppose.
+
+    Parameters
+    ----------
+    profile : what `symid.profile` gives.
+
+    Examples
+    --------
+    >>> table = si.profile(solution, "damping", [0.38, 0.40, 0.42])
+    >>> plot_profile(table).savefig("profile.png")
+    """
     figure = Picture(figsize=(5, 3.4), layout="constrained")
     axes = figure.subplots()
     values, deviance = profile.index.to_numpy(), profile["deviance"].to_numpy()
@@ -26,7 +36,17 @@ def plot_profile(profile: pd.DataFrame) -> Picture:
 
 
 def plot_region(region: pd.DataFrame) -> Picture:
-    """Lines of equal deviance of two parameters, the 95 % region filled."""
+    """Lines of equal deviance of two parameters, the 95 % region filled.
+
+    Parameters
+    ----------
+    region : what `symid.likelihood_region` gives.
+
+    Examples
+    --------
+    >>> two = si.Identification(model.free(stiffness=(1, 9)), recording).solve()
+    >>> plot_region(si.likelihood_region(two, "damping", "stiffness", points=3)).savefig("region.png")
+    """
     figure = Picture(figsize=(5, 4), layout="constrained")
     axes, limit = figure.subplots(), region.attrs["limit"]
     x, y, z = region.columns.to_numpy(), region.index.to_numpy(), np.ma.masked_invalid(region.to_numpy())

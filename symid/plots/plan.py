@@ -8,7 +8,21 @@ from symid.units import unit_for
 
 
 def plot_plan(plan: Plan) -> Picture:
-    """States, controls and algebraic variables over time, one axes for each, with the bounds that they touch."""
+    """States, controls and algebraic variables over time, one axes for each, with the bounds that they touch.
+
+    Parameters
+    ----------
+    plan : what an Optimization gives.
+
+    Examples
+    --------
+    >>> m = si.Model("cart")
+    >>> m.x, m.v, m.force = si.State(unit="m"), si.State(unit="m/s"), si.Control(unit="m/s^2")
+    >>> m.motion = si.Equation({0: m.x.dot - m.v, 1: m.v.dot - m.force})
+    >>> m.ends = si.Boundary(initial={m.x: 0, m.v: 0}, terminal={m.x: 1, m.v: 0})
+    >>> m.effort = si.Objective(running=m.force**2)
+    >>> plot_plan(si.Optimization(m, duration=1, nodes=21).solve()).savefig("plan.png")
+    """
     frame, model = plan.trajectories, plan.problem.transcription.model
     rows = -(-len(frame.columns) // 2)
     figure = Picture(figsize=(9, 1.5 * rows + 0.6), layout="constrained")

@@ -18,7 +18,18 @@ MOST_POINTS = 3000
 
 
 def plot_rest(rest: Rest) -> Picture:
-    """The remaining force over each signal that it follows, and its mean power in the parts of the window."""
+    """The remaining force over each signal that it follows, and its mean power in the parts of the window.
+
+    Parameters
+    ----------
+    rest : of a diagnosis that leaves something unexplained.
+
+    Examples
+    --------
+    >>> found = si.diagnose_case(si.read_case("data/concealed/cases/r01"))       # doctest: +SKIP
+    >>> if found.rest is not None:                                               # doctest: +SKIP
+    ...     plot_rest(found.rest).savefig("rest.png")
+    """
     figure = Picture(figsize=(9.5, 3.1), layout="constrained")
     panels = figure.subplots(1, len(rest.signals) + 1)
     factor, prefix = _prefixed(float(np.abs(rest.force).max()))

@@ -55,7 +55,17 @@ def plot_fit(solution: Solution, episode: int = 0, window: tuple[float, float] |
 
 
 def typical_stretch(solution: Solution, episode: int = 0) -> tuple[float, float] | None:
-    """`SWINGS` swings [s] whose error is nearest to that of the whole; None where the whole is hardly longer."""
+    """`SWINGS` swings [s] whose error is nearest to that of the whole; None where the whole is hardly longer.
+
+    Parameters
+    ----------
+    episode : which one, from 0.
+
+    Examples
+    --------
+    >>> typical_stretch(solution) is None                   # six seconds are hardly more than eight swings
+    True
+    """
     frame = solution.trajectories[episode]
     time = frame.index.to_numpy()
     count = max(2, int(SWINGS * _period(solution, episode) / (time[-1] - time[0]) * len(time)))

@@ -15,7 +15,17 @@ EDGE = 0.05
 
 
 def plot_study(result: StudyResult) -> Picture:
-    """RMS error of every solve, one line for each problem, and how long it took."""
+    """RMS error of every solve, one line for each problem, and how long it took.
+
+    Parameters
+    ----------
+    result : what a Study gives.
+
+    Examples
+    --------
+    >>> study = si.Study.product({"given": problem, "short": si.Identification(model, recording, (0, 3))}, starts=1)
+    >>> plot_study(study.run_here(on_finished=None)).savefig("study.png")
+    """
     groups = by_problem(result)
     unit = common_unit(y.unit for s in result.solves.values() for y in s.problem.model.outputs.values())
     rows = [row for row in result.rows.values() if np.isfinite(row.rms)]

@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symid import checked
 from symid.errors import RecordingError
 from symid.units import known_unit, nearest
 
@@ -35,9 +36,25 @@ def refuse_faults(recording: "Recording") -> None:
         for name in getattr(recording, table):
             if name not in recording.channels:
                 raise RecordingError(f"{recording.name}: {table} {no_channel(recording, name)}")
+    _refuse_odd_numbers(recording)
     for run in recording.runs:
         if np.any(np.diff(recording.time[run]) <= 0):
             raise RecordingError(f"{recording.name}: time does not increase from sample to sample")
+
+
+def _refuse_odd_numbers(recording: "Recording") -> None:
+    for name, rms in recording.noise.items():
+        if not 0 < checked.number(rms, f"{recording.name}: noise of '{name}'", RecordingError) < np.inf:
+            raise RecordingError(
+                f"{recording.name}: the noise {rms:g} of '{name}' must be positive; leave it out where it is not known"
+            )
+    for name, values in {"time": recording.time, **recording.channels}.items():
+        odd = np.isinf(values) if name in recording.channels else ~np.isfinite(values)
+        if odd.any():
+            raise RecordingError(
+                f"{recording.name}: '{name}' is {values[odd][0]} in sample {int(np.argmax(odd)) + 1}; leave samples "
+                "without a time out, and give NaN where a value is missing"
+            )
 
 
 def no_channel(recording: "Recording", name: str) -> str:
@@ -50,7 +67,13 @@ def no_channel(recording: "Recording", name: str) -> str:
 def frozen(values: Any, kind: type) -> np.ndarray:
     """The values as an array that nobody can write to; shared, not copied, where it is one."""
     try:
-        array: np.ndarray = np.asarray(values, dtype=kind)
+        given = np.asarray(values.astype(kind).filled(np.nan) if isinstance(values, np.ma.MaskedArray) else values)
+        if kind is not str:
+            _refuse_other_kinds(given)
+        with np.errstate(invalid="ignore"):
+            array: np.ndarray = np.asarray(given, dtype=kind)
+        if kind is np.int64 and not np.array_equal(array, given):
+            raise TypeError("those that part the rows are whole")
     except (TypeError, ValueError, OverflowError) as problem:
         raise RecordingError(f"a recording holds numbers: {problem}") from None
     owner = array if array.base is None else array.base
@@ -58,3 +81,12 @@ def frozen(values: Any, kind: type) -> np.ndarray:
         array = array.copy()
         array.setflags(write=False)
     return array
+
+
+def _refuse_other_kinds(given: np.ndarray) -> None:
+    """TypeError for what NumPy would make numbers of, though it is none: dates, texts, complex numbers."""
+    if given.dtype.kind in "mM":
+        raise TypeError("give dates and durations in seconds, (t - t[0]) / np.timedelta64(1, 's')")
+    texts = [x for x in given.flat if isinstance(x, (str, bytes))] if given.dtype.kind in "OSU" else []
+    if texts or given.dtype.kind == "c":
+        raise TypeError(f"{texts[0] if texts else given.flat[0]!r} is none")

@@ -67,6 +67,7 @@ class Recording:
         def put(key: str, value: Any) -> None:
             object.__setattr__(self, key, value)
 
+        checked.kind(self.name, str, "the name of a Recording", RecordingError)
         put("time", frozen(self.time, float))
         for key in ("channels", "units", "signs", "noise"):
             checked.kind(getattr(self, key), Mapping, f"{self.name}: {key}", RecordingError)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from symid import checked
 from symid.errors import RecordingError
 from symid.units import FloatArray, IntArray
 
@@ -55,6 +56,7 @@ def runs_of(count: int, *labels: np.ndarray | None) -> tuple[slice, ...]:
 
 def window_rows(name: str, time: FloatArray, step: float, start: float, end: float) -> slice:
     """Rows from start to end [s] of the recording `name`, sampled every `step`; see `Recording.window`."""
+    start, end = (checked.number(t, f"{name}: an end of the window", RecordingError) for t in (start, end))
     if not max(abs(start), abs(end)) < LATEST:
         raise RecordingError(f"{name}: a window from {str(start)[:20]} to {str(end)[:20]} s is none")
     if np.any(np.diff(time) <= 0):

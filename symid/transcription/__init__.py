@@ -1,6 +1,6 @@
 """Continuous to finite: schemes, layout, episodes, and the sparse program of a collocation."""
 
-from symid.transcription.data import Measured, measure
+from symid.transcription.data import EXTREME, Measured, measure
 from symid.transcription.episodes import Episodes
 from symid.transcription.layout import Layout
 from symid.transcription.program import CollocationProgram
@@ -16,6 +16,7 @@ from symid.transcription.schemes import (
 from symid.transcription.transcribe import Transcription, transcribe
 
 __all__ = [
+    "EXTREME",
     "SCHEMES",
     "BackwardEuler",
     "CollocationProgram",

@@ -19,6 +19,9 @@ from symid.units import same_dimension
 EVEN = 0.02
 """Jitter of a clock, relative to its step, that a mesh of equal steps ignores; of second order in the error."""
 
+EXTREME = 1e100
+"""Of a recorded size [SI], and one over it: products of three such numbers are still floating-point numbers."""
+
 
 @dataclass(frozen=True, eq=False)
 class Measured:
@@ -161,6 +164,7 @@ def measure(model: Model, recording: Recording, window: tuple[float, float] | No
             + "; recording.rename gives channels other names, as does a mapping of columns (--columns MAP.toml)"
         )
     _refuse_other_units(model, recording)
+    _refuse_extremes(model, recording)
     if len(recording.runs) > 1:
         raise TranscriptionError(
             f"{recording.name} has several segments, between which nothing is known: give "
@@ -218,6 +222,17 @@ def _refuse_other_units(model: Model, recording: Recording) -> None:
             raise TranscriptionError(
                 f"'{c.name}' of model '{model.name}' is in {c.unit or '1'}, but the channel "
                 f"'{c.channel}' of {recording.name} is in {unit}: they cannot be compared"
+            )
+
+
+def _refuse_extremes(model: Model, recording: Recording) -> None:
+    for channel in {*(u.channel for u in model.inputs.values()), *needed_channels(model, recording)}:
+        sizes = np.abs(recording.channels[channel])
+        largest = float(np.max(sizes, initial=0.0, where=np.isfinite(sizes)))
+        if not (largest == 0 or 1 / EXTREME < largest < EXTREME):
+            raise TranscriptionError(
+                f"the channel '{channel}' of {recording.name} reaches {largest:.3g} {recording.units[channel]}, whose "
+                f"square is beyond what a computer counts with; give numbers from {1 / EXTREME:g} to {EXTREME:g}"
             )
 
 

@@ -22,6 +22,8 @@ from symid.errors import TranscriptionError
 from symid.model import Model
 
 DISTRIBUTIONS = ("multisine", "uniform", "gaussian")
+MOST_EPISODES = 1000
+"""More are a slip of the keyboard: each is a copy of the whole motion."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +71,7 @@ class Episodes:
         shared_initial_state: bool = True,
         **by_word: float,
     ):
-        checked.whole(count, "episodes: the count", TranscriptionError, least=1)
+        checked.whole(count, "episodes: the count", TranscriptionError, least=1, most=MOST_EPISODES)
         checked.whole(seed, "episodes: the seed", TranscriptionError)
         checked.flag(shared_initial_state, "episodes: shared_initial_state", TranscriptionError)
         if distribution not in DISTRIBUTIONS:

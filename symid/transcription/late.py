@@ -33,6 +33,13 @@ def refuse_late(model: Model, measured: Sequence[Measured]) -> None:
                 "collocation reads late signals through smooth weights; give hold='linear', or shift "
                 "the recorded channel by a known lag"
             )
+        longest = _lag(model, str(d.lag))["bounds"][1]
+        for m in measured:
+            if m.targets is not None and longest > m.time[-1] - m.time[0]:
+                raise TranscriptionError(
+                    f"model '{model.name}' delays '{d.of}' by up to {longest:g} s, and {m.name} has only "
+                    f"{m.time[-1] - m.time[0]:g} s: give a lag, or bounds of it, in seconds"
+                )
     for name, y in zip(model.outputs, model.observed(), strict=True):
         if free_symbols(y) & late:
             raise TranscriptionError(

@@ -12,6 +12,8 @@ import sympy as sm
 from conftest import ROOT, pendulum, pendulum_recording
 
 import symid as si
+import symid.conceal
+from symid import plots
 
 DATA_FOLDER = ROOT / "data"
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE | doctest.IGNORE_EXCEPTION_DETAIL
@@ -30,8 +32,8 @@ for room, names in {
     ),
     "recording.columns": ("load_columns",),
     "report": ("write_diagnosis_report", "write_report", "write_study_report"),
-    "plots.solution": ("plot_fit", "plot_inputs", "plot_parameters", "plot_residual_spectra", "plot_starts"),
-    "plots.stick": ("animate", "plot_poses"),
+    "plots": tuple(name for name in plots.__all__ if name[0].islower()),
+    "conceal": tuple(name for name in symid.conceal.__all__ if name[0].islower()),
 }.items():
     PUBLIC |= {name: getattr(import_module(f"symid.{room}"), name) for name in names}
 """What the pages refer to, beside the exported names."""
@@ -145,7 +147,7 @@ def test_its_examples_are_true(name, prepared, monkeypatch, tmp_path):
         around["m"].force = si.Control(unit="N")
     if name.startswith("mechanics."):
         around |= {n: getattr(si.mechanics, n) for n in si.mechanics.__all__}
-    around |= {} if "." in name else {name: PUBLIC[name]}
+    around |= {} if "." in name else {n: PUBLIC[n] for n in (name, *symid.conceal.__all__) if n in PUBLIC}
     tests = [t for t in doctest.DocTestFinder(recurse=False).find(PUBLIC[name], name, globs=around) if t.examples]
     runner, told = doctest.DocTestRunner(optionflags=FLAGS), []
     for test in tests:

@@ -5,6 +5,7 @@ import pickle
 import re
 
 import numpy as np
+import pandas as pd
 import pytest
 from waves import DEGREE, wave
 
@@ -92,12 +93,29 @@ def test_a_channel_is_asked_for_by_name():
         ({"time": [0, 1, 2, 2, 3]}, "time does not increase"),
         ({"segment": [0, 0]}, "'segment' has shape"),
         ({"time": [0], "channels": {"a": [0]}}, "at least two samples"),
+        ({"time": [0, 1, np.nan, 3, 4]}, "'time' is nan in sample 3; leave samples without a time out"),
+        ({"time": [0, 1, 2, 3, np.inf]}, "'time' is inf in sample 5"),
+        ({"time": pd.date_range("2026", periods=5)}, "give dates and durations in seconds"),
+        ({"time": pd.timedelta_range("0s", periods=5)}, "give dates and durations in seconds"),
+        ({"channels": {"a": [0, 1, -np.inf, 3, 4]}}, "'a' is -inf in sample 3; .* give NaN where a value is missing"),
+        ({"channels": {"a": np.zeros(5) + 1j}}, "holds numbers: .*1j.* is none"),
+        ({"channels": {"a": ["1", "2", "3", "4", "5"]}}, "holds numbers: .*'1'.* is none"),
+        ({"channels": {"a": [1, 2, None, "4", 5]}}, "holds numbers: '4' is none"),
+        ({"segment": [0, 0, 0.5, 1, 1]}, "those that part the rows are whole"),
+        ({"segment": [0, 0, np.nan, 1, 1]}, "those that part the rows are whole"),
     ],
 )
 def test_recordings_that_cannot_be(change, message):
     parts = {"time": np.arange(5.0), "channels": {"a": np.zeros(5)}, "units": {"a": "m"}} | change
     with pytest.raises(RecordingError, match=message):
         Recording("r", **parts)
+
+
+def test_masked_samples_are_missing():
+    values = np.ma.masked_greater([0, 1, 2, 9, 4], 8)
+    recording = Recording("r", np.arange(5.0), {"a": values}, {"a": "m"})
+    assert recording.valid["a"].tolist() == [True, True, True, False, True]
+    assert np.isnan(recording["a"][3]) and recording["a"][4] == 4
 
 
 def test_pickle_keeps_everything():

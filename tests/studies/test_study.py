@@ -137,8 +137,9 @@ def test_bad_calls_are_refused():
         Study.product({"a": problem()}, 0)
     with pytest.raises(SolveError, match="has 1 labels, and 2 were named: controller, episodes"):
         Study.product({"a": problem()}, labels=("controller", "episodes"))
-    with pytest.raises(SolveError, match="jobs=-1: give at least 1 process"):
-        study().run(jobs=-1)
+    for jobs in (-1, 0, 1.5, "2", float("nan")):
+        with pytest.raises(SolveError, match=f"jobs='?{jobs}'?: give a (whole )?number"):
+            study().run(jobs=jobs)
     with pytest.raises(TranscriptionError, match="window 50 to 60 s"):
         problem(window=(50, 60)).solve()
 

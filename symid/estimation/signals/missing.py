@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from symid.errors import DiagnosisError
 from symid.model import Model
 from symid.recording import Recording
 
@@ -20,12 +21,18 @@ def without_missing(recording: Recording, model: Model, moved: bool) -> Recordin
     ----------
     moved : whether anything moves the system besides its own state: it then begins anew, in a segment of its own, after
         a gap of more than `BRIDGED` steps.
+
+    Raises
+    ------
+    DiagnosisError : not even two samples are left.
     """
     channels = [c.channel for c in (*model.outputs.values(), *model.inputs.values())]
     valid = [recording.valid[c] for c in channels if c in recording.channels]
     kept = np.flatnonzero(np.all(valid, axis=0)) if valid else np.arange(len(recording))
     if len(kept) < 2:
-        return recording
+        raise DiagnosisError(
+            f"{recording.name}: there are no two samples in which {', '.join(channels)} were all measured"
+        )
     run = np.repeat(np.arange(len(recording.runs)), [r.stop - r.start for r in recording.runs])[kept]
     steps = np.diff(recording.time[kept])
     begins = np.diff(run) != 0
