@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 
-from symid.cli.options import refuse_missing_folders
+from symid.cli.options import refuse_bad_outputs
 from symid.errors import SymidError
 from symid.progress import say
 
@@ -61,7 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from symid.bench.task import Task
 
-    refuse_missing_folders(arguments.json, arguments.growth)
+    refuse_bad_outputs(arguments.json, arguments.growth)
     parts = _parts(arguments.parts)
     chosen = [name for name in ("load", "growth", "formulations") if getattr(arguments, name)]
     if len(chosen) > 1:

@@ -6,7 +6,7 @@ import argparse
 import json
 from pathlib import Path
 
-from symid.cli.options import build_model, refuse_missing_folders, show_iteration
+from symid.cli.options import build_model, refuse_bad_outputs, show_iteration
 from symid.errors import RecordingError
 from symid.progress import say
 from symid.units import unit_symbol, with_error
@@ -31,7 +31,7 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.recording import read_recording
     from symid.report import write_report
 
-    refuse_missing_folders(arguments.report)
+    refuse_bad_outputs(arguments.report)
     folder = data_folder()
     truth = json.loads((folder / "truth.json").read_text())["parameters"]
     problem = Identification(build_model(folder / "body.json", "fpd"), read_recording(folder / "recording.csv"), FIT)

@@ -7,7 +7,7 @@ import warnings
 from dataclasses import replace
 from pathlib import Path
 
-from symid.cli.options import add_recording_arguments, refuse_missing_folders, tell_files
+from symid.cli.options import add_recording_arguments, refuse_bad_outputs, tell_files
 from symid.progress import say
 
 SUMMARY = "find the physics that a model leaves out: where, what, how much, and the proof"
@@ -83,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     if arguments.threads < 1:
         raise DiagnosisError(f"--threads {arguments.threads} is not possible; give at least 1")
-    _refuse_missing_folders(arguments)
+    _refuse_bad_outputs(arguments)
     source = Path(arguments.source)
     reader = _of_case if source.is_dir() else _of_rig if arguments.rig else _of_person
     with warnings.catch_warnings():
@@ -239,11 +239,18 @@ def _check_noise(arguments: argparse.Namespace) -> None:
         )
 
 
-def _refuse_missing_folders(arguments: argparse.Namespace) -> None:
+def _refuse_bad_outputs(arguments: argparse.Namespace) -> None:
     """Before the work, not after it."""
     from symid.errors import DiagnosisError
 
-    refuse_missing_folders(arguments.json, arguments.experiment, arguments.report, arguments.held_out_csv)
+    source = Path(arguments.source)
+    refuse_bad_outputs(
+        arguments.json,
+        arguments.experiment,
+        arguments.report,
+        arguments.held_out_csv,
+        read=(source, source / "case.json", source / "recording.csv", arguments.body, arguments.rig, arguments.columns),
+    )
     if arguments.held_out_csv and not (arguments.held_out or arguments.rig or Path(arguments.source).is_dir()):
         raise DiagnosisError("--held-out-csv needs a held-out window; give --held-out T0 T1")
 

@@ -11,7 +11,7 @@ from symid.cli.options import (
     add_recording_arguments,
     build_model,
     chosen_executor,
-    refuse_missing_folders,
+    refuse_bad_outputs,
     show_iteration,
     tell_files,
     with_inputs,
@@ -74,7 +74,7 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.recording import read_recording
     from symid.transcription import Episodes, measure, scheme_by_name
 
-    refuse_missing_folders(arguments.json, arguments.report)
+    refuse_bad_outputs(arguments.json, arguments.report, read=(arguments.recording, arguments.body, arguments.columns))
     scheme = scheme_by_name(arguments.scheme)
     model = build_model(arguments.body, arguments.controller)
     recording = read_recording(arguments.recording, allow_gaps=arguments.allow_gaps, columns=arguments.columns)

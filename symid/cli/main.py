@@ -31,6 +31,7 @@ TOO_LITTLE = (
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command: exit code 0 done or solved, 1 not solved, 2 bad input."""
+    _open_closed_streams()
     parsed = build_parser().parse_args(arguments)
     set_level(QUIET if parsed.quiet else VERBOSE if parsed.verbose else NORMAL)
     warnings.showwarning = _show_warning
@@ -65,6 +66,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("symid: interrupted", file=sys.stderr)
         return INTERRUPTED
+
+
+def _open_closed_streams() -> None:
+    """Where the shell closed stdout or stderr (`>&-`) nothing is said: else a file that is opened takes its place, and
+    what is printed on the one comes out of the other.
+    """
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w"))
 
 
 def command_names() -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
@@ -178,11 +179,19 @@ def add_level_arguments(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def refuse_missing_folders(*paths: str | None) -> None:
-    """SolveError for a file whose folder does not exist: before the work, not after it."""
-    for path in paths:
-        if path and not Path(path).parent.is_dir():
+def refuse_bad_outputs(*paths: str | None, read: Sequence[str | Path | None] = ()) -> None:
+    """SolveError before the work for a file that cannot be written after it: its folder does not exist, or it would
+    replace one of those that are `read`, or another result.
+    """
+    taken = {Path(path).resolve(): f"{path}, which is read" for path in read if path}
+    for path in filter(None, paths):
+        if not Path(path).parent.is_dir():
             raise SolveError(f"{path} cannot be written: the folder {Path(path).parent} does not exist; make it first")
+        if Path(path).is_file() or not Path(path).exists():  # a device takes all
+            place = Path(path).resolve()
+            if place in taken:
+                raise SolveError(f"{path} would replace {taken[place]}; give another file")
+            taken[place] = f"another result, {path}"
 
 
 def tell_files(**written: str | None) -> None:

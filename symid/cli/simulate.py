@@ -7,7 +7,7 @@ import json
 import math
 from pathlib import Path
 
-from symid.cli.options import add_model_arguments, add_recording_arguments, build_model, refuse_missing_folders
+from symid.cli.options import add_model_arguments, add_recording_arguments, build_model, refuse_bad_outputs
 from symid.errors import RecordingError
 
 SUMMARY = "simulate a standing person under a known controller and write a recording"
@@ -67,7 +67,8 @@ def run(arguments: argparse.Namespace) -> int:
     from symid.files import write_atomically
     from symid.synthetic import csv_text, standing_recording
 
-    refuse_missing_folders(arguments.output)
+    given = (arguments.experiment, arguments.body, arguments.parameters, arguments.platform, arguments.columns)
+    refuse_bad_outputs(arguments.output, read=given)
     if arguments.experiment:
         return _planned(arguments)
     if arguments.body is None or arguments.parameters is None:

@@ -49,7 +49,7 @@ def by_noise(problem: Identification) -> bool:
 
 
 def noise_levels(problem: Identification) -> np.ndarray:
-    """(recordings, m) standard deviations [SI]: of `problem.noise`, else of the recordings; NaN where unknown."""
+    """(recordings, m) standard deviations [SI]: of `problem.noise`, else of the recordings; NaN where unknown or 0."""
     outputs = problem.model.outputs
     tables = problem.noise or [{}] * len(problem.recordings)
     if len(tables) != len(problem.recordings):
@@ -64,7 +64,7 @@ def noise_levels(problem: Identification) -> np.ndarray:
             )
     return np.array(
         [
-            [table.get(name, recording.noise.get(y.channel, np.nan)) for name, y in outputs.items()]
+            [table.get(name, recording.noise.get(y.channel) or np.nan) for name, y in outputs.items()]
             for table, recording in zip(tables, problem.recordings, strict=True)
         ]
     ).reshape(len(tables), len(outputs))

@@ -44,10 +44,8 @@ def refuse_faults(recording: "Recording") -> None:
 
 def _refuse_odd_numbers(recording: "Recording") -> None:
     for name, rms in recording.noise.items():
-        if not 0 < checked.number(rms, f"{recording.name}: noise of '{name}'", RecordingError) < np.inf:
-            raise RecordingError(
-                f"{recording.name}: the noise {rms:g} of '{name}' must be positive; leave it out where it is not known"
-            )
+        if not checked.number(rms, f"{recording.name}: noise of '{name}'", RecordingError, least=0.0) < np.inf:
+            raise RecordingError(f"{recording.name}: noise of '{name}'={rms}: give a finite number of at least 0")
     for name, values in {"time": recording.time, **recording.channels}.items():
         odd = np.isinf(values) if name in recording.channels else ~np.isfinite(values)
         if odd.any():

@@ -245,3 +245,11 @@ def test_a_full_disk_names_the_file(tmp_path, monkeypatch, capsys):
     code = main([*IDENTIFY, "--window", "0", "4", "--json", str(tmp_path / "a.json")])
     assert code == BAD_INPUT and list(tmp_path.iterdir()) == []
     assert f"symid: error: {tmp_path / 'a.json'} cannot be written (No space left on device)" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("closed", "arguments", "code"), [("1", "completion bash", 0), ("2", "diagnose nowhere", 2)])
+def test_a_stream_that_the_shell_closed_is_silent_and_no_other_speaks_for_it(closed, arguments, code):
+    done = subprocess.run(
+        ["bash", "-c", f"{sys.executable} -m symid.cli {arguments} {closed}>&-"], capture_output=True, text=True
+    )
+    assert (done.returncode, done.stdout, done.stderr) == (code, "", "")

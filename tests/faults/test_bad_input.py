@@ -39,20 +39,8 @@ def run(folder, *arguments, capsys) -> tuple[int, str]:
 
 
 def identify(folder, *options, capsys):
-    out = folder / "out"
-    return run(
-        folder,
-        "identify",
-        folder / "recording.csv",
-        "--body",
-        folder / "body.json",
-        "--json",
-        out / "a.json",
-        "--report",
-        out / "a.html",
-        *options,
-        capsys=capsys,
-    )
+    files = ("--body", folder / "body.json", "--json", folder / "out" / "a.json", "--report", folder / "out" / "a.html")
+    return run(folder, "identify", folder / "recording.csv", *files, *options, capsys=capsys)
 
 
 def check(folder, code: int, said: str, words: str) -> None:
@@ -175,6 +163,13 @@ SIMULATIONS = {
     "negative noise": (TRUTH, ["--torque-noise", "-1"], "--torque-noise -1 is not possible"),
     "platform without acceleration": (TRUTH, ["--platform", "body.json"], "body.json"),
 }
+
+
+@pytest.mark.parametrize("name", ["recording.csv", "body.json", "out/../recording.csv", "out/a.json"])
+def test_a_result_replaces_nothing_that_is_read_nor_another_result(folder, name, capsys):
+    before = {f.name: f.read_bytes() for f in folder.iterdir() if f.is_file()}
+    check(folder, *identify(folder, "--report", folder / name, capsys=capsys), "would replace")
+    assert before == {f.name: f.read_bytes() for f in folder.iterdir() if f.is_file()}
 
 
 @pytest.mark.parametrize(("values", "options", "words"), SIMULATIONS.values(), ids=SIMULATIONS)

@@ -145,8 +145,8 @@ def test_a_diagnosis_of_nothing_is_refused():
     ("change", "words"),
     [
         ({"name": None}, "the name of a Recording: give a str, not None"),
-        ({"noise": {"angle": 0.0}}, "the noise 0 of 'angle' must be positive"),
-        ({"noise": {"angle": -1.0}}, "the noise -1 of 'angle' must be positive"),
+        ({"noise": {"angle": -1.0}}, "noise of 'angle'=-1.0: give a number of at least 0"),
+        ({"noise": {"angle": np.inf}}, "noise of 'angle'=inf: give a finite number"),
         ({"noise": {"angle": "low"}}, "noise of 'angle'='low': give a number"),
     ],
 )
