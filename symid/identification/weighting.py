@@ -140,7 +140,8 @@ def estimated(solution: Solution) -> np.ndarray:
             for y, d in outputs_and_targets(solution.transcription, solution.result.z)
         ]
     )
-    if solution.model.controls and solution.errors is not None:
+    sized = all(p.size is not None for p in solution.model.processes.values())
+    if solution.model.controls and sized and solution.errors is not None:
         rms = solution.errors.noise
     return np.where(rms < TRUST * known, known, rms)
 
