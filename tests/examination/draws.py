@@ -48,7 +48,8 @@ FULL_RATE_HZ = 100
 
 @dataclass(frozen=True)
 class Exam:
-    """A case, and what is concealed in it: term -> values by key. facts : what tells this draw from others."""
+    """A case, and what is concealed in it: term -> values by key. facts : what tells this draw from others;
+    `filter` is the order, cutoff [Hz] and sampling rate [Hz] of what the outputs went through."""
 
     case: Case
     truth: dict[si.Term, dict[str, float]]
@@ -125,6 +126,8 @@ def _spoilt(drawn: Concealed, how: str, seed: int, **facts) -> Exam:
     if how not in ("plain", "short"):  # what was stated of the sensor does not hold any more
         case = replace(case, sensor_noise=None, recording=replace(rec, channels=dict(rec.channels) | channels))
     truth = {t: dict(v) for t, v in drawn.terms.items()}
+    if how == "filtered":
+        facts["filter"] = (2, CUTOFF_HZ, rate)
     return Exam(case, truth, {"system": drawn.setup.system, "spoilt": how} | facts)
 
 
@@ -163,7 +166,8 @@ def machine(seed: int) -> Exam:
     case = Case(
         made_by, made.model, si.Recording(made_by, made.time, channels, made.units), *windows, None, None, True, 0.0
     )
-    return Exam(case, made.truth, {"system": made_by, "spoilt": how})
+    facts = {"filter": (*filtered, rate)} if how == "filtered" else {}
+    return Exam(case, made.truth, {"system": made_by, "spoilt": how} | facts)
 
 
 # ---- persons like that of the article ------------------------------------------------------------------
@@ -199,7 +203,8 @@ def person(seed: int) -> Exam:
     made = si.Recording("person", np.arange(n)[::every] / FULL_RATE_HZ, channels, units)
     windows = (0.0, PERSON_S / 2), (PERSON_S / 2, float(PERSON_S))
     case = Case("person", model, made, *windows, None, None, True, 0.0)
-    return Exam(case, {term: {"delay_s": delay}} if delay else {}, {"delay": delay, "cutoff": cutoff, "rate": rate})
+    facts = {"delay": delay, "cutoff": cutoff, "rate": rate, "filter": (2, cutoff, FULL_RATE_HZ)}
+    return Exam(case, {term: {"delay_s": delay}} if delay else {}, facts)
 
 
 @cache
