@@ -19,6 +19,7 @@ from symid.discrepancy.model.suspects import suspects as suspects_of
 from symid.discrepancy.name.error_model import with_error_model
 from symid.discrepancy.name.jump import with_likeliest_jumps
 from symid.discrepancy.name.search import Search
+from symid.discrepancy.prove.certain import unsteady
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError
 from symid.estimation.signals.data import Data
@@ -136,7 +137,7 @@ def _under(
         flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
         jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.model.constants]
         unstated = [k for k, u in task.model.inputs.items() if u.hold == "either"]
-        return Search(base, data, pool, flexible, jumps, unstated, progress)
+        return Search(base, data, pool, flexible, unsteady, jumps, unstated, progress)
 
     search, found, ranking = with_error_model(possible, searched, settle, progress)
     return Explained(task, checked, plain, search, found, ranking)

@@ -21,8 +21,9 @@ FILTERED = [
     *(("machine", seed) for seed in range(80) if draws.MACHINES_SPOILT[seed // 5 % 4] == "filtered"),
     *(("person", seed) for seed in range(0, 40, 3)),
 ]
-NEAR = 2.0
-"""A cutoff is told within this factor; the model's fit then moves it."""
+NEAR = 2.5
+"""A cutoff is told within this factor, which the fit of the model can make up for: it moves by 1.4 in each of three
+rounds (`estimation.measurement.MOST_ROUNDS`)."""
 
 
 @pytest.mark.parametrize(("draw", "seed"), FILTERED)

@@ -34,6 +34,7 @@ class Search:
     ----------
     base : the model as given, fitted to `data`. pool : the suspects.
     flexible : the best flexible law at one place, made when asked for.
+    unsteady : the oscillations of a hypothesis that a half of the data contradicts: what is found on top goes astray.
     jumps : constants of the model that say how abruptly dry friction sets in and that nobody stated.
     unstated : inputs of which nobody stated what they do between their samples.
     """
@@ -42,6 +43,7 @@ class Search:
     data: Data
     pool: Sequence[Suspect]
     flexible: Callable[[], Hypothesis]
+    unsteady: Callable[[Hypothesis], Sequence[Suspect]] = lambda found: ()
     jumps: Sequence[str] = ()
     unstated: Sequence[str] = ()
     progress: Callable[[str], None] = lambda text: None
@@ -76,7 +78,7 @@ class Search:
         """
         best, single = Hypothesis((), self.base, self.base, self.data), self.single
         while len(best.suspects) < POLICY.most_effects:
-            more = self._preferred(best, self._added(best) if best.suspects else single)
+            more = self._steady(best, self._added(best) if best.suspects else single)
             if more is None and not best.suspects and not self.explained(best):
                 more = self._preferred(best, self._other_pairs(best, single, alone=False))
             if more is None:
@@ -145,6 +147,14 @@ class Search:
             return None
         share = max(worth, key=lambda h: h.log_ratio).share
         return max(worth, key=lambda h: self.value(h, share))
+
+    def _steady(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
+        """Likewise, but for an oscillation that a half of the data contradicts."""
+        more = self._preferred(less, found)
+        while more is not None and more.suspect.phase and more.suspect in self.unsteady(more):
+            found = [h for h in found if h is not more]
+            more = self._preferred(less, found)
+        return more
 
     def remainder(self, found: Hypothesis) -> list[Test]:
         """The tests for something left over, made once."""

@@ -30,13 +30,19 @@ def honest(found: Hypothesis, white: bool) -> Hypothesis:
     return sure(replace(kept, fit=with_robust_errors(kept.fit, kept.data)))
 
 
-def steady(found: Hypothesis) -> Hypothesis | None:
-    """The hypothesis without oscillations that one half of the data contradicts: what is no sine keeps no frequency."""
+def unsteady(found: Hypothesis) -> list[Suspect]:
+    """Oscillations that one half of the data contradicts: what is no sine keeps no frequency."""
     sines = [s for s in found.suspects if s.phase]
     survived = survivals(sines, found.fit, found.base, found.data, white=False, others=found.suspects)
     fickle = {(v.name, v.location) for v in survived if v.reason}
-    kept = [s for s in found.suspects if (s.term.name, s.term.location) not in fickle]
-    if not kept or len(kept) == len(found.suspects):
+    return [s for s in sines if (s.term.name, s.term.location) in fickle]
+
+
+def steady(found: Hypothesis) -> Hypothesis | None:
+    """The hypothesis without oscillations that one half of the data contradicts; None where it contradicts none."""
+    gone = unsteady(found)
+    kept = [s for s in found.suspects if s not in gone]
+    if not kept or not gone:
         return None
     less = hypothesis(kept, found.fit, found.base, found.data)
     return None if less is None else polished(less)
