@@ -1,7 +1,7 @@
-"""The filter that a recording went through is told from its spectra, for recordings that were filtered in a known way.
+"""The filter that a recording went through is told from its spectra: recordings that were filtered in a known way.
 
-The study that set the window of `estimation/sensors/spectrum.py`: spectra of differences told order and sampling rate of
-42 filters of 42, Blackman-Harris windows of the recordings themselves 37, Kaiser windows (beta 14 and 20) 39 and 42 with
+The study that set the window of `estimation/sensors/spectrum.py`: spectra of differences told order and rate of
+42 filters of 42, Blackman-Harris windows of what was recorded 37, Kaiser windows (beta 14 and 20) 39 and 42 with
 worse cutoffs.
 """
 

@@ -170,28 +170,6 @@ class Search:
         """Whether nothing systematic is left."""
         return self.remainder(found)[0].minus_log10_p <= POLICY.remainder
 
-    def equivalents(self, found: Hypothesis) -> list[Hypothesis]:
-        """What was tried with one suspect exchanged and explains almost as well, that suspect last."""
-        terms, others = {s.term for s in found.suspects}, {}
-        for h in self.tried:
-            new = [s for s in h.suspects if s.term not in terms]
-            if (
-                len(h.suspects) == len(found.suspects)
-                and len(new) == 1
-                and h.doubt() < POLICY.never
-                and not self._only_clock(new[0], found)
-            ):
-                share = max(h, found, key=lambda k: k.log_ratio).share
-                if h.evidence(share) > found.evidence(share) - POLICY.equivalent:
-                    kept = [s for s in h.suspects if s.term in terms]
-                    others[new[0].term] = Hypothesis((*kept, new[0]), h.fit, h.base, h.data, h.forecast)
-        return sorted(others.values(), key=lambda h: -h.log_ratio)
-
-    @staticmethod
-    def _only_clock(suspect: Suspect, found: Hypothesis) -> bool:
-        """Whether a clock stands against laws of which none follows one: it can imitate any regular motion."""
-        return suspect.kind == "clock" and all(s.kind != "clock" for s in found.suspects)
-
     def beaten(self, found: Hypothesis) -> bool:
         """Whether a flexible law at one place explains more than all that has a name: what acts there is in no list."""
         flexible = self.flexible()

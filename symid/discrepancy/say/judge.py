@@ -11,6 +11,7 @@ from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.remainder import Test, located
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.name.equivalents import equivalents
 from symid.discrepancy.name.explore import moment_profile
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
@@ -23,7 +24,8 @@ from symid.estimation.fitting.fit import Fit
 
 def judge(evidence: Evidence, search: Search, audit: Audit):
     """Verdict, effects and equivalent hypotheses."""
-    found, left, flexible, likes = evidence.found, evidence.left, search.flexible, search.equivalents(evidence.found)
+    found, left, flexible = evidence.found, evidence.left, search.flexible
+    likes = equivalents(found, search.tried)
     effects = tuple(_effect(s, found) for s in found.suspects)
     rest = located(left) if left and left[0].minus_log10_p > POLICY.remainder else None
     rest = None if _may_be_the_sensors(evidence, audit, search) else rest

@@ -1,0 +1,43 @@
+"""Oscillations that one half of a recording contradicts are no finding, and nothing is looked for on top of them."""
+
+from dataclasses import replace
+
+import pytest
+from driven_cart import cart, data_of, recorded
+
+from symid.discrepancy import Suspect
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
+from symid.discrepancy.name.search import Search
+from symid.discrepancy.prove.certain import unsteady
+from symid.estimation.fitting.cold_start import fit_model
+from symid.mechanics import LIBRARY
+
+PERIODIC, FRICTION = (Suspect(LIBRARY[name].at("cart")) for name in ("periodic_torque", "coulomb_friction"))
+TORQUE = {"amplitude_Nm": 0.5, "frequency_Hz": 0.4, "phase_rad": 0.3}
+
+
+def alone(suspect: Suspect, data, values: dict) -> Hypothesis:
+    base = fit_model(cart(), data)
+    return hypothesis([suspect], base, base, data, suspect.named(values))
+
+
+def test_an_oscillation_keeps_its_size_on_both_halves():
+    there = data_of(recorded(4, PERIODIC.term, TORQUE))
+    assert unsteady(alone(PERIODIC, there, TORQUE)) == []
+
+
+def test_what_only_noise_asks_for_is_unsteady():
+    nothing = data_of(recorded(5))
+    assert unsteady(alone(PERIODIC, nothing, TORQUE | {"amplitude_Nm": 0.01})) == [PERIODIC]
+
+
+@pytest.mark.parametrize("contradicted", [True, False])
+def test_the_next_best_is_taken_instead_of_an_unsteady_oscillation(contradicted):
+    data = data_of(recorded(4, FRICTION.term, {"torque_Nm": 0.35}))
+    dry = alone(FRICTION, data, {"torque_Nm": 0.3})
+    sine = alone(PERIODIC, data, TORQUE)
+    sine = replace(sine, fit=replace(sine.fit, loglik2=dry.fit.loglik2 + 500.0))
+    nothing = Hypothesis((), dry.base, dry.base, data)
+    found = {"unsteady": lambda found: [PERIODIC] if contradicted else []}
+    search = Search(dry.base, data, [PERIODIC, FRICTION], lambda: nothing, **found)
+    assert search._steady(nothing, [sine, dry]) is (dry if contradicted else sine)
