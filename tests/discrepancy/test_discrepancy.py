@@ -219,8 +219,10 @@ def test_the_answer_is_in_the_stated_format(tmp_path):
 
 def test_windows_and_channels_are_checked():
     recording = recorded(1)
-    with pytest.raises(DiagnosisError, match="fewer than 8 samples"):
+    with pytest.raises(DiagnosisError, match="fit_window=100 to 120 s does not lie in"):
         diagnose(cart(), recording, fit_window=(100.0, 120.0))
+    with pytest.raises(DiagnosisError, match="fewer than 8 samples"):
+        diagnose(cart(), recording, fit_window=(0.0, 5 * recording.sampling_interval))
     with pytest.raises(DiagnosisError, match="no channel 'position'"):
         segments_between(cart(), recording.time, {"shaker": recording["shaker"]}, (0, 10))
 
