@@ -63,6 +63,7 @@ class Policy:
             "coulomb_friction": 4.0,
             "joint_drag": 8.0,
             "link_drag": 8.0,
+            "slow_body_drag": 8.0,
         }
     )
     never: float = 1000.0

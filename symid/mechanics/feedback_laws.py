@@ -21,9 +21,11 @@ _LAG = LawParameter("time_constant_s", "s", (0.0, 1.0), 0.0, (0.03, 0.08, 0.2), 
 
 
 def _make_late(model: Model, place: str | None, lag: sm.Expr) -> None:
-    for role in ("feedback_error", "feedback_rate"):
-        for signal in model.find(role, place):
-            model.redefine(signal.name, model.delayed(signal.expr, lag))
+    """What the feedback reads comes late; all that it does, where no signal was told apart."""
+    told = [s for role in ("feedback_error", "feedback_rate") for s in model.find(role)]
+    late = [s for s in told if place in (None, s.at)] if told else model.find("feedback_torque", place)
+    for part in late:
+        model.redefine(part.name, model.delayed(part.expr, lag))
 
 
 def _feedback_delay(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -139,7 +141,7 @@ def _backlash(model: Model, place: str, p: SimpleNamespace) -> None:
 FEEDBACK_LAWS: tuple[Law, ...] = (
     Law(
         "feedback_delay",
-        "feedback_error",
+        "feedback_torque",
         (_DELAY,),
         _feedback_delay,
         "All joints move as if their feedback came {delay_s} late",
@@ -214,7 +216,7 @@ FEEDBACK_LAWS: tuple[Law, ...] = (
 FURTHER_FEEDBACK_LAWS: tuple[Law, ...] = (
     Law(
         "joint_feedback_delay",
-        "feedback_error",
+        "feedback_torque",
         (_DELAY,),
         _joint_feedback_delay,
         "The {place} is fed back {delay_s} late, unlike the other joints",

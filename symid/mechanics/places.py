@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 import sympy as sm
 
+from symid.mechanics.bodies import bodies
 from symid.model import Input, Model, Output, Port, State
 from symid.model.dimensions import unit_of
 from symid.units import dimension
@@ -33,8 +34,9 @@ def with_places(model: Model) -> Model:
     Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a ``joint``
     at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed is all that
     the model knows, as of a motor; the position of such a port is 0. In another equation of first order, such as that
-    of a tank, a force has no rate of its own, and moves the state: a ``balance``. Outputs without a role become
-    sensors, inputs without one excitations.
+    of a tank, a force has no rate of its own, and moves the state: a ``balance``. Where no port is declared at all, a
+    mass that moves as no coordinate does is a ``body``. Outputs without a role become sensors, inputs without one
+    excitations.
 
     Examples
     --------
@@ -46,9 +48,12 @@ def with_places(model: Model) -> Model:
     >>> [(p.role, p.at, p.unit) for p in with_places(slide).ports.values()]
     [('joint', 'carriage', 'N')]
     """
-    new = model.copy()
-    for name, port in _ports_of_balances(model).items():
+    new, ports = model.copy(), _ports_of_balances(model)
+    for name, port in ports.items():
         setattr(new, f"{name}_place", port)
+    if not model.ports:
+        for name, half in bodies(model, ports).items():
+            setattr(new, name, half)
     for kind, role, at in ((Output, "sensor", "sensor"), (Input, "excitation", "input")):
         for c in [c for c in new.components.values() if isinstance(c, kind) and not c.role]:
             new.components[c.name] = replace(c, role=role, at=c.at or f"{at}:{c.channel or c.name}")

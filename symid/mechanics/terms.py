@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from symid.mechanics.bodies import BODY_LAWS
 from symid.mechanics.drive_laws import DRIVE_LAWS
 from symid.mechanics.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
 from symid.mechanics.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
@@ -24,6 +25,7 @@ LIBRARY: dict[str, Law] = {
         *FURTHER_LINK_LAWS,
         *FURTHER_WORLD_LAWS,
         *DRIVE_LAWS,
+        *BODY_LAWS,
     )
 }
 """Every law by name: the canonical ones first, then what else the field knows."""

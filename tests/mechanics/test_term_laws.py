@@ -1,9 +1,11 @@
 """What single laws of missing physics say: sizes, units, compositions."""
 
 import numpy as np
+import pytest
 import sympy as sm
 from term_models import CART, RIG, STANDING, effort
 
+import symid as si
 from symid.mechanics import LIBRARY, BenchDoublePendulum, lagrange_residuals
 
 
@@ -153,3 +155,29 @@ def test_input_gain_and_delay_reach_the_drive_in_either_order():
         (late,) = (s for s in drive.free_symbols if s in model.delays)
         assert drive == model.input_gain_input_gain * late
         assert model.delays[late].lag == model.input_delay_input_delay_s.symbol
+
+
+def plainly_held() -> si.Model:
+    """A rod held upright by a torque that is written as one expression, no signal of it told apart."""
+    m = si.Model("rod held upright")
+    m.q, m.w, m.push = si.State(unit="rad"), si.State(unit="rad/s"), si.Input(unit="N*m")
+    m.kp, m.kd = si.Parameter(unit="N*m/rad", bounds=(0, 100)), si.Parameter(unit="N*m*s/rad", bounds=(0, 10))
+    m.hold = si.Expression(m.kp * m.q + m.kd * m.w, unit="N*m", role="feedback_torque", at="q")
+    m.motion = si.Equation(m.q.dot - m.w)
+    m.balance = si.Equation(m.w.dot - 9.0 * sm.sin(m.q.symbol) + m.hold - m.push)
+    m.seen = si.Output(m.q)
+    return m
+
+
+@pytest.mark.parametrize("name, place", [("feedback_delay", "global"), ("joint_feedback_delay", "q")])
+def test_of_a_torque_written_plainly_all_comes_late(name, place):
+    late = plainly_held().with_term(LIBRARY[name].at(place))
+    states = {late.q.symbol, late.w.symbol}
+    assert not late.inline(late.hold.expr).free_symbols & states
+    assert {d.of for d in late.delays.values()} == states
+    assert str(next(iter(late.delays.values())).lag) == f"{name}_{place}_delay_s"
+
+
+def test_of_signals_that_are_told_apart_only_they_come_late():
+    late = STANDING.with_term(LIBRARY["feedback_delay"].at("global"))
+    assert late.ankle_torque.expr == STANDING.ankle_torque.expr

@@ -203,7 +203,15 @@ def _scaled(q: LawParameter, by: float) -> LawParameter:
     return replace(q, bounds=(by * low, by * high), starts=starts, typical=by * q.typical, plausible=by * q.plausible)
 
 
-PLAIN = ("constant_torque", "quadratic_stiffness", "asymmetric_damping", "joint_drag", "link_drag")
+PLAIN = (
+    "constant_torque",
+    "quadratic_stiffness",
+    "asymmetric_damping",
+    "joint_drag",
+    "link_drag",
+    "body_drag",
+    "slow_body_drag",
+)
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
 ESTABLISHED = {*CANONICAL, *(law.name for law in GEOMETRY_LAWS), *PLAIN}
 """Names that are an answer: of the answer files, of what may be stated wrongly, and the plainest forces."""

@@ -19,7 +19,7 @@ def place_name(location: str) -> str:
     noun = noun if noun[-1:].isdigit() else f"the {noun}"
     return (
         f"the {kind} {rest}"
-        if kind == "input"
+        if kind in ("input", "body")
         else f"the {kind} of {noun}"
         if kind
         else {"the global": "the whole system", "the ": "the whole system"}.get(noun, noun)

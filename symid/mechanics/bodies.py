@@ -1,0 +1,113 @@
+"""Bodies whose speed is no speed of a joint: a load on a rope, the second link of an arm; and what holds them back.
+
+Of Lagrange's equations the derivative of the kinetic energy by a mass is half the square of that mass's own speed, of a
+body that turns, too, half the mean square over its parts. A drag against that motion has in each balance the derivative
+of Rayleigh's dissipation function by the balance's own rate, wherever the body is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf
+from types import SimpleNamespace
+
+import numpy as np
+import sympy as sm
+
+from symid.model import Expression, Law, LawParameter, Model, Port
+from symid.model.dimensions import unit_of
+from symid.units import dimension
+
+ROLE = "body"
+"""Of the expression of half a body's squared speed."""
+POINTS = 6
+"""Random values at which matrices and speeds are compared."""
+EQUAL = 1e-9
+"""Relative difference of what is the same but for rounding."""
+SLOWEST = 1e-9
+"""Speed [m/s] that a body at rest is taken to have: the root of its square has no derivative there."""
+
+
+def bodies(model: Model, ports: Mapping[str, Port]) -> dict[str, Expression]:
+    """Half the squared speed of each mass that moves as no port does, by the name of what is to be declared.
+
+    None where what stands beside the accelerations is not symmetric, so that it is no mass matrix.
+
+    Parameters
+    ----------
+    ports : of the balances, one for each joint, by equation; and of those between joints.
+    """
+    joints = {e: p for e, p in ports.items() if p.role == "joint" and p.rate.is_Symbol}
+    rates = sm.Matrix([p.rate for p in joints.values()])
+    dots = [model[str(v)].dot for v in rates]
+    balances = {e: model.inline(model[e].expr) for e in joints}
+    mass = sm.Matrix([[-p.into[e] * sm.diff(balances[e], a) for a in dots] for e, p in joints.items()])
+    if not joints or not np.allclose(_drawn(model, *mass), _drawn(model, *mass.T), rtol=EQUAL, atol=0.0):
+        return {}
+    found: dict[str, Expression] = {}
+    for m in (c for c in [*model.constants.values(), *model.parameters.values()] if _has(c.unit, "kg")):
+        half = (rates.T * mass.diff(m.symbol) * rates)[0] / 2
+        known = [p.rate**2 for p in ports.values() if p.rate != 0] + [other.expr for other in found.values()]
+        if half.has(m.symbol) or not _has(unit_of(model, half, model.time), "m^2/s^2"):
+            continue
+        if not any(_in_proportion(model, half, other) for other in known):
+            at = m.at or f"{ROLE}:{m.name}"
+            found[f"{m.name}_half_squared_speed"] = Expression(half, unit="m^2/s^2", role=ROLE, at=at)
+    return found
+
+
+def _has(unit: str, like: str) -> bool:
+    return bool(unit) and dimension(unit) == dimension(like)
+
+
+def _in_proportion(model: Model, one: sm.Expr, other: sm.Expr) -> bool:
+    """Whether one is a multiple of the other, however the model moves."""
+    a, b = _drawn(model, one, other)
+    return bool(np.ptp(a / b) <= EQUAL * abs(a[0] / b[0]))
+
+
+def _drawn(model: Model, *exprs: sm.Expr) -> np.ndarray:
+    """(k, POINTS) of expressions where the states are random, and all else has one random value."""
+    moving = {s.symbol for s in model.states.values()}
+    free = sorted(set().union(*(e.free_symbols for e in exprs)), key=str)
+    rng = np.random.default_rng(0)
+    values = [rng.uniform(0.5, 1.5, POINTS if s in moving else 1) for s in free]
+    return np.array([np.broadcast_to(sm.lambdify(free, e, "numpy")(*values), POINTS) for e in exprs], dtype=float)
+
+
+# ---- laws --------------------------------------------------------------------------------------
+def _held_back(model: Model, place: str, coefficient: sm.Symbol, power: int) -> None:
+    """A force on the body against its motion, that grows with so high a power of its speed."""
+    (body,) = model.find(ROLE, place)
+    half = model.inline(body.expr)
+    speed = sm.sqrt(2 * half + SLOWEST**2)
+    for port in [p for p in model.ports.values() if p.role == "joint" and p.rate.is_Symbol]:
+        model.add_effort(port.name, -coefficient * speed ** (power - 1) * sm.diff(half, port.rate))
+
+
+def _drag(model: Model, place: str, p: SimpleNamespace) -> None:
+    _held_back(model, place, p.coefficient_N_s2_m2, 2)
+
+
+def _slow_drag(model: Model, place: str, p: SimpleNamespace) -> None:
+    _held_back(model, place, p.coefficient_Ns_m, 1)
+
+
+BODY_LAWS: tuple[Law, ...] = (
+    Law(
+        "body_drag",
+        ROLE,
+        (LawParameter("coefficient_N_s2_m2", "N*s^2/m^2", (0.0, inf)),),
+        _drag,
+        "Drag holds the {place} back with the square of its own speed, {coefficient_N_s2_m2}",
+        "Newton 1687",
+    ),
+    Law(
+        "slow_body_drag",
+        ROLE,
+        (LawParameter("coefficient_Ns_m", "N*s/m", (0.0, inf)),),
+        _slow_drag,
+        "A cable or slow air holds the {place} back in proportion to its own speed, {coefficient_Ns_m}",
+        "Stokes 1851",
+    ),
+)
