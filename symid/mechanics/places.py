@@ -12,6 +12,7 @@ import scipy
 import sympy as sm
 
 from symid.mechanics.bodies import bodies
+from symid.mechanics.stated import stated
 from symid.model import Input, Model, Output, Port, State
 from symid.model.dimensions import unit_of
 from symid.units import dimension
@@ -35,8 +36,8 @@ def with_places(model: Model) -> Model:
     at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed is all that
     the model knows, as of a motor; the position of such a port is 0. In another equation of first order, such as that
     of a tank, a force has no rate of its own, and moves the state: a ``balance``. Where no port is declared at all, a
-    mass that moves as no coordinate does is a ``body``. Outputs without a role become sensors, inputs without one
-    excitations.
+    mass that moves as no coordinate does is a ``body``, and a constant without a role is ``stated``. Outputs without a
+    role become sensors, inputs without one excitations.
 
     Examples
     --------
@@ -54,6 +55,7 @@ def with_places(model: Model) -> Model:
     if not model.ports:
         for name, half in bodies(model, ports).items():
             setattr(new, name, half)
+        new.components.update(stated(model))
     for kind, role, at in ((Output, "sensor", "sensor"), (Input, "excitation", "input")):
         for c in [c for c in new.components.values() if isinstance(c, kind) and not c.role]:
             new.components[c.name] = replace(c, role=role, at=c.at or f"{at}:{c.channel or c.name}")

@@ -7,6 +7,7 @@ from symid.mechanics.drive_laws import DRIVE_LAWS
 from symid.mechanics.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
 from symid.mechanics.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
 from symid.mechanics.world_laws import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
+from symid.mechanics.stated import STATED_LAWS
 from symid.model import Law, Model, Term
 
 CANONICAL: tuple[str, ...] = tuple(law.name for law in (*FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS))
@@ -26,6 +27,7 @@ LIBRARY: dict[str, Law] = {
         *FURTHER_WORLD_LAWS,
         *DRIVE_LAWS,
         *BODY_LAWS,
+        *STATED_LAWS,
     )
 }
 """Every law by name: the canonical ones first, then what else the field knows."""

@@ -16,6 +16,7 @@ from symid.estimation.signals.segment import Segment
 from symid.mechanics import CANONICAL
 from symid.mechanics import suspects as terms_of
 from symid.mechanics.places import with_places
+from symid.mechanics.stated import STATED_LAWS
 from symid.mechanics.world_laws import GEOMETRY_LAWS
 from symid.model import Law, LawParameter, Model, Term
 
@@ -27,6 +28,7 @@ KINDS = {
     "center_of_mass": "geometry",
     "inertia": "geometry",
     "length": "geometry",
+    "stated": "geometry",
 }
 """Role of the parts that a law changes -> kind of suspect; "state" where it is none of these, nor follows a clock."""
 HIGHEST_FREQUENCY = 5.0
@@ -213,7 +215,7 @@ PLAIN = (
     "slow_body_drag",
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
-ESTABLISHED = {*CANONICAL, *(law.name for law in GEOMETRY_LAWS), *PLAIN}
+ESTABLISHED = {*CANONICAL, *(law.name for law in (*GEOMETRY_LAWS, *STATED_LAWS)), *PLAIN}
 """Names that are an answer: of the answer files, of what may be stated wrongly, and the plainest forces."""
 
 

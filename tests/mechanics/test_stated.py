@@ -1,0 +1,40 @@
+"""Constants of a plain model that may be stated wrongly."""
+
+import pytest
+
+import symid as si
+from symid.mechanics.places import with_places
+
+
+def slide(**role: str) -> si.Model:
+    m = si.Model("slide")
+    m.x, m.v, m.push = si.State(unit="m"), si.State(unit="m/s"), si.Input(unit="N")
+    m.mass, m.g = si.Constant(0.8, unit="kg", **role), si.Constant(9.81, unit="m/s^2")
+    m.slope, m.unused = si.Constant(0.02, unit="1"), si.Constant(3.0, unit="kg")
+    m.k = si.Parameter(unit="N/m", bounds=(0, 100))
+    m.motion = si.Equation(m.x.dot - m.v)
+    m.balance = si.Equation(m.mass * m.v.dot + m.k * m.x + m.mass * m.g * m.slope - m.push)
+    m.seen = si.Output(m.x)
+    return m
+
+
+def test_what_is_stated_may_be_wrong_but_not_gravity():
+    assert [c.at for c in with_places(slide()).find("stated")] == ["mass", "slope"]
+    assert "stated_value_error@mass" in {str(s.term) for s in si.suspects(slide())}
+
+
+def test_a_constant_with_a_role_has_laws_of_its_own():
+    assert [c.at for c in with_places(slide(role="mass", at="slide")).find("stated")] == ["slope"]
+
+
+def test_the_factor_multiplies_the_constant_everywhere():
+    m = with_places(slide())
+    more = m.with_term(si.mechanics.LIBRARY["stated_value_error"].at("mass"))
+    factor = more.stated_value_error_mass_factor.symbol
+    assert more["balance"].expr == m["balance"].expr.xreplace({m.mass.symbol: factor * m.mass.symbol})
+
+
+def test_a_user_of_ports_says_where_things_may_be_wrong():
+    m = slide()
+    m.slider = si.Port(position=m.x, rate=m.v, into={"balance": -1.0}, role="joint", at="slide", unit="N")
+    assert not with_places(m).find("stated") and with_places(m)["mass"].value == pytest.approx(0.8)
