@@ -17,6 +17,7 @@ from symid.discrepancy.model.sizes import sizes_of
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.model.suspects import suspects as suspects_of
 from symid.discrepancy.name.error_model import with_error_model
+from symid.discrepancy.name.held import held_as_given
 from symid.discrepancy.name.jump import with_likeliest_jumps
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.certain import unsteady
@@ -127,7 +128,10 @@ def _under(
         return settled(fit.model, task.recording, *window, plain, sharper, fit.values, checked.stated)
 
     task, plain, possible = fitted_as_given(task, plain, fits)
-    possible = [(data, with_likeliest_jumps(given.model, fit, data)) for data, fit in possible]
+    unstated = [k for k, u in task.model.inputs.items() if u.hold == "either"]
+    possible = [
+        (data, with_likeliest_jumps(given.model, held_as_given(fit, data, unstated), data)) for data, fit in possible
+    ]
     data, fit = possible[0]
     pool = list(suspects_of(task.model, sizes_of(fit, data))) if named is None else list(named)
     progress(f"the model as given is fitted ({fit.iterations} iterations)")
@@ -136,7 +140,6 @@ def _under(
         nothing = Hypothesis((), base, base, data)
         flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
         jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.model.constants]
-        unstated = [k for k, u in task.model.inputs.items() if u.hold == "either"]
         return Search(base, data, pool, flexible, unsteady, jumps, unstated, progress)
 
     search, found, ranking = with_error_model(possible, searched, settle, progress)

@@ -1,27 +1,31 @@
-"""A delay of an input by part of a sample, where the input is held from each sample to the next instead.
+"""Inputs that are held from each sample to the next, where nobody stated what they do between their samples.
 
 What a computer puts out stays until its next turn, so it comes half a sample later than the straight lines through its
-samples (Astrom & Wittenmark 1997, section 2.3). Nothing was left out of such a model.
+samples (Astrom & Wittenmark 1997, section 2.3), and in steps that a stiff drive feels. Nothing was left out of such a
+model. An input that is late is not held because half a sample of that is better than nothing: what is held must be
+likelier than straight lines that may be late, too.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from symid.discrepancy.model.hypothesis import Hypothesis, refit
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fitter
+from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.signals.data import Data
+from symid.mechanics import LIBRARY
 
 DELAY = "input_delay"
 """The law that may be none."""
+DELAY_KEY = LIBRARY[DELAY].parameters[0].key
 
 
 def held(
     found: Hypothesis, data: Data, unstated: Sequence[str], better: Callable[[Hypothesis, Hypothesis], Hypothesis]
 ) -> Hypothesis:
-    """`found`, or the same without delays by part of a sample, with those inputs held, where that is believed more.
+    """`found`, or the same with inputs held and without their delays by part of a sample, where that is believed more.
 
     Longer delays stay as they are: a held input that is late answers to no small change of its delay.
 
@@ -31,21 +35,42 @@ def held(
         more.
     """
     step = data.segments[0].step / data.segments[0].ratio
-    late = [s for s in found.suspects if s.term.name == DELAY and 0 < _delay(found, s) < step]
-    inputs = [u.name for s in late for u in found.base.model.find("excitation", s.term.location)]
-    names = [k for k in inputs if k in unstated and found.base.model.inputs[k].hold != "zero"]
-    if not names:
-        return found
-    rest = tuple(s for s in found.suspects if s not in late)
-    model = found.base.model.with_holds(**dict.fromkeys(names, "zero"))
+    for name in (k for k in unstated if found.base.model.inputs[k].hold != "zero"):
+        place = found.base.model.inputs[name].at
+        late = [s for s in found.suspects if s.term.name == DELAY and s.term.location == place]
+        if all(0 < _delay(found, s) < step for s in late):
+            rest = tuple(s for s in found.suspects if s not in late)
+            found = _likelier(found, rest, name, place, step, data, better)
+    return found
+
+
+def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
+    """The fit of a model as given, or that with inputs held where this is likelier."""
+    nothing = Hypothesis((), fit, fit, data)
+    return held(nothing, data, unstated, lambda *two: max(two, key=lambda h: h.evidence(1.0))).fit
+
+
+def _likelier(
+    found: Hypothesis, rest: tuple[Suspect, ...], name: str, place: str, step: float, data: Data, better: Callable
+) -> Hypothesis:
+    """The `rest` of what was found with one input held, if that is believed more than `found`, and than any delay."""
+    model = found.base.model.with_holds(**{name: "zero"})
     try:
         base = Fitter(model, data, near=found.base).again(found.base)
     except SymidError:
         return found  # what cannot be followed is not likelier
     fit = refit(rest, found.fit, base, data) if rest else base
-    # Both against one base: how much likelier a held input is by itself must count.
-    return found if fit is None else better(found, Hypothesis(rest, fit, found.base, data))
+    # All against one base: how much likelier a held input is by itself must count.
+    other = None if fit is None else Hypothesis(rest, fit, found.base, data)
+    if other is None or better(found, other) is found:
+        return found
+    if len(rest) == len(found.suspects):
+        late = Suspect(LIBRARY[DELAY].at(place))
+        delayed = hypothesis([*rest, late], found.fit, found.base, data, late.named({DELAY_KEY: step / 2}))
+        if delayed is not None and better(delayed, other) is delayed:
+            return found
+    return other
 
 
 def _delay(found: Hypothesis, suspect: Suspect) -> float:
-    return found.fit.values[suspect.term.parameter_name(suspect.law.parameters[0].key)]
+    return found.fit.values[suspect.term.parameter_name(DELAY_KEY)]

@@ -83,12 +83,17 @@ class Data:
         return self.with_segments(self.segments[:n]), self.with_segments(self.segments[n:])
 
     def thinned(self) -> Data:
-        """Every so-many-th sample where free motion has more samples than a fit needs; sensors keep 40 a swing."""
+        """Every so-many-th sample where a motion without random forces has more than a fit needs, 40 a swing at least.
+
+        Inputs keep all of theirs: they may be held from one to the next.
+        """
         most = int(min(0.025 * swing(e) / e.step for e in self.segments))
         every = min(-(-self.samples // MOST_SAMPLES), most)
         if self.driven or every < 2:
             return self
-        return self.with_segments(e.part(slice(None, None, every)) for e in self.segments)
+        return self.with_segments(
+            e.sparser(every) if e.inputs else e.part(slice(None, None, every)) for e in self.segments
+        )
 
 
 def observed_state(model: Model, recorded: np.ndarray) -> list[float]:
