@@ -94,8 +94,20 @@ def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
         and len(fit.innovations[0]) == len(data.segments[0].time)
     ):
         return [fit.initial]
-    plain = np.array([observed_state(fit.model, e.recorded[0]) for e in data.segments])
+    plain = first_states(fit, data)
     return [plain, *_short_fits(fit, data, plain)]
+
+
+def first_states(fit: Fit, data: Data) -> np.ndarray:
+    """(E, n) states with which segments may begin: shown by sensors, or zero; what is no rate as the fit's own begin.
+
+    An empty tank that no sensor sees is no start, for the flow out of it has no slope.
+    """
+    rates = fit.model.rates()
+    own = np.median(fit.initial, axis=0)
+    states = zip(fit.simulator.states, own, strict=True)
+    slow = {k: v for k, v in states if k not in rates and fit.model.states[k].role != "memory"}
+    return np.array([observed_state(fit.model, e.recorded[0], slow) for e in data.segments])
 
 
 def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:

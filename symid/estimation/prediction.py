@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symid.estimation.signals.data import Data, observed_state
+from symid.estimation.free_run import first_states
+from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 
 FORGOTTEN = 1.0
@@ -44,7 +45,7 @@ def predictions(fit: Fit, data: Data) -> Predictions:
     DiagnosisError : the model cannot follow these data.
     """
     fitter = Fitter(fit.model, data, fixed=tuple(fit.values), near=fit, tune=False)
-    begin = np.array([observed_state(fit.model, e.recorded[0]) for e in data.segments])
+    begin = first_states(fit, data)
     found = fitter.fit(fit.values, begin, fit.process, errors=False, kalman_gain=fit.kalman_gain)
     m, step = len(data.sensor_noise), data.segments[0].step
     constant = -0.5 * np.linalg.slogdet(2 * np.pi * fit.covariance)[1]

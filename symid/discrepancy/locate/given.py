@@ -76,10 +76,15 @@ def _near(data: Data, fit: Fit) -> bool:
 
 
 def _regressed(task: Task, plain: Data) -> dict[str, float]:
-    """Parameters [SI] with which the recorded motion satisfies the equations best, improved by simulation."""
+    """Parameters [SI] with which the recorded motion satisfies the equations best, improved by simulation.
+
+    And the states by and large: of a tank that no sensor sees, an empty one is no start.
+    """
     longest = sorted(plain.segments, key=lambda e: -len(e.time))[:PIECES]
     windows = [(float(e.time[0]), float(e.time[-1])) for e in longest]
     problem = Identification(task.model, [task.recording] * len(windows), window=windows)
     z, _ = default_start(problem.transcription)
     layout = problem.transcription.layout
-    return dict(zip(layout.parameter_names, map(float, layout.parameters(z)), strict=True))
+    states = np.median(np.vstack([layout.states(z, k) for k in range(len(windows))]), axis=0)
+    names, values = (*task.model.states, *layout.parameter_names), (*states, *layout.parameters(z))
+    return dict(zip(names, map(float, values), strict=True))

@@ -8,6 +8,7 @@ import numpy as np
 
 from symid.discrepancy.model.hypothesis import extended, padded
 from symid.discrepancy.model.suspects import Suspect
+from symid.errors import DiagnosisError
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.simulation import Simulator
@@ -38,6 +39,11 @@ class Projection:
             wide[:, :q], wide[:, q + i * n : q + (i + 1) * n] = J[:, :q], J[:, q:]
             columns.append(wide)
         J = np.vstack(columns)
+        if not np.isfinite(J).all():
+            raise DiagnosisError(
+                f"model '{fit.model.name}' answers its own unknowns with what is no number, as a square root does at "
+                "zero; write it so that it has a slope there, or give start values that keep away from it"
+            )
         J /= np.maximum(np.sqrt((J**2).sum(0)), 1e-300)
         U, s, _ = np.linalg.svd(J, full_matrices=False)
         self.own = U[:, s > 1e-8 * s[0]]

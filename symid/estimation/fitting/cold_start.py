@@ -24,20 +24,19 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -
 
     Parameters
     ----------
-    start : SI values of some parameters; zero, or the middle of the bounds, elsewhere.
+    start : SI values of some parameters, and of states that no sensor shows as they are, where segments begin; zero, or
+        the middle of the bounds, elsewhere.
 
     Raises
     ------
     DiagnosisError : no start leads to a run that stays finite.
     """
-    sim = simulator(model)
-    values = {k: _first(p) for k, p in model.parameters.items()} | {
-        k: v for k, v in (start or {}).items() if k in model.parameters
-    }
-    initial = np.array([observed_state(model, e.recorded[0]) for e in data.segments])
+    sim, start = simulator(model), start or {}
+    values = {k: start.get(k, _first(p)) for k, p in model.parameters.items()}
+    initial = np.array([observed_state(model, e.recorded[0], start) for e in data.segments])
     fitter = Fitter(model, data)
     if not fitter.driven:
-        return _grow(model, data, values, initial, all_known=values.keys() == (start or {}).keys())
+        return _grow(model, data, values, initial, all_known=values.keys() <= start.keys())
     found, problem = [], None
     for confident in (CONFIDENT, 0.2 * CONFIDENT):
         process = confident * _equivalent_noise(sim, values, initial, data)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -96,7 +97,7 @@ class Data:
         )
 
 
-def observed_state(model: Model, recorded: np.ndarray) -> list[float]:
-    """Each state that a sensor shows as it is, from the sensor; the others zero."""
+def observed_state(model: Model, recorded: np.ndarray, others: Mapping[str, float] | None = None) -> list[float]:
+    """Each state that a sensor shows as it is, from the sensor; of the others what `others` say of them, or zero."""
     shown = {str(y.expr): v for y, v in zip(model.outputs.values(), recorded, strict=True)}
-    return [float(shown.get(name, 0.0)) for name in model.states]
+    return [float(shown.get(name, (others or {}).get(name, 0.0))) for name in model.states]
