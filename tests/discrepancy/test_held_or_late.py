@@ -49,6 +49,12 @@ def test_a_held_input_is_not_late():
     assert "is taken to be held" in str(said)
 
 
+def test_an_input_is_held_whatever_is_suspected():
+    said = si.diagnose(lag(), recorded(0, hold=True, delay_s=0.0), fit_window=(0, 16), driven=False, suspects=[])
+    assert said.verdict == "adequate"
+    assert "is taken to be held" in str(said)
+
+
 @pytest.mark.parametrize("delay_s", [0.02, 0.13])
 def test_a_late_input_is_late_by_what_it_is(delay_s):
     said = found(recorded(2, hold=False, delay_s=delay_s))

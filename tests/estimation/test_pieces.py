@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 import symid as si
 from symid.discrepancy.model.dry import PARTS, with_friction_speeds
+from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.pieces import FEW, MANY, free_pieces
 from symid.mechanics import LIBRARY
@@ -87,3 +88,13 @@ def test_a_stated_friction_speed_is_kept():
     model = slide()
     model.slow = si.Constant(0.02, unit="m/s", role="friction_speed")
     assert with_friction_speeds(model, cut([]), np.ones(1)) is model
+
+
+def test_thinning_leaves_inputs_all_of_their_samples():
+    """They may be held from one to the next: every second sample would be another force."""
+    time = np.arange(0, 40, 1e-3)
+    segment = Segment(time, np.sin(time)[:, None], {"u": np.cos(time)})
+    data = Data((segment,), np.array([1e-3]), driven=False).thinned()
+    assert data.samples < len(time) / 2
+    assert len(data.segments[0].inputs["u"]) == (data.samples - 1) * data.segments[0].ratio + 1
+    assert data.segments[0].ratio > 1
