@@ -16,6 +16,7 @@ from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.signals.data import Data
 from symid.mechanics import LIBRARY
+from symid.model import Model
 
 DELAY = "input_delay"
 """The law that may be none."""
@@ -55,6 +56,8 @@ def _likelier(
 ) -> Hypothesis:
     """The `rest` of what was found with one input held, if that is believed more than `found`, and than any delay."""
     model = found.base.model.with_holds(**{name: "zero"})
+    if _promise(found, rest, model, data) <= found.fit.loglik2:
+        return found
     try:
         base = Fitter(model, data, near=found.base).again(found.base)
     except SymidError:
@@ -70,6 +73,14 @@ def _likelier(
         if delayed is not None and better(delayed, other) is delayed:
             return found
     return other
+
+
+def _promise(found: Hypothesis, rest: tuple[Suspect, ...], model: Model, data: Data) -> float:
+    """Twice the log-likelihood that one step promises for the `rest` of what was found, on top of another `model`."""
+    for s in rest:
+        model = model.with_term(s.term)
+    fitter, fit = Fitter(model, data, near=found.fit, tune=False), found.fit
+    return fitter.promise({k: fit.values[k] for k in fitter.sim.parameters}, fit.initial, fit.process)
 
 
 def _delay(found: Hypothesis, suspect: Suspect) -> float:

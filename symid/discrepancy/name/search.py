@@ -103,7 +103,7 @@ class Search:
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
             if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best):
                 break
-        return self._exchanged(best) if len(best.suspects) > 1 else best, single
+        return self._exchanged(best) if len(best.suspects) > 1 or not best.established else best, single
 
     def settled(self, found: Hypothesis) -> Hypothesis:
         """What is found, or the flexible law at one place where several laws together explain less than that."""
@@ -272,7 +272,8 @@ class Search:
             taken, off = {s.term for s in found.suspects}, dict[str, float]()
             sets = [[t for t in found.suspects if t is not s] for s in found.suspects] if len(taken) > 2 else []
             for s in found.suspects:
-                for other in (o for o in self.pool if is_alike(o, s) and o.term not in taken):
+                alike = [o for o in self.pool if is_alike(o, s) and o.term not in taken]
+                for other in (o for o in alike if o.established >= s.established):
                     sets.append([other if t is s else t for t in found.suspects])
                     off |= other.named({q.key: q.null or 0.0 for q in other.law.parameters})
             tried = [found, *self._together([(chosen, off) for chosen in sets], found)]
