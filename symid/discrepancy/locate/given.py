@@ -13,7 +13,7 @@ from symid.errors import DiagnosisError, SymidError
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.signals.pieces import cut
-from symid.estimation.fitting.sensitive import followed
+from symid.estimation.fitting.sensitive import SHORTEST, followed
 from symid.identification import Identification
 from symid.identification.starts.default import default_start
 
@@ -31,16 +31,36 @@ def fitted_as_given(task: Task, plain: Data, fits: Fitting) -> tuple[Task, Data,
     ------
     DiagnosisError : as `fitted_in_pieces` does.
     """
-    found = fitted_in_pieces(task, plain, fits)
+    try:
+        found = fitted_in_pieces(task, plain, fits)
+    except DiagnosisError as error:
+        return _fitted_in_shorter_pieces(task, plain, fits, error)
     data, fit = found[0]
     if not task.moved or fit.kalman_gain is not None or data.filter is not None or _near(data, fit):
         return task, plain, found
     lasts = followed(task.model, plain, fit, task.start, _near)
     if lasts is None:
         return task, plain, found
-    task = replace(task, segment_length=lasts)
-    plain = plain.with_segments(part for e in plain.segments for part in cut(e, lasts))
+    task, plain = _in_pieces(task, plain, lasts)
     return task, plain, fitted_in_pieces(task, plain, fits)
+
+
+def _in_pieces(task: Task, plain: Data, seconds: float) -> tuple[Task, Data]:
+    parts = (part for e in plain.segments for part in cut(e, seconds))
+    return replace(task, segment_length=seconds), plain.with_segments(parts)
+
+
+def _fitted_in_shorter_pieces(task: Task, plain: Data, fits: Fitting, error: DiagnosisError) -> tuple[Task, Data, Fits]:
+    """The fits of pieces short enough to be followed: a wrong model may lead a motion where it has no equations."""
+    longest = max(e.time[-1] - e.time[0] for e in plain.segments)
+    length = longest / 2
+    while length > SHORTEST * plain.pace:
+        shorter = _in_pieces(task, plain, length)
+        try:
+            return *shorter, fitted_in_pieces(*shorter, fits)
+        except DiagnosisError:
+            length /= 2
+    raise error
 
 
 def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
