@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp
 from symid.errors import SolveError
-from symid.identification.starts.further import drawn_starts, far, further_starts
+from symid.identification.starts.further import drawn_starts, far, further_starts, led_starts
 from symid.ipopt_solver import Iteration, SolverResult
 from symid.ipopt_solver.aside import set_aside
 from symid.transcription import BackwardEuler
@@ -67,6 +67,11 @@ class Attempts:
         lost = LOST * self.problem.transcription.program.objective(z)
         if not self.done and not far(self.t, z) and not (self.solved and self.best.objective <= lost):
             self.run(z, MANY)
+
+    def along(self) -> None:
+        """From the best end, led along the recording."""
+        for start in led_starts(self.t, self.best.z):
+            self.run(start, MANY, near=True)
 
     def further(self, z: np.ndarray) -> None:
         """From further starts, until one ends as near to the recording as it can be."""
@@ -133,6 +138,8 @@ def solve_default(problem: Identification, z: np.ndarray, on_iteration, options:
         attempts.run(z, MANY if problem.episodes.count == 1 else float("inf"))
     ended = attempts.solved
     try:
+        if problem.episodes.count == 1 and attempts.solved:
+            attempts.along()
         if problem.episodes.count == 1 and not attempts.done:
             attempts.further(z)
             if not (simulated or attempts.done):

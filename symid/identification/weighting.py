@@ -15,7 +15,9 @@ import numpy as np
 
 from symid.checked import nearest
 from symid.errors import TranscriptionError
+from symid.identification.elsewhere import better_end
 from symid.identification.sensitivity import outputs_and_targets
+from symid.identification.starts.further import SMALL
 from symid.transcription import EXTREME, Measured
 
 if TYPE_CHECKING:
@@ -166,11 +168,26 @@ def to_likelihood(solution: Solution, **solver) -> Solution:
     ):
         return solution
     if solution.errors.model == "white":
-        return _by_turns(solution, _by_noise, solver)
+        return _from_elsewhere(_by_turns(solution, _by_noise, solver), p, solver)
     pull = weights_of(p, solution.transcription.measured)[0] * _pooled(solution) ** 2
     if p.model.informed or pull.max() < UNFAIR * pull.min():
         return solution
     return _by_turns(solution, _by_time, solver)
+
+
+def _from_elsewhere(solution: Solution, first: Identification, solver: dict) -> Solution:
+    """The solution, or a better one that the default start finds with its weights, if these are far from the first.
+
+    With other weights another optimum may be the best: of an epidemic whose sick and dead were counted alike, where the
+    noise of both was in proportion to them, it was the one in which incubation and recovery change places.
+    """
+    measured = solution.transcription.measured
+    ratio = weights_of(solution.problem, measured) / weights_of(first, measured)
+    small = sum(m.intervals for m in measured) <= SMALL
+    if not small or ratio.max() < UNFAIR * ratio.min() or solution.starts[solution.best].kind != "default":
+        return solution
+    end = better_end(solution)
+    return solution if end is None else _by_turns(replace(solution, result=end), _by_noise, solver)
 
 
 def _by_turns(solution: Solution, weighed: Callable[[Solution], Identification], solver: dict) -> Solution:

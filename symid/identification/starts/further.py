@@ -11,17 +11,18 @@ from collections.abc import Iterator
 import numpy as np
 
 from symid.identification.starts.bounds import guesses
-from symid.identification.starts.led import around, free, tracked
+from symid.identification.starts.led import along, around, free, tracked
 from symid.identification.starts.shooting import Shooting, can_shoot, with_hidden
 from symid.identification.sensitivity import outputs_and_targets
 from symid.identification.starts.default import equation_error
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 
-FAR, FAR_SMALL = 1.5, 1.15
+FAR, FAR_SMALL, DOUBTED = 1.5, 1.15, 1.1
 """Residual over what a smoother leaves, from which on other optima are looked for; the second where the problem is
-small, and a needless look costs a second. The best fits of white noise have 0.9 to 1.3, most of them less than 1.1; two
-of 400 pendulums that turn over, with noise of a radian and more, ended at 1.24 and 1.39, with turns lost."""
+small, and a needless look costs a second, the third there by the `led_starts`, which cost a tenth of that. The best
+fits of white noise have 0.9 to 1.3, most of them less than 1.1; two of 400 pendulums that turn over, with noise of a
+radian and more, ended at 1.24 and 1.39, with turns lost."""
 NOTHING = 1e-3
 """Residual, as a share of the channel's standard deviation, that is never far: without noise the mesh leaves it."""
 SMALL = 2000
@@ -44,6 +45,15 @@ def excess(t: Transcription, z: np.ndarray) -> np.ndarray:
 def far(t: Transcription, z: np.ndarray) -> bool:
     """Whether an output errs so much more than a smoother that another optimum may be better."""
     return bool(np.any(excess(t, z) > (FAR if _large(t) else FAR_SMALL)))
+
+
+@one_blas_thread
+def led_starts(t: Transcription, z: np.ndarray) -> Iterator[np.ndarray]:
+    """Free vectors of simulations that are led along the recording, from a solution `z` that is in doubt."""
+    if np.any(excess(t, z) > (FAR if _large(t) else DOUBTED)) and can_shoot(t):
+        shooting = Shooting(t)
+        for found in along(shooting, shooting.of_solution(z)):
+            yield t.start(*found)
 
 
 @one_blas_thread

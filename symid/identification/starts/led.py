@@ -22,6 +22,8 @@ is nearly the equation error, which has one optimum; led by nothing it is the ou
 FINE_GAINS = (0.7, 0.3, 0.1, 0.06, 0.03, 0.02, 0.01, 0.006, 0.003, 0.002, 0.001, 0.0)
 """The same in smaller steps: the optimum moves less from one to the next. From 0.03 to nothing at once, a pendulum that
 turns over, a Lorenz and a Duffing system lose it."""
+STRONG = GAINS[:2]
+"""Gains by which a lost turn is found: of three phase-locked loops that slip in all, with 0.1 in two, 0.03 in one."""
 RUNAWAY = 4.0
 """Cost over the least of the gains before, above which the optimum has been lost."""
 DRAWS, BEST, PATIENCE = 24, 4, 60
@@ -158,6 +160,18 @@ def free(shooting: Shooting) -> Iterator[Motion]:
     ends = sorted((shooting.fit(z, 0.0, PATIENCE) for z in draws), key=lambda end: end.cost)
     for end in unlike(ends)[:BEST]:
         found = _ended(shooting, end.x, 0.0)
+        if found is not None:
+            yield found
+
+
+def along(shooting: Shooting, z: np.ndarray) -> Iterator[Motion]:
+    """Simulations that are led strongly along the recording, fitted from the unknowns `z` of an optimum.
+
+    Where its motion has lost a turn in the midst of the recording, or has one too many, no step of the parameters gives
+    it back. Led, the motion makes the turns that are recorded, also of an angle of which a rate alone is.
+    """
+    for gain in STRONG:
+        found = _ended(shooting, shooting.fit(z, gain, PATIENCE).x, gain) if shooting.leads(gain) else None
         if found is not None:
             yield found
 

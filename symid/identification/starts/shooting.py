@@ -73,6 +73,10 @@ class Shooting:
                 matrix[states.index(rate), shown[of]] = gain**2 / (2 - gain) / self.t.measured[r].step
         return matrix
 
+    def leads(self, gain: float) -> bool:
+        """Whether an output shows a state by which simulations can be led."""
+        return any(np.any(self.gains(r, gain)) for r in range(len(self.t.measured)))
+
     def _initial(self, r: int) -> slice:
         first = len(self.t.layout.parameter_names) + self.t.layout.n * r
         return slice(first, first + self.t.layout.n)
