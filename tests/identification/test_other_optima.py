@@ -1,4 +1,4 @@
-"""Optima in which a turn is lost, or that are the best only for the first weights: the default start finds the better."""
+"""Optima that lost a turn, or are the best for the first weights alone: the default start finds the better ones."""
 
 import numpy as np
 import sympy as sm
