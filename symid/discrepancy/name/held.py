@@ -59,7 +59,7 @@ def _likelier(
 ) -> Hypothesis:
     """The `rest` of what was found with one input held, if that is believed more than `found`, and than any delay."""
     model = found.base.model.with_holds(**{name: "zero"})
-    if _promise(found, rest, model, data) <= found.fit.loglik2:
+    if len(rest) == len(found.suspects) and _promise(found, rest, model, data) <= found.fit.loglik2:
         return found
     try:
         base = Fitter(model, data, near=found.base).again(found.base)
