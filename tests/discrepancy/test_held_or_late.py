@@ -4,6 +4,12 @@ import numpy as np
 import pytest
 
 import symid as si
+from symid.discrepancy.model.hypothesis import hypothesis
+from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.name import held as held_or_late
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_of
 
 STEP, FINE = 0.1, 20
 
@@ -63,3 +69,16 @@ def test_a_late_input_is_late_by_what_it_is(delay_s):
     value, error = effect.parameters["delay_s"]
     assert value == pytest.approx(delay_s, abs=3 * error)
     assert "is taken to be held" not in str(said)
+
+
+def test_a_delay_by_part_of_a_sample_is_compared_with_a_held_input_whatever_that_promises(monkeypatch):
+    monkeypatch.setattr(held_or_late, "_promise", lambda *_: -np.inf)
+    model = si.mechanics.places.with_places(lag()).with_unstated_holds("either")
+    pieces = segments_of(model, recorded(0, hold=True, delay_s=0.0), (0, 16), None)
+    data = Data(pieces, np.array([0.005]), False)
+    base, late = fit_model(model, data), next(s for s in si.suspects(lag()) if s.term.name == "input_delay")
+    late = Suspect(late.term)
+    found = hypothesis([late], base, base, data, late.named({held_or_late.DELAY_KEY: STEP / 2}))
+    chosen = held_or_late.held(found, data, ["u"], lambda *two: max(two, key=lambda h: h.evidence(1.0)))
+    assert chosen.suspects == ()
+    assert chosen.fit.model.inputs["u"].hold == "zero"
