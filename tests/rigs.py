@@ -1,18 +1,10 @@
 """Rigs of tests, by the parameters of their links, and laws that no library has."""
 
+from symid.conceal.facts import RIG
 from symid.mechanics.laws import effort_law
 from symid.model import LawParameter
 
-DOUBLE = {
-    "m1_kg": 0.094,
-    "m2_kg": 0.137,
-    "a1_m": 0.11,
-    "a2_m": 0.118,
-    "L1_m": 0.174,
-    "I1_kg_m2": 4.5e-4,
-    "I2_kg_m2": 1.27e-3,
-    "g_m_s2": 9.81,
-}
+DOUBLE = RIG
 SINGLE = {"m1_kg": 0.12, "a1_m": 0.15, "I1_kg_m2": 9e-4, "g_m_s2": 9.81}
 ROD = {"m1_kg": 0.3, "a1_m": 0.2, "I1_kg_m2": 4e-3}
 

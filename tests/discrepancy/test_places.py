@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,10 +10,6 @@ from scipy.integrate import solve_ivp
 from scipy.ndimage import gaussian_filter1d
 
 import symid as si
-from symid.discrepancy.locate import given
-from symid.discrepancy.task import task_of
-from symid.estimation.signals.data import Data
-from symid.estimation.signals.windows import segments_of
 from symid.mechanics.places import with_places
 
 MASS, STIFFNESS, DAMPING = 0.8, 12.0, 0.5
@@ -286,19 +281,3 @@ def test_a_motion_that_nothing_can_drive_is_free_whether_that_is_said_or_not():
     made = si.Recording(name="slide", time=t, channels={"slide": x}, units={"slide": "m"})
     said, unsaid = (si.diagnose(m, made, fit_window=(0, 20), held_out=(20, 29.9), driven=d) for d in (False, True))
     assert said.words == unsaid.words and [e.name for e in said.effects] == ["cubic_stiffness"]
-
-
-def test_a_motion_that_cannot_be_followed_at_all_is_fitted_in_shorter_pieces(monkeypatch):
-    """What a wrong model does in the end may have no equations, as a load that swings into its pulley."""
-    monkeypatch.setattr(given, "_regressed", lambda task, plain: {})
-    recording = recorded(lambda x, v, u: 0.0, length=24.0)
-    task = task_of(slide(), recording, (0, 24), None, held_out=None, driven=False)
-    plain = Data(segments_of(task.model, recording, (0, 24), None), np.array([5e-4]), driven=False)
-
-    def fits(task, plain, start):
-        if any(e.time[-1] - e.time[0] > 7 for e in plain.segments):
-            raise si.DiagnosisError("diverges")
-        return [(plain, SimpleNamespace(kalman_gain=1))]
-
-    task, plain, found = given.fitted_as_given(task, plain, fits)
-    assert task.segment_length == pytest.approx(6, rel=0.01) and found[0][0] is plain

@@ -64,7 +64,7 @@ def test_a_pendulum_that_goes_over_the_top_is_followed_in_pieces_however_wrong_i
     fit = fit_model(model, data)
     assert np.std(fit.innovations[0]) > 1.0
 
-    def near(pieces: Data, fit) -> bool:
+    def near(fit, pieces: Data) -> bool:
         return bool(np.std(np.vstack(fit.innovations)) < 0.1)
 
     lasts = followed(model, data, fit, {}, near)
@@ -87,7 +87,7 @@ def test_an_unstable_motion_that_a_fit_has_found_is_still_followed_in_short_piec
     data = Data((Segment(time, np.array(recorded), {"push": np.array(torques)}),), np.array([5e-4]), driven=False)
     fit = fit_model(model, data, {"k": 36.0, "c": 0.2})
 
-    def near(pieces: Data, fit) -> bool:
+    def near(fit, pieces: Data) -> bool:
         return True
 
     lasts = followed(model, data, fit, {"k": 36.0, "c": 0.2}, near)

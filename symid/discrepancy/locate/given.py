@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from symid.discrepancy.policy import POLICY
+from symid.discrepancy.model.hypothesis import is_met
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.signals.data import Data
@@ -36,9 +36,9 @@ def fitted_as_given(task: Task, plain: Data, fits: Fitting) -> tuple[Task, Data,
     except DiagnosisError as error:
         return _fitted_in_shorter_pieces(task, plain, fits, error)
     data, fit = found[0]
-    if not task.moved or fit.kalman_gain is not None or data.filter is not None or _near(data, fit):
+    if not task.moved or fit.kalman_gain is not None or data.filter is not None or is_met(fit, data):
         return task, plain, found
-    lasts = followed(task.model, plain, fit, task.start, _near)
+    lasts = followed(task.model, plain, fit, task.start, is_met)
     if lasts is None:
         return task, plain, found
     task, plain = _in_pieces(task, plain, lasts)
@@ -76,7 +76,8 @@ def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
     start, problem, found = dict(task.start), None, None
     try:
         found = fits(task, plain, start)
-        if found[0][1].kalman_gain is not None or start.keys() >= task.model.parameters.keys() or _near(*found[0]):
+        data, fit = found[0]
+        if fit.kalman_gain is not None or start.keys() >= task.model.parameters.keys() or is_met(fit, data):
             return found
     except DiagnosisError as error:
         problem = error
@@ -87,12 +88,6 @@ def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
     if found is None and other is None:
         raise problem
     return max((f for f in (found, other) if f), key=lambda f: f[0][1].loglik2)
-
-
-def _near(data: Data, fit: Fit) -> bool:
-    """Whether what is left is of the size of the sensors' noise."""
-    left = np.sqrt(np.mean(np.vstack(fit.innovations) ** 2, axis=0))
-    return bool(np.all(left < POLICY.far * data.sensor_noise))
 
 
 def _regressed(task: Task, plain: Data) -> dict[str, float]:

@@ -135,6 +135,12 @@ def _surprise(suspect: Suspect, fit: Fit) -> float:
     return sum(2 * log(1 + z**2) for z in sizes)
 
 
+def is_met(fit: Fit, data: Data, times: float = POLICY.far) -> bool:
+    """Whether the rms error of every output is less than so many times its sensor's noise."""
+    errors = np.sqrt(np.mean(np.vstack(fit.innovations) ** 2, axis=0))
+    return bool(np.all(errors < times * data.sensor_noise))
+
+
 # ---- fits ------------------------------------------------------------------------------------
 def refit(
     suspects: Sequence[Suspect],

@@ -10,11 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-import numpy as np
-
-from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, refit
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, refit
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.signals.data import Data
@@ -71,19 +68,13 @@ def _likelier(
     if other is None or better(found, other) is found:
         return found
     if len(rest) == len(found.suspects):
-        if not _near(fit, data):
+        if fit.kalman_gain is None and not is_met(fit, data):
             return found  # of a motion that is not met half a sample more or less may be better by chance
         late = Suspect(LIBRARY[DELAY].at(place))
         delayed = hypothesis([*rest, late], found.fit, found.base, data, late.named({DELAY_KEY: step / 2}))
         if delayed is not None and better(delayed, other) is delayed:
             return found
     return other
-
-
-def _near(fit: Fit, data: Data) -> bool:
-    """Whether what is left of a motion that no random forces drive is of the size of the sensors' noise."""
-    left = np.sqrt(np.mean(np.vstack(fit.innovations) ** 2, axis=0))
-    return fit.kalman_gain is not None or bool(np.all(left < POLICY.far * data.sensor_noise))
 
 
 def _promise(found: Hypothesis, rest: tuple[Suspect, ...], model: Model, data: Data) -> float:

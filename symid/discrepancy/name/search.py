@@ -7,11 +7,10 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, log
 
-import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import Test, remainder
-from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.held import held
@@ -180,8 +179,7 @@ class Search:
 
     def _enough(self, found: Hypothesis) -> bool:
         """Whether what it leaves of a free motion is near the sensors' noise: else more than one thing is missing."""
-        rms = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
-        return found.fit.kalman_gain is not None or bool(np.all(rms < POLICY.far * self.data.sensor_noise))
+        return found.fit.kalman_gain is not None or is_met(found.fit, self.data)
 
     # ---- trying ------------------------------------------------------------------------------
     def _added(self, best: Hypothesis, least: float = 0.0) -> list[Hypothesis]:

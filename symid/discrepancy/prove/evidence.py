@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
 
 from symid.discrepancy.locate.remainder import Test
-from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.model.hypothesis import Hypothesis, is_met
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.certain import beyond_chance, honest
@@ -112,8 +111,7 @@ def near_noise(found: Hypothesis, data: Data) -> bool:
     """
     if data.driven or not (found.suspects and found.established):
         return False
-    left = np.sqrt(np.mean(np.vstack(found.fit.innovations) ** 2, axis=0))
-    return bool(np.all(left < POLICY.sensors * data.sensor_noise))
+    return is_met(found.fit, data, POLICY.sensors)
 
 
 def rivals(found: Hypothesis, ranking: Sequence[Hypothesis]) -> list:

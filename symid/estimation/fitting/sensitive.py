@@ -30,7 +30,7 @@ SMALL = 1e-6
 
 
 def followed(
-    model: Model, data: Data, fit: Fit, start: Mapping[str, float], near: Callable[[Data, Fit], bool]
+    model: Model, data: Data, fit: Fit, start: Mapping[str, float], near: Callable[[Fit, Data], bool]
 ) -> float | None:
     """Seconds for which a motion can be followed from one state; None where it can as long as the segments are.
 
@@ -43,7 +43,7 @@ def followed(
     pieces, sensitive = data, _largest(fit, data) > GROWTH
     if not (sensitive or _lost(fit, data)):
         return None
-    while length / 2 > SHORTEST * data.pace and not (near(pieces, fit) and _largest(fit, pieces) <= MOST_GROWTH):
+    while length / 2 > SHORTEST * data.pace and not (near(fit, pieces) and _largest(fit, pieces) <= MOST_GROWTH):
         length /= 2
         pieces = data.with_segments(part for e in data.segments for part in cut(e, length))
         try:

@@ -94,19 +94,15 @@ def choose(errors: list[Errors], choice: str, episodes: int, beside: Beside | No
 
 
 def _chosen_beside(beside: Beside, choice: str, episodes: int) -> ErrorModel:
-    if choice != "auto" or episodes > 1:
-        return ErrorModel(
-            "coloured" if choice == "auto" else choice, ASKED if choice != "auto" else EPISODES, None, beside
-        )
+    if choice != "auto":
+        return ErrorModel(choice, ASKED, beside=beside)
+    if episodes > 1:
+        return ErrorModel("coloured", EPISODES, beside=beside)
     chance = f"(p {_chance(beside.whiteness)})"
     if why := beside.refuted():
-        return ErrorModel("coloured", f"{why} {chance}", None, beside)
-    return ErrorModel(
-        "white",
-        f"beside an estimated disturbance, whose residual its autocorrelation does not refute {chance}",
-        None,
-        beside,
-    )
+        return ErrorModel("coloured", f"{why} {chance}", beside=beside)
+    agreed = "beside an estimated disturbance, whose residual its autocorrelation does not refute"
+    return ErrorModel("white", f"{agreed} {chance}", beside=beside)
 
 
 def _white(errors: list[Errors], chance: float, found: Memory | None) -> str:
