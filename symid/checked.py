@@ -36,7 +36,7 @@ def number(value: Any, what: str, error: type[SymidError], *, least: float = -in
     return found
 
 
-def whole(value: Any, what: str, error: type[SymidError], *, least: int = 0, most: int = 2**31) -> int:
+def whole(value: Any, what: str, error: type[SymidError], *, least: int = 0, most: int = 2**31 - 1) -> int:
     """`value` as an int from `least` to `most`."""
     found = number(value, what, error)
     if found != found // 1 or not least <= found <= most:

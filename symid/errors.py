@@ -81,6 +81,10 @@ class MachineError(SolveError):
     """A solve failed for reasons of the machine (memory, libraries), not of the problem: it is worth trying again."""
 
 
+class OptionError(SolveError):
+    """Ipopt refused one of its options, as it will from every start."""
+
+
 class DiagnosisError(SymidError):
     """A diagnosis was asked of something that cannot be diagnosed.
 

@@ -32,7 +32,15 @@ TOO_LITTLE = (
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command: exit code 0 done or solved, 1 not solved, 2 bad input."""
     _open_closed_streams()
-    parsed = build_parser().parse_args(arguments)
+    try:
+        return _done(build_parser().parse_args(arguments))
+    except KeyboardInterrupt:
+        print("symid: interrupted", file=sys.stderr)
+        return INTERRUPTED
+
+
+def _done(parsed: argparse.Namespace) -> int:
+    """Run what was asked for; its exit code."""
     set_level(QUIET if parsed.quiet else VERBOSE if parsed.verbose else NORMAL)
     warnings.showwarning = _show_warning
     if not room_for(LEAST_BYTES):
@@ -63,9 +71,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
         said = " ".join(str(failure).split())[:300]
         print(f"symid: error: {type(failure).__name__}: {said}. Is there memory enough (`ulimit -v`)?", file=sys.stderr)
         return BAD_INPUT
-    except KeyboardInterrupt:
-        print("symid: interrupted", file=sys.stderr)
-        return INTERRUPTED
 
 
 def _open_closed_streams() -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp
-from symid.errors import SolveError
+from symid.errors import OptionError, SolveError
 from symid.identification.starts.further import drawn_starts, far, further_starts, led_starts
 from symid.ipopt_solver import Iteration, SolverResult
 from symid.ipopt_solver.aside import set_aside
@@ -45,7 +45,7 @@ class Attempts:
         given_back, self.best = None if self.best is None else set_aside(self.best), None
         try:
             end = self.problem.solve_from(z, on_iteration=self.on_iteration, near=near, **given)
-        except TimeUp:
+        except (TimeUp, OptionError):
             raise
         except SolveError as refused:
             self.refused = self.refused or refused

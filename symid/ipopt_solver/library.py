@@ -12,7 +12,8 @@ from ctypes import POINTER, c_bool, c_char_p, c_double, c_int, c_void_p
 
 import numpy as np
 
-from symid.errors import SolveError
+from symid import checked
+from symid.errors import OptionError, SolveError
 from symid.ipopt_solver.evaluation import Evaluation, RejectedPoint
 from symid.nlp import NonlinearProgram
 
@@ -128,8 +129,8 @@ def _set_option(library: ctypes.CDLL, problem: int, name: str, value: str | floa
         float: (library.AddIpoptNumOption, float),
     }[type(value)]
     if not setter(problem, name.encode(), convert(value)):
-        raise SolveError(
-            f"Ipopt refused the option {name}={value!r}: check its spelling, and that it is given "
+        raise OptionError(
+            f"Ipopt refused the option {name}={checked.shown(value)}: check its spelling, and that it is given "
             f"as {'text' if isinstance(value, str) else 'the right kind of number'} (1 is not 1.0)."
         )
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from symid import checked
 from symid.deadline import check, remaining
-from symid.errors import SolveError
+from symid.errors import OptionError, SolveError
 from symid.ipopt_solver import library as ipopt_library
 from symid.ipopt_solver import through_cyipopt
 from symid.ipopt_solver.bounded import run_bounded
@@ -40,6 +40,8 @@ WARM_START: dict[str, str | float] = {
     "mu_strategy": "monotone",
     "mu_init": 1e-6,
 }
+C_INT = 2**31 - 1
+"""The largest whole number of C's `int`: what is larger would come to Ipopt as another number."""
 
 
 def solve_nlp(
@@ -189,8 +191,6 @@ def _check_inside(nlp: NonlinearProgram, z: np.ndarray) -> None:
 
 
 def _options(nlp, options, warm_start, max_iterations, hessian) -> dict:
-    if options is not None:
-        checked.kind(options, Mapping, "options of Ipopt", SolveError)
     if hessian not in ("exact", "limited-memory"):
         raise SolveError(f"hessian={hessian!r} is unknown: choose 'exact' or 'limited-memory'.")
     if hessian == "exact" and nlp.hessian is None:
@@ -203,7 +203,23 @@ def _options(nlp, options, warm_start, max_iterations, hessian) -> dict:
     }
     if nlp.variable_scale is not None or nlp.constraint_scale is not None:
         chosen["nlp_scaling_method"] = "user-scaling"
-    return chosen | (WARM_START if warm_start else {}) | (options or {})
+    return chosen | (WARM_START if warm_start else {}) | ({} if options is None else _as_in_c(options))
+
+
+def _as_in_c(options: Mapping[str, object]) -> dict[str, str | int | float]:
+    """Options of Ipopt as C holds them; what it would cut off or read as another value is refused."""
+    chosen = {}
+    for name, value in checked.kind(options, Mapping, "options of Ipopt", SolveError).items():
+        value = value.item() if isinstance(value, np.generic) else value
+        whole = isinstance(value, int) and abs(value) <= C_INT
+        real, text = isinstance(value, float) and value == value, isinstance(value, str) and "\0" not in value
+        if isinstance(value, bool) or not (whole or real or text) or not isinstance(name, str) or "\0" in name:
+            raise OptionError(
+                f"options: {checked.shown(name)}={checked.shown(value)}: Ipopt's options have names, and are texts "
+                f"(also 'yes' and 'no'), whole numbers up to {C_INT}, or real numbers"
+            )
+        chosen[name] = value
+    return chosen
 
 
 def _scales(nlp: NonlinearProgram) -> tuple[float, np.ndarray, np.ndarray] | None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from symid.errors import MachineError, SolveError
+from symid.errors import MachineError, OptionError, SolveError
 from symid.interrupt import held_back
 from symid.ipopt_solver.evaluation import Evaluation, RejectedPoint
 from symid.nlp import NonlinearProgram
@@ -103,7 +103,7 @@ def solve(nlp: NonlinearProgram, evaluation: Evaluation, options: dict, scales: 
         try:
             problem.add_option(name, value)
         except TypeError as refused:
-            raise SolveError(f"Ipopt refused the option {name}={value!r}: check its spelling and type.") from refused
+            raise OptionError(f"Ipopt refused the option {name}={value!r}: check its spelling and type.") from refused
     if scales is not None:
         problem.set_problem_scaling(*scales)
     _, info = problem.solve(point["z"], point["multipliers"], point["lower"], point["upper"])

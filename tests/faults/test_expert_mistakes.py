@@ -9,7 +9,15 @@ import sympy as sm
 from conftest import pendulum, pendulum_recording
 
 import symid as si
-from symid.errors import DiagnosisError, ModelError, RecordingError, RecordingWarning, SymidError, TranscriptionError
+from symid.errors import (
+    DiagnosisError,
+    ModelError,
+    RecordingError,
+    RecordingWarning,
+    SolveError,
+    SymidError,
+    TranscriptionError,
+)
 
 RECORDING = pendulum_recording(duration=2)
 
@@ -173,3 +181,10 @@ def test_steps_in_equations_are_simulated_too(step):
 def test_states_are_found_in_channels_of_their_own_names():
     solution = problem().solve()
     assert si.stability(solution, per_state=3).eigenvalue_percent == 100
+
+
+def test_an_option_that_ipopt_refuses_is_refused_at_the_first_start(capfd):
+    """Ipopt prints what it does not like, whatever it may print."""
+    with pytest.raises(SolveError, match="Ipopt refused the option nonsense=3"):
+        problem().solve(options={"nonsense": 3})
+    assert capfd.readouterr().out.count("nonsense") == 1

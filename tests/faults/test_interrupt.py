@@ -1,6 +1,8 @@
 """Ctrl-C while a package is imported: it comes out afterwards, and what was imported is whole."""
 
 import signal
+import subprocess
+import sys
 import threading
 
 import pytest
@@ -52,3 +54,21 @@ def test_a_package_that_fails_is_not_taken_for_a_wrong_unit(monkeypatch):
     monkeypatch.setattr(si, "_registry", broken)
     with pytest.raises(ImportError, match="no memory"):
         si.parsed.__wrapped__("rad/s^2")
+
+
+PRESSED = """
+import sys
+class Pressed:
+    def find_spec(name, path=None, target=None):
+        if name == sys.argv[1]:
+            raise KeyboardInterrupt
+sys.meta_path.insert(0, Pressed)
+from symid.cli import main
+sys.exit(main(["doctor"]))
+"""
+
+
+@pytest.mark.parametrize("where", ["symid.threads", "symid.cli.simulate"])
+def test_ctrl_c_while_the_command_line_is_imported(where):
+    done = subprocess.run([sys.executable, "-c", PRESSED, where], capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (130, "symid: interrupted\n")

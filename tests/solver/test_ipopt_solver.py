@@ -259,6 +259,19 @@ def test_an_unknown_or_mistyped_option_is_refused_by_name(either_way, options):
         solve_nlp(hs071(), options=options)
 
 
+@pytest.mark.parametrize(
+    "options",
+    [{"max_iter": 2**40}, {"max_iter": True}, {"tol": None}, {"tol": [1]}, {"tol": np.nan}, {3: 4}, {"sb": "n\0o"}],
+)
+def test_an_option_that_c_would_read_as_another_is_refused(either_way, options):
+    with pytest.raises(SolveError, match="options: .* Ipopt's options have names, and are texts"):
+        solve_nlp(hs071(), options=options)
+
+
+def test_options_may_be_numbers_of_numpy(either_way):
+    assert solve_nlp(hs071(), options={"tol": np.float64(1e-7), "max_iter": np.int64(50)}).solved
+
+
 def test_hessian_choices_are_checked():
     with pytest.raises(SolveError, match="hessian='exakt' is unknown"):
         solve_nlp(hs071(), hessian="exakt")
