@@ -6,7 +6,7 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import wraps
 from typing import Any, TypeVar, cast
 
@@ -42,10 +42,17 @@ def say(line: str) -> None:
     if _level == QUIET:
         return
     if _bars:
-        _bars[0].write(line, file=sys.stderr)
+        with suppress(OSError):
+            _bars[0].write(line, file=sys.stderr)
     else:
-        print(line, file=sys.stderr, flush=True)
+        put(line)
     said()
+
+
+def put(line: str, end: str = "\n") -> None:
+    """Print on stderr. Where nobody reads it any more (`2>&1 | head`), or its disk is full, the work goes on."""
+    with suppress(OSError):
+        print(line, end=end, file=sys.stderr, flush=True)
 
 
 def step(done: int, total: int, line: str) -> None:

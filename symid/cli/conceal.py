@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from symid.cli.options import show
 from symid.progress import say
 
 SUMMARY = "write recordings with concealed physics, and sealed answers, to test a diagnosis"
@@ -59,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
         case = with_equivalents(case) if arguments.equivalents else case
         name = next_name(arguments.folder, case.setup.system)
         directory = write_case(case, arguments.folder, name)
-        print(f"{directory}: {len(case.recording)} samples", flush=True)
+        show(f"{directory}: {len(case.recording)} samples")
         say(f"case {number + 1} of {arguments.count} is made")
     return 0
 

@@ -7,7 +7,7 @@ import warnings
 from dataclasses import replace
 from pathlib import Path
 
-from symid.cli.options import add_recording_arguments, refuse_bad_outputs, tell_files
+from symid.cli.options import add_recording_arguments, refuse_bad_outputs, show, tell_files
 from symid.progress import say
 
 SUMMARY = "find the physics that a model leaves out: where, what, how much, and the proof"
@@ -106,7 +106,7 @@ def run(arguments: argparse.Namespace) -> int:
         experiment=arguments.experiment,
         held_out_csv=arguments.held_out_csv,
     )
-    print(finding)  # after the files: a reader that has enough closes the pipe
+    show(str(finding))
     return 0
 
 

@@ -12,6 +12,7 @@ from symid.cli.options import (
     build_model,
     chosen_executor,
     refuse_bad_outputs,
+    show,
     show_iteration,
     tell_files,
     with_inputs,
@@ -115,7 +116,7 @@ def run(arguments: argparse.Namespace) -> int:
 
         write_report(solution, arguments.report, held_out)
     tell_files(report=arguments.report, json=arguments.json)
-    print("\n".join(lines))  # after the files: a reader that has enough closes the pipe
+    show("\n".join(lines))
     return 0 if solution.solved else 1
 
 

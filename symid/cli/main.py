@@ -15,7 +15,7 @@ from pkgutil import iter_modules
 import symid.cli as cli
 from symid.cli.options import add_level_arguments, refuse_absurd
 from symid.errors import SymidError
-from symid.progress import NORMAL, QUIET, VERBOSE, alive, set_level
+from symid.progress import NORMAL, QUIET, VERBOSE, alive, put, set_level
 from symid.threads import room_for
 
 # Every module of this package but these is a command: SUMMARY, EXAMPLES, add_arguments(parser), run(arguments) -> code.
@@ -35,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return _done(build_parser().parse_args(arguments))
     except KeyboardInterrupt:
-        print("symid: interrupted", file=sys.stderr)
+        put("symid: interrupted")
         return INTERRUPTED
 
 
@@ -44,7 +44,7 @@ def _done(parsed: argparse.Namespace) -> int:
     set_level(QUIET if parsed.quiet else VERBOSE if parsed.verbose else NORMAL)
     warnings.showwarning = _show_warning
     if not room_for(LEAST_BYTES):
-        print(f"symid: error: {TOO_LITTLE}", file=sys.stderr)
+        put(f"symid: error: {TOO_LITTLE}")
         return BAD_INPUT
     try:
         refuse_absurd(parsed)
@@ -55,21 +55,21 @@ def _done(parsed: argparse.Namespace) -> int:
     except SymidError as error:
         if parsed.verbose:
             traceback.print_exc()
-        print(f"symid: error: {error}", file=sys.stderr)
+        put(f"symid: error: {error}")
         return BAD_INPUT
     except BrokenPipeError:  # `| head` has read enough; the files are written
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return SOLVED
     except OSError as error:
         place = "" if error.filename is None else f": {error.filename}"
-        print(f"symid: error: {error.strerror or error}{place}", file=sys.stderr)
+        put(f"symid: error: {error.strerror or error}{place}")
         return BAD_INPUT
     except ModuleNotFoundError as absent:
-        print(f"symid: error: {absent}: the installation is not whole; install symid again", file=sys.stderr)
+        put(f"symid: error: {absent}: the installation is not whole; install symid again")
         return BAD_INPUT
     except (MemoryError, ImportError) as failure:  # a library that finds no memory cannot be imported
         said = " ".join(str(failure).split())[:300]
-        print(f"symid: error: {type(failure).__name__}: {said}. Is there memory enough (`ulimit -v`)?", file=sys.stderr)
+        put(f"symid: error: {type(failure).__name__}: {said}. Is there memory enough (`ulimit -v`)?")
         return BAD_INPUT
 
 
@@ -112,4 +112,4 @@ def build_parser() -> argparse.ArgumentParser:
 
 
 def _show_warning(message, category, filename, lineno, file=None, line=None) -> None:
-    print(f"symid: warning: {message}", file=sys.stderr)
+    put(f"symid: warning: {message}")

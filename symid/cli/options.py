@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 import sys
 from collections.abc import Sequence
 from concurrent.futures import Executor
@@ -11,7 +12,7 @@ from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
 from symid.errors import ModelError, SolveError
-from symid.progress import NORMAL, QUIET, VERBOSE, level, said, say
+from symid.progress import NORMAL, QUIET, VERBOSE, level, put, said, say
 
 LARGEST = {
     "episodes": 1000,
@@ -161,12 +162,10 @@ def show_iteration(iteration) -> None:
         return
     end = "\r" if sys.stderr.isatty() and level() == NORMAL else ""
     if end or level() == VERBOSE or iteration.number % 10 == 0:
-        print(
+        put(
             f"iteration {iteration.number:4d}  objective {iteration.objective:.6g}  infeasibility "
             f"{iteration.infeasibility:.1e} ",
-            end=end or "\n",
-            file=sys.stderr,
-            flush=True,
+            end or "\n",
         )
         said()
 
@@ -183,15 +182,27 @@ def refuse_bad_outputs(*paths: str | None, read: Sequence[str | Path | None] = (
     """SolveError before the work for a file that cannot be written after it: its folder does not exist, or it would
     replace one of those that are `read`, or another result.
     """
-    taken = {Path(path).resolve(): f"{path}, which is read" for path in read if path}
-    for path in filter(None, paths):
+    taken = {os.path.realpath(path): f"{path}, which is read" for path in read if path}
+    for path in paths:
+        if path is None:
+            continue
+        if not path:
+            raise SolveError("the name of a file to write is empty; give one")
         if not Path(path).parent.is_dir():
             raise SolveError(f"{path} cannot be written: the folder {Path(path).parent} does not exist; make it first")
         if Path(path).is_file() or not Path(path).exists():  # a device takes all
-            place = Path(path).resolve()
+            place = os.path.realpath(path)  # a link to itself is none, and is replaced
             if place in taken:
                 raise SolveError(f"{path} would replace {taken[place]}; give another file")
             taken[place] = f"another result, {path}"
+
+
+def show(result: str) -> None:
+    """Print on stdout; a reader that has enough (`| head`) closes the pipe, and nothing else changes."""
+    try:
+        print(result, flush=True)
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def tell_files(**written: str | None) -> None:

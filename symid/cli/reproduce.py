@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from symid.cli.options import add_distribution_argument, add_executor_arguments, chosen_executor
+from symid.cli.options import add_distribution_argument, add_executor_arguments, chosen_executor, show
 from symid.errors import SolveError
 
 SUMMARY = "run the article's twelve identifications and print every number beside the article's"
@@ -82,5 +82,5 @@ def run(arguments: argparse.Namespace) -> int:
     for name, content in files.items():
         write_atomically(Path(arguments.output) / name, content)
     lines += [f"Written: {', '.join(files)} in {arguments.output}"] if files else []
-    print("\n\n".join(lines))
+    show("\n\n".join(lines))
     return 1 if found.failed or not all(f.best.solved for f in found.findings) else 0

@@ -1,16 +1,24 @@
 """Where results are asked for that cannot be files: pipes and devices stay what they are, all else is one sentence."""
 
+import errno
+import io
+import json
 import os
+import sys
 import threading
+from importlib import import_module
 
 import pytest
-from conftest import pendulum, pendulum_recording
+from conftest import ROOT, pendulum, pendulum_recording
 
 import symid as si
+from symid.cli import main
 from symid.errors import SymidError, WriteError
 from symid.files import write_atomically
 from symid.recording import read_recording
 from symid.report import write_report
+
+DATA = ROOT / "data" / "standing_synthetic"
 
 
 @pytest.fixture(scope="module")
@@ -48,6 +56,7 @@ def test_a_full_device_is_one_sentence_and_no_neighbour_is_left():
 @pytest.mark.parametrize("place", ["", ".", "folder", "x" * 300, "a\0b", "file/b", 3, None, b"bytes"])
 def test_no_place_for_a_file(solution, tmp_path, monkeypatch, place, write):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(import_module("symid.report.solution"), "report_html", lambda *_: "")
     (tmp_path / "folder").mkdir()
     (tmp_path / "file").write_text("")
     with pytest.raises(SymidError, match="cannot be written|give the path|no path has"):
@@ -88,3 +97,37 @@ def test_a_pipe_in_a_store_is_not_waited_for(solution, tmp_path, ending):
 def test_a_path_that_is_none_is_not_read():
     with pytest.raises(SymidError, match="a character that no path has"):
         read_recording("a\0b.csv")
+
+
+IDENTIFY = ["identify", str(DATA / "recording.csv"), "--body", str(DATA / "body.json"), "--window", "0", "1"]
+
+
+@pytest.mark.parametrize("stream", ["stdout", "stderr"])
+@pytest.mark.parametrize("fault", [errno.EPIPE, errno.ENOSPC])
+def test_who_does_not_read_what_is_said_has_the_files(tmp_path, monkeypatch, stream, fault):
+    """`symid ... 2>&1 | head -1` ended at the second line of progress, without a file and with exit code 0."""
+
+    class Closed(io.TextIOBase):
+        def write(self, text):
+            raise OSError(fault, os.strerror(fault))
+
+        def fileno(self):
+            return os.open(tmp_path / "other", os.O_WRONLY | os.O_CREAT)
+
+    monkeypatch.setattr(sys, stream, Closed())
+    code = main([*IDENTIFY, "--max-iterations", "1", "--json", str(tmp_path / "j.json")])
+    assert json.loads((tmp_path / "j.json").read_text())
+    assert code == (2 if (stream, fault) == ("stdout", errno.ENOSPC) else 1)
+
+
+def test_an_empty_name_of_a_result_is_refused(tmp_path, monkeypatch, capsys):
+    """As `--json "$RESULT"` gives where RESULT was never set."""
+    monkeypatch.chdir(tmp_path)
+    assert main([*IDENTIFY, "--json", ""]) == 2
+    assert "the name of a file to write is empty" in capsys.readouterr().err
+
+
+def test_a_link_to_itself_is_replaced(tmp_path):
+    (tmp_path / "j.json").symlink_to("j.json")
+    assert main([*IDENTIFY, "--max-iterations", "1", "--json", str(tmp_path / "j.json")]) == 1
+    assert json.loads((tmp_path / "j.json").read_text())
