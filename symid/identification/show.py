@@ -12,7 +12,7 @@ from symid.identification.fit import common_unit, fit_text, rms_text
 from symid.identification.noise import UNFIT
 from symid.identification.weighting import by_noise
 from symid.model.show import MEANING_EM
-from symid.units import with_error
+from symid.units import unit_symbol, with_error
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
@@ -91,9 +91,9 @@ def warnings(solution: Solution) -> list[str]:
     checked = solution.solved and solution.transcription.layout.size <= VERIFIED
     verified = solution.verification.sentences if checked else ()
     return [*solution.problem.remarks, *_at_bounds(solution), *_joint(solution), *_unfit(solution), *verified] + [
-        f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} {states[name].unit}) at "
-        f"{100 * share:.2g} % of the nodes: they cut the motion off, which biases the parameters; widen them with "
-        f"model.with_bounds({name}=(lower, upper))"
+        f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} "
+        f"{unit_symbol(states[name].unit)}) at {100 * share:.2g} % of the nodes: they cut the motion off, which "
+        f"biases the parameters; widen them with model.with_bounds({name}=(lower, upper))"
         for name, share in solution.cut_off.items()
     ]
 
@@ -102,8 +102,8 @@ def _at_bounds(solution: Solution) -> list[str]:
     """A sentence for each parameter at a bound, if it was solved."""
     table = solution.parameters[solution.parameters["at_bound"]] if solution.solved else solution.parameters[:0]
     return [
-        f"{name} lies at its bound ({p.value:.5g} {p.unit}): the data ask for a value beyond it, and the other "
-        "parameters depend on where it stands"
+        f"{name} lies at its bound ({p.value:.5g} {unit_symbol(p.unit)}): the data ask for a value beyond it, and "
+        "the other parameters depend on where it stands"
         for name, p in table.iterrows()
         if p.lower < p.upper
     ]

@@ -19,6 +19,7 @@ from symid.plots.style import (
     WARN,
     WARN_PALE,
     Picture,
+    banded,
     opened,
     over_time,
     size_of,
@@ -63,18 +64,26 @@ def plot_before_after(diagnosis: Diagnosis) -> Picture:
         rows = _where_most_changes(before, after)
         scale = over_time(column[-1], before.time[rows])
         for i, output in enumerate(outputs):
-            unit, factor = unit_for(size_of(before.recorded[:, i]), output.unit)
+            unit, factor, small, larger = _units(diagnosis, windows, i)
             panels = (column[2 * i], column[2 * i + 1])
-            _panel(*panels, before, after, rows, i, scale, factor, bool(diagnosis.named))
+            _panel(*panels, before, after, rows, i, scale, factor, larger, bool(diagnosis.named))
             if first:
                 column[2 * i].set_ylabel(f"{output.channel.replace('_', ' ')}\n[{unit}]", fontsize=9)
-                column[2 * i + 1].set_ylabel(f"error\n[{unit}]", fontsize=8)
+                column[2 * i + 1].set_ylabel(f"error\n[{small}]", fontsize=8)
         column[0].set_title(title, loc="left", fontsize=10)
     figure.legend(
         *grid[0, 0].get_legend_handles_labels(), loc="outside upper right", ncols=3, frameon=False, fontsize=8.5
     )
     figure.align_ylabels(grid[:, 0])
     return figure
+
+
+def _units(diagnosis: Diagnosis, windows, i: int) -> tuple[str, float, str, float]:
+    """Unit and factor of output `i`, and of its error: one for all windows, whose panels have one label."""
+    runs = [diagnosis.runs[f"baseline_{key}"] for key, _ in windows]
+    unit = list(diagnosis.baseline.model.outputs.values())[i].unit
+    error = size_of(*(run.recorded[:, i] - run.simulated[:, i] for run in runs))
+    return *unit_for(size_of(*(run.recorded[:, i] for run in runs)), unit), *unit_for(error, unit)
 
 
 def _where_most_changes(before: FreeRun, after: FreeRun) -> np.ndarray:
@@ -91,16 +100,16 @@ def _samples(run: FreeRun) -> int:
     return max(2, int(SWINGS * swing(run.time, run.recorded.T) / np.median(np.diff(run.time))))
 
 
-def _panel(above, below, before: FreeRun, after: FreeRun, rows, i, scale, factor, improved: bool) -> None:
+def _panel(above, below, before: FreeRun, after: FreeRun, rows, i, scale, factor, larger, improved: bool) -> None:
     t = before.time[rows] * scale
     # A new piece begins where time stands still; lines are not drawn across.
     above.plot(t, before.recorded[rows, i] * factor, color=RECORDED, lw=2.6, label="recorded")
     above.plot(t, before.simulated[rows, i] * factor, color=WARN, lw=1.0, label="model as given")
     below.axhline(0, color=INK, lw=0.5)
-    below.plot(t, (before.recorded - before.simulated)[rows, i] * factor, color=WARN, lw=0.8)
+    below.plot(t, (before.recorded - before.simulated)[rows, i] * larger, color=WARN, lw=0.8)
     if improved:
         above.plot(t, after.simulated[rows, i] * factor, color=MODEL, lw=1.0, label="improved")
-        below.plot(t, (after.recorded - after.simulated)[rows, i] * factor, color=MODEL, lw=0.8)
+        below.plot(t, (after.recorded - after.simulated)[rows, i] * larger, color=MODEL, lw=0.8)
     opened(above, below)
 
 
@@ -126,11 +135,11 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
             shown = [(before, WARN_PALE, 3.0, "model as given"), (after, MODEL, 1.0, "improved")]
         for run, color, width, label in shown:  # where both agree the one shows below the other
             f, power = welch((run.recorded - run.simulated)[:, i] * factor, rate, nperseg=length, detrend=False)
-            axes.loglog(f[1:], power[1:], color=color, lw=width, label=label)
+            axes.loglog(*banded(f[1:], power[1:]), color=color, lw=width, label=label)
         axes.set_title(output.channel.replace("_", " "), loc="left", fontsize=10)
         axes.set_xlabel("frequency [Hz]")
         if axes is panels[0] or not comparable:
-            axes.set_ylabel(f"power of the error\n[{f'({unit})' if '/' in unit else unit}²/Hz]", fontsize=9)
+            axes.set_ylabel(f"power of the error\n[{f'({unit})' if {'/', ' '} & set(unit) else unit}²/Hz]", fontsize=9)
         opened(axes)
     figure.legend(
         *panels[-1].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=8.5

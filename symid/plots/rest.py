@@ -30,12 +30,13 @@ def plot_rest(rest: Rest) -> Picture:
     >>> if found.rest is not None:                                               # doctest: +SKIP
     ...     plot_rest(found.rest).savefig("rest.png")
     """
-    figure = Picture(figsize=(9.5, 3.1), layout="constrained")
-    panels = figure.subplots(1, len(rest.signals) + 1)
+    figure = Picture(figsize=(9.5, 5.4), layout="constrained")
+    grid = figure.add_gridspec(2, len(rest.signals), height_ratios=[1.2, 1])
+    panels = [figure.add_subplot(grid[0, i]) for i in range(len(rest.signals))]
     factor, prefix = _prefixed(float(np.abs(rest.force).max()))
     every = max(1, len(rest.force) // MOST_POINTS)
     clock, per = time_unit(float(np.ptp(rest.time)))
-    for axes, (signal, values) in zip(panels, rest.signals.items(), strict=False):
+    for axes, (signal, values) in zip(panels, rest.signals.items(), strict=True):
         unit, scale = shown_unit(signal_unit(rest.model, signal))
         dots = axes.scatter(
             values[::every] * scale, rest.force[::every] * factor, c=rest.time[::every] * per, s=4, lw=0, cmap="viridis"
@@ -44,8 +45,8 @@ def plot_rest(rest: Rest) -> Picture:
         axes.set_xlabel(f"{signal_name(rest.model, rest.port, signal)} [{unit}]", fontsize=9)
         opened(axes)
     panels[0].set_ylabel(f"remaining {noun(rest.port.unit)} [{prefix}{unit_symbol(rest.port.unit)}]", fontsize=9)
-    figure.colorbar(dots, ax=panels[len(rest.signals) - 1], label=f"time [{clock}]", pad=0.02)
-    _bars(panels[-1], rest)
+    figure.colorbar(dots, ax=panels[-1], label=f"time [{clock}]", pad=0.02)
+    _bars(figure.add_subplot(grid[1, :]), rest)
     return figure
 
 

@@ -3,10 +3,24 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 from symid.identification import Solution
 from symid.identification.fit import common_unit, rms_text
-from symid.plots.style import INK, MODEL, QUIET, RECORDED, SWINGS, WARN, Picture, opened, over_time, size_of, swing
+from symid.plots.style import (
+    INK,
+    MODEL,
+    QUIET,
+    RECORDED,
+    SWINGS,
+    WARN,
+    Picture,
+    banded,
+    opened,
+    over_time,
+    size_of,
+    swing,
+)
 from symid.units import unit_for, unit_symbol, with_error
 
 
@@ -134,9 +148,10 @@ def plot_residual_spectra(solution: Solution, episode: int = 0) -> Picture:
         }
         for label, (signal, colour, width) in signals.items():
             frequency, power = welch(np.nan_to_num(signal - np.nanmean(signal)), rate, nperseg=length)
-            axes.loglog(frequency[1:], np.maximum(power[1:], 1e-300), color=colour, lw=width, label=label)
+            f, power = banded(frequency[1:], power[1:])
+            axes.loglog(f, np.maximum(power, 1e-300), color=colour, lw=width, label=label)
         axes.set_title(output.channel.replace("_", " "), loc="left", fontsize=10)
-        axes.set_ylabel(f"{unit or '1'}² / Hz" if "/" not in unit else f"({unit})² / Hz")
+        axes.set_ylabel(f"{unit or '1'}² / Hz" if not {"/", " "} & set(unit) else f"({unit})² / Hz")
         opened(axes)
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=9)
     panels[-1].set_xlabel("frequency [Hz]")
@@ -196,6 +211,7 @@ def _parameter_panel(axes, table, unit: str, truth: dict[str, float]) -> None:
         )
     axes.set_yticks(places, table.index, fontsize=8.5)
     axes.set(xlim=(low, high), ylim=(-0.7, len(table) - 0.3))
+    axes.xaxis.set_major_locator(MaxNLocator(5))  # as many as a phone has room for
     axes.xaxis.get_major_formatter().set_useMathText(True)
     legend = "     × true value" if truth else ""
     axes.set_title(f"[{unit_symbol(unit) or '1'}]{legend}", loc="left", fontsize=9)

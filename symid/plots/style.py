@@ -16,8 +16,10 @@ INK, RECORDED, MODEL, WARN, QUIET = "#222222", "#9a9a9a", "#1f5fa8", "#c0392b", 
 WARN_PALE = "#e8aaa2"
 SWINGS = 8.0
 """Of a stretch in which the single swings of a motion can be told apart."""
-
-
+NOTEBOOK = 5.0
+"""Width [inch] at most of a figure in a notebook: its letters are read where a phone shows it half as wide."""
+BANDS = 30
+"""Of a spectrum in each decade of frequency: more run together into one dark area."""
 _POWER = re.compile(r"\$\\mathdefault\{[-+−0-9.^{}]*\}\$")
 """What matplotlib writes at the ticks of a logarithmic axis."""
 
@@ -43,7 +45,10 @@ class Picture(Figure):
     def _repr_png_(self) -> bytes:
         """Small, since notebooks are kept with their pictures: few colours are enough for lines."""
         buffer = io.BytesIO()
-        Image.open(io.BytesIO(self.png(dpi=78))).convert("RGB").quantize(48).save(buffer, format="png", optimize=True)
+        width = min(self.get_figwidth(), NOTEBOOK)
+        Image.open(io.BytesIO(self.png(dpi=120, width=width))).convert("RGB").quantize(48).save(
+            buffer, format="png", optimize=True
+        )
         return buffer.getvalue()
 
 
@@ -66,6 +71,13 @@ def swing(time: np.ndarray, signals: np.ndarray) -> float:
     above = signals > np.nanmean(signals, axis=1, keepdims=True)
     crossings = (above[:, 1:] & ~above[:, :-1]).sum(axis=1).max(initial=0)
     return float(time[-1] - time[0]) / max(int(crossings), 1)
+
+
+def banded(frequency: np.ndarray, power: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """A spectrum by its means over bands of one width on a logarithmic axis, where its points are denser than those."""
+    _, starts = np.unique(np.floor(BANDS * np.log10(frequency)), return_index=True)
+    count = np.diff([*starts, len(frequency)])
+    return np.add.reduceat(frequency, starts) / count, np.add.reduceat(power, starts) / count
 
 
 def over_time(axes, time: np.ndarray) -> float:

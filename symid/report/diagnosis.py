@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from symid.discrepancy import Diagnosis
@@ -15,6 +16,7 @@ from symid.identification.fit import common_unit, rms_text
 from symid.mechanics.laws import parameter_name
 from symid.model.show import latex_lines
 from symid.plots import plot_before_after, plot_latent, plot_rest, plot_scores, plot_spectra
+from symid.report.experiment import experiment
 from symid.report.origin import CITATION, origin, written
 from symid.report.page import equations, facts, figure, folded, heading, page, paragraph, table
 from symid.units import quantity, split_column_name, typeset
@@ -30,6 +32,8 @@ REST = (
     "motion (red) or takes out (blue), with two standard errors."
 )
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+_UNITS = re.compile(r"(_(1|Nms?|Ns?|Hz|kg|rad|m|s)\d?)+$")
+"""What laws have for units at the end of a parameter's name, and recordings have not in this order."""
 MOST = 15
 """Suspects listed."""
 
@@ -122,15 +126,12 @@ def effects_table(d: Diagnosis) -> str:
 
 
 def _said(key: str) -> str:
-    """A parameter's name without its unit: ``time_constant_s`` as "time constant"."""
+    """A parameter's name without its unit: ``time_constant_s`` as "time constant", ``k2_Nm_rad2`` as "k2"."""
     try:
-        return _plain(split_column_name(key)[0])
+        name = split_column_name(key)[0]
     except RecordingError:  # one without a unit
-        return _plain(key)
-
-
-def _plain(name: str) -> str:
-    return name.replace("_", " ")
+        name = key
+    return _UNITS.sub("", name).replace("_", " ")
 
 
 def _equivalents(d: Diagnosis) -> str:
@@ -144,38 +145,6 @@ def _equivalents(d: Diagnosis) -> str:
         for c in d.equivalent
     ]
     return table(["instead", "place", "score", "experiment that would tell them apart"], rows)
-
-
-# What separates two laws is where their effects differ: in frequency, amplitude or time.
-_EXPERIMENTS = (
-    (
-        ("delay", "lag", "torque_feedback", "acceleration"),
-        "a faster excitation: above the frequencies in this recording a delay turns "
-        "the phase without loss, a lag loses amplitude, an inertia grows",
-    ),
-    (
-        ("friction", "drag", "dead_zone", "stiffness", "saturation", "backlash", "hysteresis"),
-        "the same excitation at half and at twice the amplitude: "
-        "each of these laws changes with amplitude in its own way",
-    ),
-    (
-        ("gain_change", "push", "periodic"),
-        "a longer recording: an event passes, a change stays, an oscillation returns",
-    ),
-    (("integral",), "a constant push that is held for a minute: an accumulated error removes the offset in the end"),
-    (
-        ("gain", "offset", "tilt", "mass", "inertia"),
-        "calibrate the sensors and the drive, or weigh the part: the motion alone shows only their product",
-    ),
-)
-
-
-def experiment(name: str) -> str:
-    """In words, an experiment in which the law `name` differs from its likes."""
-    return next(
-        (text for words, text in _EXPERIMENTS if any(w in name for w in words)),
-        "motion that is faster, larger or longer",
-    )
 
 
 def _fits(d: Diagnosis) -> str:

@@ -19,7 +19,8 @@ _TEMPLATES = Environment(
     loader=PackageLoader("symid.report"), autoescape=True, trim_blocks=True, keep_trailing_newline=True
 )
 _PARTS = _TEMPLATES.get_template("parts.html").module
-_NUMBER = re.compile(r"[−-]?[\d,]*\.?\d+")
+_NUMBER = re.compile(r"[−-]?[\d,]*\.?\d+|(over )?10[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+_MINUS = re.compile(r"(?<![\w.-])-(?=\d)")
 NARROW = 4.3
 """Width [inch] at which figures are drawn for a screen of a hand's width: their letters keep their size."""
 
@@ -35,6 +36,7 @@ def heading(text: str) -> Markup:
 
 def paragraph(text: str, kind: str = "") -> Markup:
     """kind : "lead", "bad" or "note"."""
+    text = _MINUS.sub("\N{MINUS SIGN}", text)
     return Markup('<p class="{}">{}</p>').format(kind, text) if kind else Markup("<p>{}</p>").format(text)
 
 

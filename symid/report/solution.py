@@ -27,7 +27,6 @@ from symid.report.origin import CITATION, command, written
 from symid.report.page import equations, facts, figure, folded, heading, number, page, paragraph, table
 from symid.units import time_unit, typeset, unit_symbol, with_error
 
-
 SHOWN_EPISODES = 3
 """Episodes that get figures of their own: more of them look alike."""
 TOGETHER = 0.9
@@ -91,33 +90,26 @@ def _fit_figures(solution: Solution) -> list[str]:
     found = [_by_recording(solution)] if single and len(names) > 1 else []
     for episode, name in enumerate(names[:SHOWN_EPISODES]):
         which = name if single else f"{name}, episode {episode + 1}"
-        found.append(figure(plot_fit(solution, episode), f"{which}: recorded, model and residual."))
+        found.append(figure(plot_fit(solution, episode), f"Recorded, model and residual of {which}."))
     if len(names) > SHOWN_EPISODES:
         kind = "recordings" if single else "episodes"
         found.append(paragraph(f"Of {len(names)} {kind} the first {SHOWN_EPISODES} are shown.", "note"))
-    stretch = typical_stretch(solution)
-    if stretch is not None:
-        found.append(
-            figure(plot_fit(solution, 0, stretch), "A stretch of it whose error is as large as that of the whole.")
-        )
+    if (stretch := typical_stretch(solution)) is not None:
+        caption = "A stretch of it whose error is as large as that of the whole."
+        found.append(figure(plot_fit(solution, 0, stretch), caption))
     return found
 
 
 def _by_recording(solution: Solution) -> str:
     """How well each of several recordings is fitted."""
     outputs = solution.model.outputs
-    rows = [
-        [
-            frame.attrs["recording"],
-            *(
-                rms_text(float(np.sqrt(np.nanmean((frame[k] - frame[f"{k} recorded"]) ** 2))), y.unit or "1")
-                for k, y in outputs.items()
-            ),
-        ]
-        for frame in solution.trajectories
-    ]
-    heads = [f"RMS error of {y.channel.replace('_', ' ')}" for y in outputs.values()]
-    return folded("Each recording", table(["recording", *heads], rows))
+
+    def errors(frame) -> list[str]:
+        rms = {k: float(np.sqrt(np.nanmean((frame[k] - frame[f"{k} recorded"]) ** 2))) for k in outputs}
+        return [rms_text(rms[k], y.unit or "1") for k, y in outputs.items()]
+
+    heads = ["recording", *(f"RMS error of {y.channel.replace('_', ' ')}" for y in outputs.values())]
+    return folded("Each recording", table(heads, [[f.attrs["recording"], *errors(f)] for f in solution.trajectories]))
 
 
 def _held_out_figures(held_out: Solution | None) -> list[str]:
@@ -241,12 +233,22 @@ def _starts(solution: Solution) -> str:
         ]
         for i, r in enumerate(solution.starts)
     ]
-    return table(
+    ended = table(
         ["start", "kind", "status", "RMS error", "iterations", "seconds", ""],
         rows,
         [not r.solved for r in solution.starts],
         wide=["kind", "seconds"],
     )
+    return Markup("\n").join([ended, *_weighed_anew(solution)])
+
+
+def _weighed_anew(solution: Solution) -> list[str]:
+    """In words, that the solution is not where the best start ended."""
+    if solution.result.objective == solution.starts[solution.best].objective:
+        return []
+    told = f"in {solution.result.iterations} iterations and {solution.result.seconds['total']:.2f} s"
+    why = "with outputs weighed by the noise that it left, or from a better place"
+    return [paragraph(f"From the end of the best start the problem was solved again, {why}, {told}.", "note")]
 
 
 def in_words(status: str, solved: bool) -> str:

@@ -21,13 +21,14 @@ TINY = 1e-300
 
 
 def unit_symbol(unit: str) -> str:
-    """A unit text as it is printed: ``"N*m*s/rad"`` as ``"N m s/rad"``, ``"kg*m^2"`` as ``"kg m²"``."""
+    """A unit text as it is printed: ``"N*m*s/rad"`` as ``"N m s/rad"``, ``"1/m/s^2"`` as ``"1/(m s²)"``."""
     text = "" if unit in ("", "1") else unit.replace("**", "^").replace("*", " ")
     base, *powers = text.split("^")
     for power in powers:
         end = next((i for i, c in enumerate(power) if not (c.isdigit() or c == "-")), len(power))
         base += power[:end].translate(_RAISED) + power[end:]
-    return base
+    above, *below = base.split("/")
+    return f"{above}/({' '.join(below)})" if len(below) > 1 and "(" not in base else base
 
 
 def shown_unit(unit: str) -> tuple[str, float]:
@@ -119,8 +120,10 @@ def _rounded(x: float, place: int) -> float:
 
 def _plain(x: float, digits: int) -> str:
     """So many significant digits, as a power of ten only where it is far from one."""
-    if x == 0 or PLAIN[0] <= abs(x) < PLAIN[1]:
-        decimals = digits - 1 - (floor(log10(abs(x))) if x else 0)
+    if x == 0:
+        return "0"
+    if PLAIN[0] <= abs(x) < PLAIN[1]:
+        decimals = digits - 1 - floor(log10(abs(x)))
         return f"{_rounded(x, -decimals):.{max(decimals, 0)}f}"
     power = floor(log10(abs(x)))
     return f"{x / 10.0**power:.{digits - 1}f}·10{str(power).translate(_RAISED)}"

@@ -20,7 +20,7 @@ from symid.discrepancy import suspects
 from symid.discrepancy.locate.latent import latent_torques
 from symid.mechanics import LIBRARY
 from symid.report import diagnosis_html, page, write_diagnosis_report
-from symid.report.diagnosis import experiment
+from symid.report.experiment import experiment
 
 
 @pytest.fixture(scope="module")
@@ -158,6 +158,8 @@ def test_figures_show_the_numbers_of_the_finding(finding):
     np.testing.assert_allclose(after.get_ydata(), np.degrees(run.simulated[start : start + len(after.get_ydata()), 0]))
     assert [line.get_label() for line in (recorded, before, after)] == ["recorded", "model as given", "improved"]
     assert panels[0].get_ylabel().endswith("[deg]")
+    held_out, other = panels[1].lines[0].get_ydata(), np.degrees(finding.runs["baseline_heldout"].recorded[:, 0])
+    assert np.isin(held_out, other).all()  # in the unit of the label, which stands at the fit window alone
     assert len(plots.plot_spectra(finding).axes[0].lines) == 2
 
 

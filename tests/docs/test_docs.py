@@ -83,3 +83,6 @@ def test_the_pages_build_without_a_warning(tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, env=os.environ | {"NO_MKDOCS_2_WARNING": "1"})
     assert done.returncode == 0, done.stdout + done.stderr
     assert "<math" in (tmp_path / "theory" / "collocation.html").read_text(encoding="utf-8")
+    for notebook in (ROOT / "notebooks").glob("*.ipynb"):
+        page = (tmp_path / "tutorial" / f"{notebook.stem}.html").read_text(encoding="utf-8")
+        assert 'src="data:image/png' in page and "$$" not in page

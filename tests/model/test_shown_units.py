@@ -42,7 +42,7 @@ def test_values_that_are_compared_have_one_unit():
         "28.3 mm",
         "0.976 mm",
     ]
-    assert quantity(2e-6, unit="m", beside=0.5) == "2.00 µm" and quantity(0.0, unit="m", beside=0.01) == "0.00 m"
+    assert quantity(2e-6, unit="m", beside=0.5) == "2.00 µm" and quantity(0.0, unit="m", beside=0.01) == "0 m"
     assert rms_text(np.radians(0.1), "rad", beside=np.radians(5.0)) == "0.1000 deg"
 
 

@@ -1,11 +1,14 @@
 """Parts of a page: tables, numbers, equations."""
 
+import numpy as np
 import pytest
 from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.model import show
+from symid.plots.style import banded
 from symid.report import page, report_html
+from symid.report.diagnosis import _said
 
 
 def test_words_in_equations_are_no_products_of_letters():
@@ -44,3 +47,30 @@ def test_rates_have_primes_that_are_seen():
     m.b = si.Equation(m.other.dot + m.speed[0])
     mathml = page.equations(show.latex_lines(m))
     assert mathml.count("<mo>&#x02032;</mo></mrow>") == 3 and "msubsup" not in mathml and "msup" not in mathml
+
+
+def test_a_minus_is_long_in_words_and_a_hyphen_stays():
+    assert "outside −0.145 m/s" in page.paragraph("outside -0.145 m/s")
+    assert "pages 25-57, --body" in page.paragraph("pages 25-57, --body")
+
+
+def test_dense_frequencies_are_drawn_by_their_means():
+    """Noise of a thousand frequencies is a line, no dark area; what stands apart stays as it is."""
+    frequency = np.arange(1, 1001) * 0.05
+    power = np.random.default_rng(0).exponential(size=1000)
+    f, p = banded(frequency, power)
+    assert np.array_equal(f[:5], frequency[:5]) and np.array_equal(p[:5], power[:5])
+    assert len(f) < 90 and np.abs(p[-5:] - 1).max() < 0.5 and np.all(np.diff(f) > 0)
+
+
+@pytest.mark.parametrize(
+    "key, said",
+    [
+        ("k2_Nm_rad2", "k2"),
+        ("time_constant_s", "time constant"),
+        ("coefficient_N_s2_m2", "coefficient"),
+        ("g_scale", "g scale"),
+    ],
+)
+def test_a_parameter_is_called_without_its_unit(key, said):
+    assert _said(key) == said

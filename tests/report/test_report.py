@@ -1,5 +1,6 @@
 """Figures and reports: what they show, also where parameters sit at bounds or a solve failed."""
 
+import io
 import re
 import sys
 from html.parser import HTMLParser
@@ -10,6 +11,7 @@ import pandas as pd
 import pytest
 from browser import assert_well_shown, needs_browser, seen
 from conftest import pendulum, pendulum_recording
+from PIL import Image
 
 import symid as si
 from symid import plots
@@ -117,6 +119,8 @@ def test_figures_show_themselves_without_pyplot(solution):
     assert "matplotlib.pyplot" not in sys.modules or "pyplot" not in vars(plots)
     for draw in (plots.plot_fit, plots.plot_parameters, plots.plot_starts):
         assert draw(solution)._repr_png_().startswith(b"\x89PNG")
+        wide, _ = Image.open(io.BytesIO(draw(solution)._repr_png_())).size
+        assert wide <= 120 * style.NOTEBOOK  # letters as large beside the figure as a phone needs
 
 
 def test_report_is_one_whole_file(solution, tmp_path):
@@ -152,7 +156,7 @@ def test_report_of_a_failed_solve_says_so_and_has_all_starts(not_solved):
 
 def test_report_shows_a_few_episodes_not_fifty():
     problem = si.Identification(pendulum(), pendulum_recording(), episodes=si.Episodes(5, push=0.1))
-    assert report_html(problem.solve()).count("recorded, model and residual") == 2 * 3  # caption and alt text
+    assert report_html(problem.solve()).count("Recorded, model and residual") == 2 * 3  # caption and alt text
 
 
 def test_a_report_that_cannot_be_drawn_leaves_the_old_one(solution, tmp_path, monkeypatch):
