@@ -1,4 +1,4 @@
-"""Where memory is limited: one sentence soon, instead of OpenBLAS asking for ever."""
+"""Where memory is limited: one sentence soon, instead of OpenBLAS asking for ever. What much of it is taken for."""
 
 import resource
 import subprocess
@@ -7,7 +7,9 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from study_problems import study
 
+from symid.bench.growth import HOUR_MB, measure_hour
 from symid.cli import main
 from symid.threads import BLAS_BYTES, room_for
 
@@ -51,5 +53,59 @@ def test_room_is_asked_for_without_being_taken():
     assert taken() - before < 2**27
 
 
-def taken() -> int:
-    return int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
+def taken(field: int = 0) -> int:
+    """Bytes of addresses (field 0) or of memory (1) of this process."""
+    return int(Path("/proc/self/statm").read_text().split()[field]) * resource.getpagesize()
+
+
+TWENTY_MINUTES = """
+import resource, sys
+from pathlib import Path
+from symid.cli import main
+from symid.files import write_atomically, write_json
+from symid.mechanics import FullStatePD
+from symid.synthetic import BODY, GAINS, body_table, csv_text, standing_recording
+
+folder = Path(sys.argv[1])
+recording = standing_recording(BODY.with_feedback(FullStatePD()), GAINS, duration=1200.0, rate=100.0)
+write_atomically(folder / "r.csv", csv_text(recording))
+write_json(folder / "b.json", body_table(BODY))
+person = ["--body", str(folder / "b.json"), "--controller", "fpd"]
+windows = ["--window", "0", "1000", "--held-out", "1000", "1200"]
+results = [word for name in ("json", "report", "held-out-csv") for word in (f"--{name}", str(folder / name))]
+code = main(["diagnose", str(folder / "r.csv"), *person, *windows, *results])
+print(code, 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
+"""
+
+
+@linux
+@pytest.mark.slow
+def test_an_hour_at_100_hz():
+    """360001 nodes in a process of its own."""
+    run = measure_hour()
+    assert run["nodes"] == 360_001 and run["status"] == "Solve_Succeeded"
+    assert run["peak_mb"] <= HOUR_MB
+
+
+@linux
+@pytest.mark.slow
+def test_a_study_of_a_thousand_solves(tmp_path):
+    """The last 800 need no more than the first 200 but for their rows."""
+    memory = {}
+
+    def note(finished) -> None:
+        memory[finished.done] = taken(1)
+
+    result = study(tmp_path, 500).run_here(on_finished=note)
+    assert len(result.table) == 1000
+    assert memory[1000] - memory[200] < 2**24
+
+
+@linux
+@pytest.mark.slow
+def test_a_diagnosis_of_twenty_minutes(tmp_path):
+    """120,000 samples of a person, with report and figures."""
+    done = subprocess.run([sys.executable, "-c", TWENTY_MINUTES, str(tmp_path)], capture_output=True, text=True)
+    code, peak = (int(word) for word in done.stdout.splitlines()[-1].split())
+    assert code == 0, done.stderr
+    assert peak <= 2e9
