@@ -5,6 +5,7 @@ import csv
 import functools
 import io
 import tempfile
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,7 @@ from fuzz import few, of_json, told
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from symid.errors import RecordingWarning
 from symid.recording import read_recording
 from symid.recording.columns import load_columns
 
@@ -205,3 +207,33 @@ def test_maps_of_columns(tmp_path, data):
     )
     told(read_recording, tmp_path / "r.csv", columns=tmp_path / "map.toml")
     told(load_columns, data.draw(st.one_of(st.dictionaries(keys, of_json, max_size=3), of_json)))
+
+
+def _mot(folder, stated, rows):
+    text = "\n".join(f"{0.01 * i:.2f}\t{i}" for i in range(rows))
+    (folder / "r.mot").write_text(f"walk\nnRows={stated}\ninDegrees=yes\nendheader\ntime\tankle_angle\n{text}\n")
+    return folder / "r.mot"
+
+
+def _trc(folder, stated, rows):
+    trc(folder / "r.trc")
+    lines = (
+        (folder / "r.trc").read_text().replace("DataRate\tUnits\n100\t", f"NumFrames\tUnits\n{stated}\t").split("\n")
+    )
+    (folder / "r.trc").write_text("\n".join(lines[: 5 + rows]))
+    return folder / "r.trc"
+
+
+def _c3d(folder, stated, rows):
+    """Of 40 frames; the last 512 bytes hold two of them."""
+    (folder / "r.c3d").write_bytes(whole("r.c3d")[: 3584 if rows == stated else 3584 - 512])
+    return folder / "r.c3d"
+
+
+@pytest.mark.parametrize("made", [_mot, _trc, _c3d])
+def test_a_file_that_was_cut_off_is_not_read_as_a_whole_one(tmp_path, made):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert len(read_recording(made(tmp_path, 40, 40))) == 40
+    with pytest.warns(RecordingWarning, match="states 40 rows and has 38: if it was cut off"):
+        assert len(read_recording(made(tmp_path, 40, 38))) == 38
