@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from symid.recording.readers.raw import RawColumn, cannot_be_read, library
+from symid.recording.readers.raw import RawColumn, cannot_be_read, library, warn_if_cut
 
 
 def read_c3d(path: Path) -> list[RawColumn]:
@@ -31,9 +31,11 @@ def read_c3d(path: Path) -> list[RawColumn]:
             unit, rate = _text(reader, "POINT:UNITS") or "mm", float(reader.point_rate)
             analog_names = [str(name).strip() for name in reader.analog_labels]
             units = _texts(reader, "ANALOG:UNITS")
+            stated = int(reader.last_frame) - int(reader.first_frame) + 1
             numbers, points, analog = (np.array(part) for part in zip(*frames, strict=True))
     except Exception as error:  # of a damaged file it raises whatever it stumbles over
         raise cannot_be_read(path, error) from error
+    warn_if_cut(path, stated, len(numbers))
     columns = [RawColumn("time_s", (numbers - 1) / rate, "s")]
     for i, name in enumerate(names[: points.shape[1]]):
         unseen = points[:, i, 3] < 0

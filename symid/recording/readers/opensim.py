@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from symid.errors import RecordingError
-from symid.recording.readers.raw import RawColumn, lines_of, numbers_below
+from symid.recording.readers.raw import RawColumn, lines_of, numbers_below, warn_if_cut
 
 
 def read_trc(path: Path) -> list[RawColumn]:
@@ -19,6 +19,7 @@ def read_trc(path: Path) -> list[RawColumn]:
     markers = [name.strip() for name in lines[3].rstrip("\n").split("\t")[2:] if name.strip()]
     names = [f"{marker}_{axis}" for marker in markers for axis in "xyz"]
     table = numbers_below(path, lines, 5, ["Frame#", "Time", *names], "\t")
+    warn_if_cut(path, facts.get("NumFrames"), len(table))
     return [RawColumn("time_s", table[:, 1], "s"), *(RawColumn(n, table[:, i + 2], unit) for i, n in enumerate(names))]
 
 
@@ -37,6 +38,8 @@ def read_storage(path: Path) -> list[RawColumn]:
     angle = _angle_unit(lines[:end])
     names = lines[end + 1].split()
     table = numbers_below(path, lines, end + 2, names, None)
+    rows = [re.fullmatch(r"\s*(?:nrows\s*=|datarows\s)\s*(\d+)\s*", line.lower()) for line in lines[:end]]
+    warn_if_cut(path, next((told[1] for told in rows if told), None), len(table))
     return [RawColumn(name, table[:, i], _unit(name, angle)) for i, name in enumerate(names)]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from symid.errors import RecordingError
+from symid.errors import RecordingError, RecordingWarning
 from symid.units import split_column_name
 
 
@@ -40,6 +41,16 @@ def cannot_be_read(path: Path, error: Exception) -> RecordingError:
     """For whatever a library raises about a file that is not what its name says."""
     reason = " ".join(str(error).split())[:200] or type(error).__name__
     return RecordingError(f"{path}: cannot be read as a {path.suffix} file: {reason}")
+
+
+def warn_if_cut(path: Path, stated: str | int | None, found: int) -> None:
+    """RecordingWarning where the header states more rows than are there, as after a copy that was broken off."""
+    if str(stated).strip().isdecimal() and int(stated) > found:
+        warnings.warn(
+            f"{path}: states {int(stated)} rows and has {found}: if it was cut off, copy it again",
+            RecordingWarning,
+            stacklevel=2,
+        )
 
 
 def number_of(cell: str) -> float:
