@@ -1,10 +1,12 @@
 """Files that are small and unpack to more memory than there is, or that lead to other files of this machine."""
 
 import io
+import re
 import resource
 import struct
 import zipfile
 import zlib
+from contextlib import nullcontext
 
 import numpy as np
 import pandas as pd
@@ -180,3 +182,30 @@ def test_a_file_that_ends_the_process_that_reads_it(tmp_path, monkeypatch):
     monkeypatch.setattr(apart, "OTHER_END", "import os; os.kill(os.getpid(), 11) # {module} {name}")
     with pytest.raises(RecordingError, match="cannot be read as a .mat file: it ended the process that read it"):
         read_recording("r.mat")
+
+
+def test_a_table_of_lists(tmp_path):
+    FRAME.assign(lists_m=[[1.0, 2.0]] * 40).to_parquet(tmp_path / "r.parquet")
+    with pytest.raises(RecordingError, match="column 'lists_m' holds something that is not a number"):
+        read_recording(tmp_path / "r.parquet")
+
+
+@pytest.mark.parametrize(
+    ("attribute", "value", "said"),
+    [
+        ("scale_factor", 0.01, "'hip_angle_rad' is not what it says (scale_factor)"),
+        ("add_offset", [0, 5], "(add_offset)"),
+        ("_FillValue", 0.0, "(_FillValue): unpack it, with NaN where it is missing"),
+        ("scale_factor", 1.0, ""),
+        ("missing_value", -999.0, ""),
+    ],
+)
+def test_packed_values_are_not_read_as_they_stand(tmp_path, attribute, value, said):
+    """As netCDF stores whole numbers, to be multiplied and shifted."""
+    h5py = pytest.importorskip("h5py")
+    with h5py.File(tmp_path / "r.h5", "w") as file:
+        for name in FRAME:
+            file[name] = FRAME[name]
+        file["hip_angle_rad"].attrs[attribute] = value
+    with pytest.raises(RecordingError, match=re.escape(said)) if said else nullcontext():
+        assert len(read_recording(tmp_path / "r.h5")) == 40

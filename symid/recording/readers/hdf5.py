@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from symid.errors import RecordingError
 from symid.recording.readers.limits import refuse_elsewhere
 from symid.recording.readers.raw import RawColumn, cannot_be_read, columns_of, library
@@ -20,7 +22,8 @@ def read_hdf5(path: Path) -> list[RawColumn]:
         if isinstance(node, h5py.Dataset) and node.dtype.kind in "fiu" and node.size > 1 and not _of_matlab(name, node):
             unit = node.attrs.get("units", node.attrs.get("unit"))
             text = unit.decode() if isinstance(unit, bytes) else unit
-            found.extend(columns_of(name.replace("/", "_"), node[()], text or None))
+            columns = columns_of(name.replace("/", "_"), node[()], text or None)
+            found.extend(c._replace(fault=fault) if (fault := _packed(c.text, node)) else c for c in columns)
 
     try:
         with h5py.File(path, "r") as file:
@@ -31,6 +34,14 @@ def read_hdf5(path: Path) -> list[RawColumn]:
     except Exception as error:  # of a damaged file it raises whatever it stumbles over
         raise cannot_be_read(path, error) from error
     return found
+
+
+def _packed(name: str, node) -> str:
+    """Why these numbers are not what they stand for, by the conventions of netCDF; nothing where they are."""
+    plain = {"scale_factor": 1.0, "add_offset": 0.0}
+    told = [key for key, value in plain.items() if np.any(node.attrs.get(key, value) != value)]
+    told += [key for key in ("_FillValue", "missing_value") if np.isin(node[()], node.attrs.get(key, [])).any()]
+    return f"'{name}' is not what it says ({', '.join(told)}): unpack it, with NaN where it is missing" * bool(told)
 
 
 def _of_matlab(name: str, node) -> bool:

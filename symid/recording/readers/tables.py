@@ -151,4 +151,4 @@ def _stored_column(name: str, column: Any) -> RawColumn:
         return RawColumn(name, column.to_numpy(dtype=float, na_value=np.nan))
     except (TypeError, ValueError):
         fault = f"column '{name}' holds something that is not a number"
-        return RawColumn(name, column.to_numpy(dtype=str), fault=fault)
+        return RawColumn(name, np.full(len(column), np.nan), fault=fault)
