@@ -17,6 +17,8 @@ from symid.errors import RecordingError, WriteError
 
 DIGITS = 300
 """Of an integer: more do not fit into a floating-point number."""
+MOST_BYTES = 2**31
+"""Of one file, unpacked: an hour of 70 channels at 1000 Hz, or more than a worksheet of a million rows holds."""
 
 
 def write_atomically(path: str | os.PathLike[str], content: str | bytes) -> Path:
@@ -76,6 +78,20 @@ def a_file(path: Path) -> Path:
     return path
 
 
+def content_of(path: Path) -> bytes:
+    """All of `path`, which anybody may have written: a file of holes takes no disk, and states any size.
+
+    Raises
+    ------
+    OSError : as of `a_file`, or it has more than `MOST_BYTES`.
+    """
+    size = a_file(path).stat().st_size
+    if size > MOST_BYTES:
+        said = f"it has {size / 1e9:.1f} GB, and {MOST_BYTES / 1e9:.1f} GB are the most that is read"
+        raise OSError(errno.EFBIG, said, str(path))
+    return path.read_bytes()
+
+
 def read_json(path: str | Path, **options):
     """Content of a JSON file that anybody may have written.
 
@@ -85,7 +101,7 @@ def read_json(path: str | Path, **options):
         The file is missing, is no JSON in UTF-8, is nested without end, or holds a number beyond all use.
     """
     try:
-        content = json.loads(a_file(Path(path)).read_text(encoding="utf-8-sig"), parse_int=_integer, **options)
+        content = json.loads(content_of(Path(path)).decode("utf-8-sig"), parse_int=_integer, **options)
     except OSError as problem:
         raise RecordingError(f"{path}: cannot be read: {problem.strerror}") from None
     except (ValueError, RecursionError) as problem:

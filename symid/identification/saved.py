@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from symid import checked
 from symid.errors import SolveError
-from symid.files import a_file, write_json
+from symid.files import content_of, write_json
 from symid.identification.identity import digest, problem_identity
 from symid.identification.process_size import unsized, with_sizes
 from symid.identification.solution import Solution, build_solution
@@ -49,9 +49,9 @@ def load(path: str | Path, problem: Identification) -> Solution:
     """
     path = checked.path(path, "load", SolveError)
     try:
-        summary = json.loads(a_file(Path(path) / SUMMARY).read_text(encoding="utf-8"))
+        summary = json.loads(content_of(Path(path) / SUMMARY))
         noise, sizes = summary["noise"], {n: summary["process_sizes"][n] for n in unsized(problem.model)}
-    except (OSError, ValueError, KeyError, TypeError) as absent:
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as absent:
         raise SolveError(
             f"{path} holds no saved solution ({absent}): give the directory that Solution.save wrote"
         ) from None

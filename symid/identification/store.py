@@ -17,7 +17,7 @@ from typing import Protocol
 
 from symid import checked
 from symid.errors import SolveError
-from symid.files import a_file, plain, write_atomically, write_json
+from symid.files import content_of, plain, write_atomically, write_json
 from symid.identification.identity import VERSION, digest
 from symid.identification.start_row import StartRow
 from symid.identification.worker import Outcome
@@ -61,7 +61,7 @@ class StudyDirectory:
     def _read_register(self) -> dict:
         file = self.path / "study.json"
         try:
-            register = json.loads(a_file(file).read_text(encoding="utf-8"))
+            register = json.loads(content_of(file))
             found, solves = register["format"], register["solves"]
         except FileNotFoundError:
             if self.path.is_dir() and any(f.suffix != ".part" for f in self.path.iterdir()):
@@ -119,8 +119,8 @@ class StudyDirectory:
         """The outcome as it was put in; None where there is none or a file of it is damaged."""
         key = self._keys.get(key, key)
         try:
-            content = json.loads(a_file(self.path / f"{key}.json").read_text(encoding="utf-8"))
-            arrays = a_file(self.path / f"{key}.npz").read_bytes()
+            content = json.loads(content_of(self.path / f"{key}.json"))
+            arrays = content_of(self.path / f"{key}.npz")
             sums = content.pop("sha256")
             whole = sums == {"content": _sha256(_text(content)), "arrays": _sha256(arrays)}
             whole = whole and content.get("key", key) == key  # earlier versions did not write it

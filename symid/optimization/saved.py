@@ -12,7 +12,7 @@ import numpy as np
 
 from symid import checked
 from symid.errors import SolveError
-from symid.files import a_file, read_arrays, write_atomically
+from symid.files import content_of, read_arrays, write_atomically
 from symid.ipopt_solver.kept import put_together, taken_apart
 from symid.optimization.plan import Plan
 
@@ -42,7 +42,7 @@ def load(path: str | Path, problem: Optimization) -> Plan:
     """
     path = checked.path(path, "Optimization.load", SolveError)
     try:
-        file = read_arrays(a_file(path).read_bytes())
+        file = read_arrays(content_of(path))
         about, arrays = json.loads(str(file["about"])), file["arrays"].tobytes()
         found, known = about["format"], dict(about["problem"])
     except OSError as absent:

@@ -11,7 +11,7 @@ import numpy as np
 
 from symid import checked
 from symid.errors import RecordingError, SymidError
-from symid.files import a_file
+from symid.files import content_of
 from symid.recording.header import MOST_NAMED, map_them, no_time
 from symid.recording.names import LABELS, Column, contradictions, measured_column, unit_of
 from symid.recording.readers.raw import RawColumn
@@ -39,7 +39,7 @@ def load_columns(source: Mapping[str, str] | str | os.PathLike) -> dict[str, str
     if not isinstance(source, Mapping):
         name = str(checked.path(source, "a mapping of columns", RecordingError))
         try:
-            table = tomllib.loads(a_file(Path(name)).read_text(encoding="utf-8-sig"))
+            table = tomllib.loads(content_of(Path(name)).decode("utf-8-sig"))
         except OSError as error:
             raise RecordingError(f"{name}: cannot be read: {error.strerror}") from error
         except (ValueError, RecursionError) as error:  # also of a number with thousands of digits

@@ -1,6 +1,7 @@
 """Files that are small and unpack to more memory than there is, or that lead to other files of this machine."""
 
 import io
+import os
 import re
 import resource
 import struct
@@ -11,9 +12,12 @@ from contextlib import nullcontext
 import numpy as np
 import pandas as pd
 import pytest
+from conftest import pendulum_recording
 
-from symid.errors import RecordingError
-from symid.files import read_arrays
+import symid as si
+from symid.errors import RecordingError, SymidError
+from symid.files import read_arrays, read_json
+from symid.identification.store import StudyDirectory
 from symid.recording import read_recording
 from symid.recording.readers import apart, limits
 
@@ -209,3 +213,28 @@ def test_packed_values_are_not_read_as_they_stand(tmp_path, attribute, value, sa
         file["hip_angle_rad"].attrs[attribute] = value
     with pytest.raises(RecordingError, match=re.escape(said)) if said else nullcontext():
         assert len(read_recording(tmp_path / "r.h5")) == 40
+
+
+@pytest.mark.parametrize(
+    "read",
+    [
+        lambda file: read_recording(file.rename(file.with_suffix(".trc"))),
+        lambda file: read_recording(file.with_name("r.csv"), columns=file),
+        read_json,
+        lambda file: StudyDirectory(file.parent, {"a": {"key": "k"}}),
+        lambda file: si.Optimization(si.Model("m"), duration=1.0).load(file),
+    ],
+)
+def test_a_file_of_holes_is_not_read_into_memory(tmp_path, read):
+    """It takes no disk, and is as large as it likes."""
+    FRAME.to_csv(tmp_path / "r.csv", index=False)
+    (tmp_path / "study.json").touch()
+    os.truncate(tmp_path / "study.json", 2**36)
+    with pytest.raises(SymidError, match=r"it has 68.7 GB, and 2.1 GB are the most that is read"):
+        read(tmp_path / "study.json")
+
+
+def test_a_summary_that_is_nested_without_end(tmp_path, pendulum_model):
+    (tmp_path / "summary.json").write_text("[" * 100_000)
+    with pytest.raises(SymidError, match="holds no saved solution"):
+        si.Identification(pendulum_model, pendulum_recording(duration=0.3)).load(tmp_path)

@@ -9,9 +9,8 @@ import zlib
 from pathlib import Path
 
 from symid.errors import RecordingError
+from symid.files import MOST_BYTES
 
-MOST_BYTES = 2**31
-"""Of one file, unpacked: an hour of 70 channels at 1000 Hz, or more than a worksheet of a million rows holds."""
 PIECE = 2**16
 """Bytes that are unpacked at once: at most a thousand times as many come out."""
 

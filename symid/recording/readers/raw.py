@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from symid.errors import RecordingError, RecordingWarning
+from symid.files import content_of
 from symid.units import split_column_name
 
 
@@ -80,7 +81,7 @@ def columns_of(name: str, values, unit: str | None = None) -> Iterator[RawColumn
 def lines_of(path: Path) -> list[str]:
     """Lines of a text file, without their ends."""
     try:
-        raw = path.read_bytes()
+        raw = content_of(path)
     except OSError as error:
         raise RecordingError(f"{path}: cannot be read: {error.strerror}") from error
     for encoding in ("utf-8-sig", "cp1252"):  # the second for names only, numbers are the same in both
