@@ -21,6 +21,10 @@ from symid.threads import room_for
 # Every module of this package but these is a command: SUMMARY, EXAMPLES, add_arguments(parser), run(arguments) -> code.
 NOT_COMMANDS = ("__main__", "main", "options")
 SOLVED, NOT_SOLVED, BAD_INPUT, INTERRUPTED = 0, 1, 2, 130
+EXAMPLES = """examples:
+  symid demo
+  symid identify recording.csv --body body.json --controller fpd --window 0 100 --report fit.html
+  symid identify --help"""
 LEAST_BYTES = 700 * 2**20
 """Addresses that the libraries take before the first number is read: 510 to 600 MB, and a small problem's."""
 TOO_LITTLE = (
@@ -92,6 +96,8 @@ def build_parser() -> argparse.ArgumentParser:
         prog="symid",
         description="Identify mechanical systems and their feedback controllers from recordings, "
         "and find the physics that a model left out.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"symid {version('symid')}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)

@@ -63,7 +63,8 @@ def plot_poses(solution: Solution | Plan, episode: int = 0, window: tuple[float,
     """
     time, model, recorded = _motion(solution, episode, window)
     rows = np.linspace(0, len(time) - 1, POSES).round().astype(int)
-    wide, high = np.ptp(np.concatenate([model, recorded if recorded is not None else model]).reshape(-1, 2), axis=0)
+    joints = np.concatenate([model, recorded if recorded is not None else model]).reshape(-1, 2)
+    wide, high = np.nanmax(joints, axis=0) - np.nanmin(joints, axis=0)
     figure = Picture(
         figsize=(9, float(np.clip(1.4 * high / max(wide, 0.4 * high), 0.9, 2.1)) + 0.7), layout="constrained"
     )
@@ -144,8 +145,8 @@ def _motion(solution, episode: int, window) -> tuple[np.ndarray, np.ndarray, np.
 def _stage(axes, *bodies: np.ndarray | None) -> None:
     """Room for all that moves, the base, no axes: lengths are all to one scale."""
     joints = np.concatenate([b.reshape(-1, 2) for b in bodies if b is not None])
-    reach = np.ptp(joints, axis=0).max()
-    (left, low), (right, high) = joints.min(axis=0), joints.max(axis=0)
+    (left, low), (right, high) = np.nanmin(joints, axis=0), np.nanmax(joints, axis=0)  # gaps are not drawn
+    reach = max(right - left, high - low)
     half, margin = max(-left, right, 0.2 * reach), 0.07 * reach
     axes.set(xlim=(-half - margin, half + margin), ylim=(low - margin, high + margin))
     axes.set_aspect("equal")

@@ -24,6 +24,15 @@ def test_every_command_shows_examples_that_parse(name, capsys):
     assert module.EXAMPLES[0] in capsys.readouterr().out
 
 
+def test_the_help_of_all_shows_examples_that_parse(capsys):
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    examples = [line[2:] for line in capsys.readouterr().out.splitlines() if line.startswith("  symid ")]
+    assert len(examples) > 2 and examples[-1] == "symid identify --help"
+    for example in examples[:-1]:
+        build_parser().parse_args(shlex.split(example)[1:])
+
+
 def test_completion_is_a_script_that_bash_reads(capsys):
     assert main(["completion", "bash"]) == 0
     script = capsys.readouterr().out

@@ -35,6 +35,15 @@ def test_the_recording_is_made_from_the_authors_files_in_an_unpacked_archive(sou
     assert json.loads((folder / "body.json").read_text()) == json.loads((published / "body.json").read_text())
 
 
+@pytest.mark.parametrize("name", fetch.RECORDINGS)
+def test_a_damaged_file_of_a_folder_that_is_named_is_noticed(shared, tmp_path, name):
+    for other in fetch.RECORDINGS:
+        text = (shared / "recordings/standing_subject05" / other).read_text()
+        (tmp_path / other).write_text(text.replace("7", "8", 1) if other == name else text)
+    with pytest.raises(RecordingError, match=f"{name}: is not the article's recording.*remove"):
+        fetch.standing(tmp_path)
+
+
 def test_rows_of_the_published_file_give_the_published_rates(tmp_path):
     """Five rows of JointsGF0003.txt and Sway0003.txt; the rates at 0.02 s are those of recording_50hz.csv."""
     (tmp_path / "a").write_text(

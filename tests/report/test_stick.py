@@ -11,6 +11,7 @@ import symid as si
 from symid.mechanics import Chain, FullStatePD, rig_model, skeleton
 from symid.plots import animate, plot_poses
 from symid.plots.live import LivePlot
+from symid.report import report_html
 from symid.simulation import Simulator
 
 
@@ -45,14 +46,24 @@ def test_a_model_that_is_no_chain_has_no_stick_figure():
         plot_poses(solution)
 
 
-@pytest.fixture(scope="module")
-def swing():
+def swing_with(missing: slice) -> si.Solution:
     rig = rig_model({"m1_kg": 0.1, "a1_m": 0.2, "I1_kg_m2": 1e-3}, ["link1_angle"], friction=["joint1"])
     time = np.arange(0, 2, 0.02)
     run = Simulator(rig).simulate({next(iter(rig.parameters)): 1e-3}, {"link1_angle": 1.0, "link1_velocity": 0.0}, time)
     noise = 0.05 * np.random.default_rng(0).standard_normal(len(time))
     angle = run.states["link1_angle"] + noise
+    angle[missing] = np.nan
     return si.Identification(rig, si.Recording("swing", time, {"link1_angle": angle}, {"link1_angle": "rad"})).solve()
+
+
+@pytest.fixture(scope="module")
+def swing():
+    return swing_with(slice(0, 0))
+
+
+def test_a_recording_with_a_gap_has_a_report_with_its_stick_figure():
+    text = report_html(swing_with(slice(20, 30)))
+    assert "The body at some instants" in text
 
 
 def test_poses_show_the_recording_below_the_model(swing):
