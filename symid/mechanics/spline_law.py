@@ -12,6 +12,9 @@ from symid.mechanics.places import signal_unit
 from symid.model import Law, LawParameter, Model, Port
 from symid.units import reduced
 
+FLEXIBLE = "flexible_force"
+"""Name of the law: its parameters begin with it."""
+
 
 @dataclass(frozen=True)
 class Block:
@@ -99,4 +102,4 @@ def spline_law(model: Model, port: Port, blocks: Sequence[Block]) -> Law:
         changed.add_effort(port.name, sum(forces))
 
     parameters = tuple(LawParameter(k, unit) for row, unit in zip(keys, units, strict=True) for k in row)
-    return Law("flexible_force", port.role, parameters, build, "A force that no formula describes acts on the {place}")
+    return Law(FLEXIBLE, port.role, parameters, build, "A force that no formula describes acts on the {place}")

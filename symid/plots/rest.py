@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 from symid.discrepancy.say.rest import noun, power_unit, signal_name
 from symid.mechanics.places import signal_unit
@@ -15,6 +16,8 @@ if TYPE_CHECKING:
     from symid.discrepancy.locate.rest import Rest, Stretch
 
 MOST_POINTS = 3000
+ABREAST = 2
+"""Signals beside each other: more have no room on a phone."""
 
 
 def plot_rest(rest: Rest) -> Picture:
@@ -30,9 +33,10 @@ def plot_rest(rest: Rest) -> Picture:
     >>> if found.rest is not None:                                               # doctest: +SKIP
     ...     plot_rest(found.rest).savefig("rest.png")
     """
-    figure = Picture(figsize=(9.5, 5.4), layout="constrained")
-    grid = figure.add_gridspec(2, len(rest.signals), height_ratios=[1.2, 1])
-    panels = [figure.add_subplot(grid[0, i]) for i in range(len(rest.signals))]
+    rows, columns = -(-len(rest.signals) // ABREAST), min(len(rest.signals), ABREAST)
+    figure = Picture(figsize=(9.5, 2.9 * rows + 2.5), layout="constrained")
+    grid = figure.add_gridspec(rows + 1, columns, height_ratios=[*[1.2] * rows, 1])
+    panels = [figure.add_subplot(grid[i // columns, i % columns]) for i in range(len(rest.signals))]
     factor, prefix = _prefixed(float(np.abs(rest.force).max()))
     every = max(1, len(rest.force) // MOST_POINTS)
     clock, per = time_unit(float(np.ptp(rest.time)))
@@ -42,11 +46,13 @@ def plot_rest(rest: Rest) -> Picture:
             values[::every] * scale, rest.force[::every] * factor, c=rest.time[::every] * per, s=4, lw=0, cmap="viridis"
         )
         axes.axhline(0, color=INK, lw=0.5)
+        axes.xaxis.set_major_locator(MaxNLocator(4))
         axes.set_xlabel(f"{signal_name(rest.model, rest.port, signal)} [{unit}]", fontsize=9)
         opened(axes)
-    panels[0].set_ylabel(f"remaining {noun(rest.port.unit)} [{prefix}{unit_symbol(rest.port.unit)}]", fontsize=9)
-    figure.colorbar(dots, ax=panels[-1], label=f"time [{clock}]", pad=0.02)
-    _bars(figure.add_subplot(grid[1, :]), rest)
+    for axes in panels[::columns]:
+        axes.set_ylabel(f"remaining {noun(rest.port.unit)} [{prefix}{unit_symbol(rest.port.unit)}]", fontsize=9)
+    figure.colorbar(dots, ax=panels, label=f"time [{clock}]", pad=0.02)
+    _bars(figure.add_subplot(grid[rows, :]), rest)
     return figure
 
 

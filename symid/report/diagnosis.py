@@ -14,6 +14,7 @@ from symid.errors import RecordingError
 from symid.files import write_atomically
 from symid.identification.fit import common_unit, rms_text
 from symid.mechanics.laws import parameter_name
+from symid.mechanics.spline_law import FLEXIBLE
 from symid.model.show import latex_lines
 from symid.plots import plot_before_after, plot_latent, plot_rest, plot_scores, plot_spectra
 from symid.report.experiment import experiment
@@ -83,7 +84,7 @@ def diagnosis_html(diagnosis: Diagnosis, name: str = "Diagnosis", provenance: di
         heading("What is left"),
         *_remainder(d),
         heading("Parameters of the model"),
-        _parameters(d),
+        *_parameters(d),
         folded("Equations of the improved model" if d.named else "Equations", equations(latex_lines(d.improved))),
         heading("Provenance"),
         facts((provenance or {}) | _compared(d) | origin()),
@@ -259,18 +260,32 @@ def _odds(minus_log10_p: float) -> str:
     return ("over " if minus_log10_p > 300 else "") + "10" + f"{min(minus_log10_p, 300):.0f}".translate(_RAISED)
 
 
-def _parameters(d: Diagnosis) -> str:
-    rows = []
+def _parameters(d: Diagnosis) -> list[str]:
+    """Of the model and of what was found; those of splines, which nobody reads, are folded away."""
     own = {
         parameter_name(e.name, e.location, k): f"{law_name(e.name)}, {place_name(e.location)}: {_said(k)}"
         for e in d.named
         for k in e.parameters
     }
-    for name, value in d.values.items():
-        part, before = d.improved.parameters[name], d.baseline.values.get(name)
+    splines = [name for name in d.values if name.startswith(FLEXIBLE)]
+    told = _values(d, [name for name in d.values if name not in splines], own)
+    if not splines:
+        return [told]
+    note = (
+        "The improved model holds a flexible law beside what is named above, and it takes over a part of that: the "
+        "values here are those beside it."
+    )
+    folds = folded(f"{len(splines)} coefficients of the flexible law", _values(d, splines, own))
+    return [paragraph(note, "note"), told, folds]
+
+
+def _values(d: Diagnosis, names: list[str], own: dict[str, str]) -> str:
+    rows = []
+    for name in names:
+        part, before, value = d.improved.parameters[name], d.baseline.values.get(name), float(d.values[name])
         error = float(d.final.errors.get(name, float("nan")))
         given = "" if before is None else quantity(float(before), unit=part.unit, digits=4)
-        rows.append([(name, own.get(name, part.meaning)), given, quantity(float(value), error, part.unit, digits=4)])
+        rows.append([(name, own.get(name, part.meaning)), given, quantity(value, error, part.unit, digits=4)])
     if not d.named:
         return table(["parameter", "value ± standard error"], [[name, value] for name, _, value in rows])
     return table(["parameter", "model as given", "improved ± standard error"], rows)

@@ -76,7 +76,7 @@ def table(
 
 def facts(content: Mapping[str, object]) -> Markup:
     """Two columns: what, and its value, if there is one."""
-    return Markup(_PARTS.facts({k: _cell(v)["text"] for k, v in content.items() if v != ""}))
+    return Markup(_PARTS.facts({k: _cell(v, minus=False)["text"] for k, v in content.items() if v != ""}))
 
 
 def equations(lines: Iterable[str]) -> Markup:
@@ -130,13 +130,13 @@ def _breakable(text: str) -> Markup:
     return Markup(escape(text).replace("_", Markup("_<wbr>")))
 
 
-def _cell(x) -> dict[str, object]:
+def _cell(x, minus: bool = True) -> dict[str, object]:
     text, below = x if isinstance(x, tuple) else (x, "")
     return {
         "text": number(text)
         if isinstance(text, (bool, int, float))
         else text
         if isinstance(text, Markup)
-        else _breakable(str(text)),
+        else _breakable(_MINUS.sub("\N{MINUS SIGN}", str(text)) if minus else str(text)),
         "below": _breakable(str(below)) if below else "",
     }

@@ -4,6 +4,7 @@ import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
@@ -136,6 +137,14 @@ def test_forces_of_one_unit_have_one_scale(finding):
     details = [axes for axes in plots.plot_latent(latent).axes if axes.get_ylim()[0] < 0]
     assert len({axes.get_ylim() for axes in details}) == 1 and len(details) == len(latent)
     assert len({axes.get_ylabel().split("[")[1] for axes in plots.plot_latent(latent).axes if axes.get_ylabel()}) == 1
+
+
+def test_a_fit_to_fewer_samples_leaves_the_pieces_of_the_recording_apart(finding):
+    """Where a piece begins anew nothing pushes, however the fit was thinned."""
+    run, fit = finding.runs["baseline_train"], finding.baseline
+    thinned = replace(fit, innovations=tuple(s[::2] for s in fit.innovations))
+    assert len(run.lengths) > 1
+    np.testing.assert_allclose(latent_torques(thinned, run)[0].torque, latent_torques(fit, run)[0].torque)
 
 
 def test_figures_show_the_numbers_of_the_finding(finding):

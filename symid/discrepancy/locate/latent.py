@@ -52,8 +52,8 @@ def latent_torques(fit: Fit, run: FreeRun) -> tuple[Latent, ...]:
     A, G, C = linear.without_delay()
     residual = run.recorded - run.simulated
     size = _moving(A, G, C, residual, run.pace)
-    ends = np.cumsum([len(s) for s in fit.innovations])
-    pieces = list(zip([0, *ends[:-1]], ends, strict=True)) if ends[-1] == len(run.time) else [(0, len(run.time))]
+    ends = np.cumsum(run.lengths)
+    pieces = list(zip([0, *ends[:-1]], ends, strict=True))
     noise = _sensor_noise(run.recorded)
     torque, variance = _most_likely(A, G * size, C, residual, step, noise, pieces, run.pace)
     error = np.sqrt(variance)

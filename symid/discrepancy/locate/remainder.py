@@ -91,7 +91,9 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
         statistic = _ljung_box(projection, fit.innovations, o) / _excess(
             [_ljung_box(projection, r, o) for r in rounded], WHITENESS_LAGS
         )
-        found.append(Test(y.at, "innovations that follow from earlier ones", statistic, WHITENESS_LAGS, locates=False))
+        found.append(
+            Test(y.at, "errors of prediction that follow from earlier ones", statistic, WHITENESS_LAGS, locates=False)
+        )
     return sorted(found, key=lambda t: -round(t.minus_log10_p, 1))
 
 
