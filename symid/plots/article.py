@@ -22,16 +22,16 @@ def plot_stable_share(findings: Sequence) -> Picture:
     for column, controller in zip(axes.T, controllers, strict=True):
         own = [f for f in findings if f.case.controller == controller]
         episodes = [f.case.episodes for f in own]
-        for axis, (test, words) in zip(column, TESTS, strict=True):
+        for axis, (test, _) in zip(column, TESTS, strict=True):
             opened(axis)
             axis.plot(episodes, [getattr(f.case, test) for f in own], "o", color=RECORDED, ms=9, label="article")
             axis.plot(episodes, [getattr(f.stability, test) for f in own], "x", color=MODEL, ms=7, label="symid")
-            axis.set_title(f"{controller}, {words}", fontsize=9)
             axis.set_xticks(sorted(set(episodes)))
             axis.set_ylim(-4, 104)
+        column[0].set_title(controller, fontsize=9)
         column[-1].set_xlabel("episodes")
-    for axis in axes[:, 0]:
-        axis.set_ylabel("stable share [%]")
+    for axis, (_, words) in zip(axes[:, 0], TESTS, strict=True):
+        axis.set_ylabel(f"stable share [%]\n{words}", fontsize=9)
     picture.legend(
         *axes[0, 0].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=8
     )

@@ -54,8 +54,8 @@ def plot_formulations(rows: pd.DataFrame) -> Picture:
     rows : of `bench.formulations.head_to_head`.
     """
     names = list(dict.fromkeys(rows["formulation"]))
-    picture = Picture(figsize=(9.4, 0.42 * len(names) + 1.2), layout="constrained")
-    for axis, (column, words) in zip(picture.subplots(1, len(PANELS), sharey=True), PANELS, strict=True):
+    picture = Picture(figsize=(9.4, 0.6 * len(names) + 1.6), layout="constrained")
+    for axis, (column, words) in zip(picture.subplots(2, 2, sharey=True).ravel(), PANELS, strict=True):
         opened(axis)
         for i, name in enumerate(names):
             values = rows[rows["formulation"] == name][column].astype(float)
@@ -71,7 +71,7 @@ def plot_formulations(rows: pd.DataFrame) -> Picture:
             axis.set_xscale("log")
             plain_ticks(axis.xaxis)
         axis.set_xlabel(words, fontsize=8.5)
-    axes = picture.axes
-    axes[0].set_yticks(range(len(names)), names, fontsize=8.5)
-    axes[0].invert_yaxis()
+    for axis in picture.axes[::2]:  # what stands on the left of a row
+        axis.set_yticks(range(len(names)), names, fontsize=8)
+    picture.axes[0].invert_yaxis()
     return picture
