@@ -8,6 +8,8 @@ from pathlib import Path
 from latex2mathml.converter import convert
 from mkdocs.structure.files import File
 
+from symid.report.page import equations
+
 _FORMULA = re.compile(r"(\$\$?)(.+?)\1", re.S)
 NOTEBOOKS = Path(__file__).parents[1] / "notebooks"
 
@@ -42,4 +44,9 @@ def _output(output: dict) -> str:
 
 
 def _mathml(found: re.Match) -> str:
-    return convert(unescape(found[2]), display="block" if found[1] == "$$" else "inline")
+    """A letter, or the equations of a model: a line each, and what goes on in a further line below it."""
+    latex = unescape(found[2])
+    if found[1] == "$":
+        return convert(latex, display="inline")
+    lines = re.sub(r"\\(begin|end)\{aligned\}", "", latex)
+    return equations(re.sub(r"\\\\\s*(?!\s*&\\qquad)", "\n", lines).strip().splitlines())
