@@ -207,6 +207,10 @@ def standing_raw(folder: str | Path | None = None) -> Path:
     ------
     RecordingError
         The record or a file cannot be downloaded, or a file is not what was downloaded first.
+
+    Examples
+    --------
+    >>> folder = standing_raw()                                    # doctest: +SKIP
     """
     place = Path(folder or _cache() / "standing_raw")
     _writable(place)

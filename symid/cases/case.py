@@ -46,6 +46,13 @@ class Case:
     given : of a rig whose bodies are not all known, the model with every unknown number free; `model` holds those that
         the motion does not tell from others.
     settling : seconds at the start of the fit window that the fit measure leaves out.
+    name : of the case. model : what is believed. recording : in which both windows are.
+
+    Examples
+    --------
+    >>> case = si.read_case("data/concealed/cases/r01")
+    >>> case.name, case.driven
+    ('r01', False)
     """
 
     name: str

@@ -24,7 +24,12 @@ _BEYOND = 1.0
 
 
 class Unsuitable(SymidError):
-    """These values do not make a case: the loop is unstable, the motion out of range, or the effect invisible."""
+    """These values do not make a case: the loop is unstable, the motion out of range, or the effect invisible.
+
+    Examples
+    --------
+    >>> draw_case("rig", [("sensor_offset", "sensor:link1", {"offset_rad": 1e-9})], (3, 0))    # doctest: +SKIP
+    """
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +44,13 @@ class Concealed:
     visibility : rms of what the model cannot absorb, over the rms of all noise; 0 where nothing is concealed.
     sway : rms that the process noise causes. reference : rms errors of model and truth.
     equivalent, near : other answers that the recording hardly tells from the truth, per effect.
+    torque_noise : standard deviation of each process noise.
+
+    Examples
+    --------
+    >>> hidden = draw_case("rig", [("sensor_offset", "sensor:link1", {"offset_rad": 0.004})], (3, 0))
+    >>> hidden.kind, [str(term) for term in hidden.terms]
+    ('single', ['sensor_offset@sensor:link1'])
     """
 
     setup: Setup

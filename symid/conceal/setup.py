@@ -37,6 +37,12 @@ class Setup:
     segment : seconds of a piece that the fit measure simulates from its own state; None for all in one.
     settling : seconds that the fit measure leaves out. limits : output -> largest allowed magnitude.
     facts : what ``case.json`` tells about it. hidden : what only the sealed answer tells.
+
+    Examples
+    --------
+    >>> hidden = draw_case("rig", [], (3, 0))
+    >>> hidden.setup.system
+    'rig'
     """
 
     model: Model
@@ -58,10 +64,12 @@ class Setup:
 
     @property
     def system(self) -> str:
+        """``"standing"``, ``"rig"`` or ``"own"``."""
         return self.facts.get("system", "own")
 
     @property
     def windows(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Start and end [s] of the fit window and of the held-out one."""
         return (0.0, self.fit), (self.fit, self.fit + self.held_out)
 
 

@@ -33,12 +33,16 @@ class Animation:
     Attributes
     ----------
     gif : the file's content.
+
+    Examples
+    --------
+    >>> animate(fit, window=(0, 2)).save("swing.gif")               # doctest: +SKIP
     """
 
     gif: bytes
 
     def save(self, path: str | Path) -> Path:
-        """Write the GIF, whole or not at all."""
+        """Write the GIF to `path`, whole or not at all."""
         return write_atomically(path, self.gif)
 
     def _repr_mimebundle_(self, include=None, exclude=None) -> dict[str, bytes]:

@@ -6,6 +6,7 @@ import io
 import re
 
 import numpy as np
+from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from PIL import Image
@@ -25,15 +26,24 @@ _POWER = re.compile(r"\$\\mathdefault\{[-+−0-9.^{}]*\}\$")
 
 
 class Picture(Figure):
-    """A figure without pyplot, which a notebook shows as PNG; dollars in names are dollars, no formulas."""
+    """A figure without pyplot, which a notebook shows as PNG; dollars in names are dollars, no formulas.
 
-    def draw(self, renderer) -> None:
+    Examples
+    --------
+    >>> figure = solution.plot()
+    >>> figure.axes[0].set_xlim(1, 2)
+    (1.0, 2.0)
+    >>> figure.savefig("fit.pdf")
+    """
+
+    def draw(self, renderer: RendererBase) -> None:
+        """What matplotlib calls to draw the figure with its `renderer`."""
         for text in self.findobj(Text):
             text.set_parse_math(bool(_POWER.fullmatch(text.get_text())) or not text.get_text())
         super().draw(renderer)
 
     def png(self, dpi: float = 130, width: float | None = None) -> bytes:
-        """The figure as PNG; drawn `width` [inch] wide instead of its own, its letters as large as before."""
+        """The figure as PNG with `dpi` pixels an inch; of a `width` [inch] of its own its letters stay as large."""
         own, buffer = self.get_size_inches().copy(), io.BytesIO()
         self.set_size_inches(width or own[0], own[1])
         try:

@@ -2,6 +2,7 @@
 
 from symid.simulation.linear import Linearised
 from symid.simulation.platform import PlatformProtocol, synthetic_recording
-from symid.simulation.simulator import Simulator, Trajectory, simulator
+from symid.simulation.simulator import Simulator, simulator
+from symid.simulation.trajectory import Trajectory
 
 __all__ = ["Linearised", "PlatformProtocol", "Simulator", "Trajectory", "simulator", "synthetic_recording"]

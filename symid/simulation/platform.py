@@ -88,6 +88,15 @@ def synthetic_recording(
     Raises
     ------
     SymidError : the motion diverges, or a noise or channel is unknown.
+
+    Examples
+    --------
+    >>> facts = {"m1_kg": 0.3, "a1_m": 0.2, "I1_kg_m2": 4e-3}
+    >>> rig = si.mechanics.rig_model(facts, ["link1_angle"], friction=["joint1"])
+    >>> made = synthetic_recording(rig, dict.fromkeys(rig.parameters, 1e-3), duration=2, rate=100, seed=1, warm_up=0,
+    ...                            initial_state={"link1_angle": 1.0}, sensor_noise={"link1_angle": 1e-3})
+    >>> len(made.time)
+    201
     """
     rng = np.random.default_rng(seed)
     fine = max(1, int(np.ceil(1 / rate / hold - 1e-9)))

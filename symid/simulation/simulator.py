@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -20,57 +19,10 @@ from symid.simulation.compiled import CompiledLoop
 from symid.simulation.linear import Linearised
 from symid.simulation.loop import PythonLoop
 from symid.simulation.run import METHODS, Run
+from symid.simulation.trajectory import Trajectory
 
 LARGEST = 1e100
 """A state [SI] beyond this ends a run by default: no machine has it in any unit, and its square is still a number."""
-
-
-@dataclass(frozen=True, eq=False)
-class Trajectory:
-    """What a simulation gave.
-
-    Attributes
-    ----------
-    time : (N,) [s].
-    x : (N, n) states, y : (N, m) outputs; rows after the end of a run that diverged are NaN.
-    wrt : names of the unknowns of the sensitivities: parameters, then ``<state>(0)``.
-    dx : (N, n, q) and dy : (N, m, q) derivatives of x and y, or None.
-    reached : samples before the run diverged; N if it did not.
-    """
-
-    time: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
-    state_names: tuple[str, ...]
-    output_names: tuple[str, ...]
-    wrt: tuple[str, ...] = ()
-    dx: np.ndarray | None = None
-    dy: np.ndarray | None = None
-    reached: int = 0
-
-    @property
-    def diverged(self) -> bool:
-        return self.reached < len(self.time)
-
-    @property
-    def states(self) -> dict[str, np.ndarray]:
-        return dict(zip(self.state_names, self.x.T, strict=True))
-
-    @property
-    def outputs(self) -> dict[str, np.ndarray]:
-        return dict(zip(self.output_names, self.y.T, strict=True))
-
-    def every(self, n: int) -> Trajectory:
-        """The same run at every n-th sample."""
-        kept = {
-            k: None if a is None else a[::n]
-            for k, a in (("x", self.x), ("y", self.y), ("dx", self.dx), ("dy", self.dy))
-        }
-        return replace(self, time=self.time[::n], reached=-(-self.reached // n), **kept)
-
-    def sensitivity(self, output: str, unknown: str) -> np.ndarray:
-        """(N,) derivative of one output by one unknown."""
-        return self.dy[:, self.output_names.index(output), self.wrt.index(unknown)]
 
 
 class Simulator:
@@ -82,8 +34,16 @@ class Simulator:
 
     Parameters
     ----------
+    model : to be simulated.
     backend : ``"c"``; ``"numpy"`` (slower, needs no compiler, same results); ``"auto"`` takes C, and
         NumPy with a `CodegenWarning` where there is no working compiler.
+
+    Examples
+    --------
+    >>> run = Simulator(model).simulate({"damping": 0.3}, {"angle": 0.5, "rate": 0.0}, np.arange(0, 5, 0.01),
+    ...                                 {"drive": np.zeros(500)})
+    >>> bool(abs(run.states["angle"][-1]) < 0.5)
+    True
     """
 
     def __init__(self, model: Model, backend: str = "auto"):
@@ -121,7 +81,7 @@ class Simulator:
         initial_state : likewise for the states at ``time[0]``.
         time : (N,) increasing [s]; inputs and noise : name -> (N,), noise of an interval at its start.
         sensitivity, initial_sensitivity : parameters and states (initial values) to differentiate by.
-        substeps : steps of the integrator per sample interval.
+        substeps : steps of the integrator per sample interval. method : ``"rk4"`` or ``"euler"``.
         history : (K,) times before ``time[0]`` and (K, n) states, for delayed signals; without it
             the initial state held before the start.
         gain, recorded : (n, m) and (N, m): after each sample the state is moved by
@@ -169,15 +129,25 @@ class Simulator:
         wrt = (*sensitivity, *(f"{s}(0)" for s in initial_sensitivity))
         return Trajectory(time, run.X, run.Y, self.states, self.outputs, wrt, run.SX, run.SY, reached)
 
-    def batch(self, runs: Sequence[Mapping], *, threads: int = 2, **common) -> list[Trajectory]:
-        """`simulate(**common, **run)` for every run, on threads; the same numbers as a loop."""
+    def batch(self, runs: Sequence[Mapping], *, threads: int = 2, **common: object) -> list[Trajectory]:
+        """`simulate(**common, **run)` for every run of `runs`, on `threads`; the same numbers as a loop."""
         with ThreadPoolExecutor(threads) as pool:
             return list(pool.map(lambda run: self.simulate(**common, **run), runs))
 
-    def linearise(self, parameters, state, inputs=None) -> Linearised:
-        """The model linearised at one state [SI array or names], or on average over (P, n) states.
+    def linearise(
+        self,
+        parameters: Mapping[str, float] | np.ndarray,
+        state: Mapping[str, float] | np.ndarray,
+        inputs: np.ndarray | None = None,
+    ) -> Linearised:
+        """The model linearised at one `state` [SI array or names], or on average over (P, n) states.
 
-        Rates, noise and inputs are zero unless given; delayed states have the state's own value.
+        Rates, noise and `inputs` are zero unless given; delayed states have the state's own value; `parameters` as for
+        `simulate`.
+
+        Raises
+        ------
+        SymidError : a name or number is missing, or the mass matrix is singular there.
         """
         s = self.source
         points = np.atleast_2d(self._vector("state", self.states, state) if np.ndim(state) < 2 else _array(state))

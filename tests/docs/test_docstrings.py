@@ -32,8 +32,13 @@ for room, names in {
     ),
     "recording.columns": ("load_columns",),
     "report": ("write_diagnosis_report", "write_report", "write_study_report"),
-    "plots": tuple(name for name in plots.__all__ if name[0].islower()),
-    "conceal": tuple(name for name in symid.conceal.__all__ if name[0].islower()),
+    "plots": tuple(name for name in plots.__all__ if name != "Picture"),  # matplotlib gives it methods of its own
+    "conceal": symid.conceal.__all__,
+    "cases": ("Case",),
+    "discrepancy": ("Effect", "read_answer"),
+    "discrepancy.prove.held_out": ("Proof",),
+    "fetch": ("standing", "standing_raw"),
+    "simulation": ("Simulator", "Trajectory", "synthetic_recording"),
 }.items():
     PUBLIC |= {name: getattr(import_module(f"symid.{room}"), name) for name in names}
 """What the pages refer to, beside the exported names."""

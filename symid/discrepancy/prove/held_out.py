@@ -29,6 +29,10 @@ class Proof:
     blocks, seconds : how many blocks there are, and how much time they cover.
     needed : seconds of such data that would confirm a fall like this one; None where there is none.
     free_runs : of predictions, what free runs say; None of free runs themselves.
+
+    Examples
+    --------
+    >>> found.proof.confirmed, found.proof.probability                            # doctest: +SKIP
     """
 
     margin: float
@@ -40,6 +44,7 @@ class Proof:
 
     @property
     def confirmed(self) -> bool:
+        """Whether the errors fall with enough probability, and free runs do not speak against it."""
         return self.margin > 0 and self.probability >= POLICY.confirm and not self.contradicted
 
     @property

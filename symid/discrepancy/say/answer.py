@@ -143,6 +143,14 @@ def read_answer(path: str | Path) -> dict[str, Any]:
     Raises
     ------
     RecordingError : the file is missing or no JSON. DiagnosisError : it is no answer, or that of a later version.
+
+    Parameters
+    ----------
+    path : of the file that ``symid diagnose --json`` wrote.
+
+    Examples
+    --------
+    >>> read_answer("diagnosis.json")["verdict"]                                  # doctest: +SKIP
     """
     answer = read_json(path)
     if not isinstance(answer, dict) or not {"format", "verdict", "effects"} <= answer.keys():

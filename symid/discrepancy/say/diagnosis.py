@@ -45,6 +45,12 @@ class Effect:
     window : start and end [s] of an effect that lasts only for a time, or that begins at one.
     log_ratio : growth of twice the log-likelihood that is lost without it.
     established : whether its name is an answer; else it says what something unexplained looks like.
+    name, location : the law, and the place at which it acts. sentence : what it does, with its size.
+
+    Examples
+    --------
+    >>> for effect in found.effects:                                              # doctest: +SKIP
+    ...     print(effect.sentence, effect.parameters)
     """
 
     name: str
