@@ -20,10 +20,10 @@ SCHEMA = {
         "system": {"type": "string"},
         "body": {
             "type": "object",
-            "properties": {key: {"type": "number", "exclusiveMinimum": 0, "maximum": 1e6} for key in _BODY},
+            "properties": {key: {"type": "number", "minimum": 1e-9, "maximum": 1e6} for key in _BODY},
         },
         "parameters": _NUMBERS,
-        "gravity_m_s2": {"type": "number", "exclusiveMinimum": 0, "maximum": 1e3},
+        "gravity_m_s2": {"type": "number", "minimum": 1e-9, "maximum": 1e3},
         "filter": {
             "type": "object",
             "required": ["order", "cutoff_Hz"],

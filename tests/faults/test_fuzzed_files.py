@@ -141,7 +141,7 @@ def test_all_violations_of_a_case_are_told_at_once_with_their_places(tmp_path):
     (tmp_path / "case.json").write_text(json.dumps(CASES[1] | {"body": body, "baseline": {"controller": 4}}))
     with pytest.raises(
         SymidError,
-        match=r"baseline.controller: must be a string, found 4; body.l_L_m: .*; body.m_T_kg: must be above 0",
+        match=r"baseline.controller: must be a string, found 4; body.l_L_m: .*; body.m_T_kg: must be at least 1e-09",
     ):
         read_case(tmp_path)
 
