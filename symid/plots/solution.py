@@ -16,6 +16,7 @@ from symid.plots.style import (
     WARN,
     Picture,
     banded,
+    bridged,
     opened,
     over_time,
     size_of,
@@ -147,7 +148,7 @@ def plot_residual_spectra(solution: Solution, episode: int = 0) -> Picture:
             "residual": (recorded - frame[name].to_numpy() * factor, WARN, 1.0),
         }
         for label, (signal, colour, width) in signals.items():
-            frequency, power = welch(np.nan_to_num(signal - np.nanmean(signal)), rate, nperseg=length)
+            frequency, power = welch(bridged(signal - np.nanmean(signal)), rate, nperseg=length)
             f, power = banded(frequency[1:], power[1:])
             axes.loglog(f, np.maximum(power, 1e-300), color=colour, lw=width, label=label)
         axes.set_title(output.channel.replace("_", " "), loc="left", fontsize=10)

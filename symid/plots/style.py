@@ -90,6 +90,12 @@ def banded(frequency: np.ndarray, power: np.ndarray) -> tuple[np.ndarray, np.nda
     return np.add.reduceat(frequency, starts) / count, np.add.reduceat(power, starts) / count
 
 
+def bridged(values: np.ndarray) -> np.ndarray:
+    """Values with straight lines over what is missing: zeros there would be noise at every frequency."""
+    known = np.isfinite(values)
+    return np.interp(np.arange(len(values)), np.flatnonzero(known), values[known]) if known.any() else values
+
+
 def over_time(axes, time: np.ndarray) -> float:
     """Name the time axis by the unit in which the span of `time` [s] is read; the factor to that unit."""
     unit, factor = time_unit(float(np.ptp(time)))

@@ -76,15 +76,14 @@ def read_recording(
     checked.flag(allow_gaps, "read_recording: allow_gaps", RecordingError)
     with faults_of_text(path):
         a_file(path)
-    left: list[str] = []
+    notes: list[str] = []
     if columns is None and not _has_reader(path) and not is_dated(path):
         found = read_header(path)
         table = read_table(path, found, allow_gaps)
     else:
-        found, table, left = _read_other(path, columns, allow_gaps)
+        found, table, notes = _read_other(path, columns, allow_gaps)
     recording, rows = _assemble(path, found, table, allow_gaps)
-    if left:
-        recording = recording.noted(f"left out, their unit or length is another: {', '.join(left)}")
+    recording = recording.noted(*notes)
     remarks = [f"{path}: {text}" for text in remarks_on(found, recording, rows, partial(_place, path))]
     for remark in remarks:
         warnings.warn(remark, RecordingWarning, stacklevel=2)
@@ -100,7 +99,7 @@ def _has_reader(path: Path) -> bool:
 
 
 def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column], dict[str, np.ndarray], list[str]]:
-    """Columns and values of a file with names of its own, or in a format of its own; and names that are left out."""
+    """Columns and values of a file with names of its own, or in a format of its own; and notes on its names."""
     from symid.recording.columns import load_columns, mapped, own_names
     from symid.recording.readers import READERS
 
@@ -110,7 +109,12 @@ def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column
         raise RecordingError(f"{path}: files that end in '{path.suffix}' are not read; known: {', '.join(READERS)}")
     require_file(path)
     raw = reader(path)
-    columns, table, left = own_names(path, raw) if chosen is None else (*mapped(path, raw, chosen), [])
+    if chosen is None:
+        columns, table, left = own_names(path, raw)
+        notes = [f"left out, their unit or length is another: {', '.join(left)}"] if left else []
+    else:
+        columns, table = mapped(path, raw, chosen)
+        notes = [f"names in the file: {', '.join(f'{ours} = {theirs}' for ours, theirs in chosen.items())}"]
     for column in columns:
         values = table[column.name]
         wrong: Any = np.flatnonzero(~np.isfinite(values)) if column.name != "split" else []
@@ -121,7 +125,7 @@ def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column
             )
     if table["time"].size < 2:
         raise RecordingError(f"{path}: a recording needs at least two samples")
-    return columns, table, left
+    return columns, table, notes
 
 
 def _assemble(path: Path, columns: list[Column], table: Table, allow_gaps: bool) -> tuple[Recording, IntArray]:

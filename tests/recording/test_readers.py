@@ -167,6 +167,7 @@ def test_own_names_are_mapped_from_python_and_from_the_command_line(tmp_path):
     recording = read_recording(tmp_path / "own.csv", columns=mapping)
     right(recording)
     assert "what" not in recording.channels
+    assert any("hip_angle_deg = -Hip" in note for note in recording.history)  # the report says whose sign was turned
     (tmp_path / "map.toml").write_text("[columns]\n" + "".join(f"{k} = {json.dumps(v)}\n" for k, v in mapping.items()))
     right(read_recording(tmp_path / "own.csv", columns=tmp_path / "map.toml"))
 

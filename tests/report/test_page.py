@@ -6,7 +6,7 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.model import show
-from symid.plots.style import banded
+from symid.plots.style import banded, bridged
 from symid.report import page, report_html
 from symid.report.diagnosis import _said
 
@@ -74,3 +74,9 @@ def test_dense_frequencies_are_drawn_by_their_means():
 )
 def test_a_parameter_is_called_without_its_unit(key, said):
     assert _said(key) == said
+
+
+def test_a_gap_is_no_noise_at_high_frequencies():
+    values = np.sin(0.02 * np.arange(1000)) + 3
+    gapped = np.where(np.abs(np.arange(1000) - 500) < 15, np.nan, values)
+    assert np.abs(bridged(gapped) - values).max() < 0.05 and np.array_equal(bridged(values), values)
