@@ -34,7 +34,7 @@ class Task:
     segment_length : seconds of one piece with an initial state of its own; None for one piece.
     settling : seconds that the fit measure leaves out. start : values [SI] from which the first fit begins.
     values : those of the solution that is diagnosed, if it is one [SI].
-    driven : whether random forces act where the model has noises, and recorded inputs keep the motion going.
+    driven : whether random forces act where the model has noises.
     """
 
     model: Model
@@ -55,7 +55,7 @@ class Task:
     @property
     def moved(self) -> bool:
         """Whether anything moves the system, random or recorded, so that its motion stays in the pieces that it has."""
-        return self.random or self.driven and bool(self.model.inputs)
+        return self.random or bool(self.model.inputs)
 
 
 def task_of(subject: Model | Solution, recording: Recording | None, fit_window: Part | None, start, **others) -> Task:

@@ -1,6 +1,10 @@
 """Stiffness that comes and goes is noticed, and nothing else is."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import sympy as sm
+from conftest import pendulum
 from driven_cart import cart, data_of, finding, recorded
 
 from symid.discrepancy.locate.modulation import modulated
@@ -8,6 +12,8 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import remainder
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
 from symid.model import Law, LawParameter
 
 
@@ -49,3 +55,10 @@ def test_pieces_with_a_start_of_their_own_are_not_tested():
 def test_a_recording_of_less_than_a_second_is_not_tested():
     data = data_of(recorded(2), window=(0.0, 0.6))
     assert modulated(Projection(fit_model(cart(), data), data)) == []
+
+
+def test_pieces_shorter_than_the_pace_have_no_modulation():
+    """Of an unstable plant, which is followed for a few samples at a time."""
+    pieces = tuple(Segment(0.002 * np.arange(25) + k, np.zeros((25, 1)), {}) for k in range(3))
+    data = Data(pieces, np.array([1e-3]), driven=False, pace=1.0)
+    assert modulated(SimpleNamespace(data=data, fit=SimpleNamespace(model=pendulum()))) == []

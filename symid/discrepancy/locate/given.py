@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
@@ -20,8 +21,12 @@ from symid.identification.starts.default import default_start
 PIECES = 4
 """So many of the longest pieces of a recording are enough for a start."""
 
+ITERATIONS = 60
+"""An identification that a start is taken from ends here at the latest: from the default start it takes about ten."""
+
+Start = dict[str, float]
 Fits = list[tuple[Data, Fit]]
-Fitting = Callable[[Task, Data, dict[str, float]], Fits]
+Fitting = Callable[[Task, Data, Start], Fits]
 
 
 def fitted_as_given(task: Task, plain: Data, fits: Fitting) -> tuple[Task, Data, Fits]:
@@ -31,18 +36,20 @@ def fitted_as_given(task: Task, plain: Data, fits: Fitting) -> tuple[Task, Data,
     ------
     DiagnosisError : as `fitted_in_pieces` does.
     """
+    collocated = cache(lambda: _collocated(task, plain))
     try:
-        found = fitted_in_pieces(task, plain, fits)
+        found = fitted_in_pieces(task, plain, fits, collocated)
     except DiagnosisError as error:
-        return _fitted_in_shorter_pieces(task, plain, fits, error)
+        return _fitted_in_shorter_pieces(task, plain, fits, collocated, error)
     data, fit = found[0]
-    if not task.moved or fit.kalman_gain is not None or data.filter is not None or is_met(fit, data):
+    if not task.moved or fit.kalman_gain is not None or data.filter is not None:
         return task, plain, found
-    lasts = followed(task.model, plain, fit, task.start, is_met)
+    start = {**(fit.values if is_met(fit, data) else collocated()), **task.start}
+    lasts = followed(task.model, plain, fit, start, is_met)
     if lasts is None:
         return task, plain, found
     task, plain = _in_pieces(task, plain, lasts)
-    return task, plain, fitted_in_pieces(task, plain, fits)
+    return task, plain, fits(task, plain, start)
 
 
 def _in_pieces(task: Task, plain: Data, seconds: float) -> tuple[Task, Data]:
@@ -50,24 +57,24 @@ def _in_pieces(task: Task, plain: Data, seconds: float) -> tuple[Task, Data]:
     return replace(task, segment_length=seconds), plain.with_segments(parts)
 
 
-def _fitted_in_shorter_pieces(task: Task, plain: Data, fits: Fitting, error: DiagnosisError) -> tuple[Task, Data, Fits]:
+def _fitted_in_shorter_pieces(task, plain, fits, collocated, error: DiagnosisError) -> tuple[Task, Data, Fits]:
     """The fits of pieces short enough to be followed: a wrong model may lead a motion where it has no equations."""
     longest = max(e.time[-1] - e.time[0] for e in plain.segments)
     length = longest / 2
     while length > SHORTEST * plain.pace:
         shorter = _in_pieces(task, plain, length)
         try:
-            return *shorter, fitted_in_pieces(*shorter, fits)
+            return *shorter, fitted_in_pieces(*shorter, fits, collocated)
         except DiagnosisError:
             length /= 2
     raise error
 
 
-def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
-    """What `fits` makes of the start values of a task, or of those that regression finds, whichever is likelier.
+def fitted_in_pieces(task: Task, plain: Data, fits: Fitting, collocated: Callable[[], Start]) -> Fits:
+    """What `fits` makes of the start values of a task, or of those that collocation finds, whichever is likelier.
 
-    Regression is asked where the first way fails, and where free motion is far from the recording: output errors
-    have local optima, the errors of equations that are linear in their parameters have none.
+    Collocation is asked where the first way fails, and where free motion is far from the recording: the errors of
+    simulations have local optima, and those of an unstable motion have little else.
 
     Raises
     ------
@@ -82,7 +89,7 @@ def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
     except DiagnosisError as error:
         problem = error
     try:
-        other = fits(task, plain, {**_regressed(task, plain), **start})
+        other = fits(task, plain, {**collocated(), **start})
     except SymidError:
         other = None
     if found is None and other is None:
@@ -90,15 +97,19 @@ def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
     return max((f for f in (found, other) if f), key=lambda f: f[0][1].loglik2)
 
 
-def _regressed(task: Task, plain: Data) -> dict[str, float]:
-    """Parameters [SI] with which the recorded motion satisfies the equations best, improved by simulation.
+def _collocated(task: Task, plain: Data) -> Start:
+    """Parameters [SI] of the model identified by collocation, as far as that comes; nothing where it does not begin.
 
     And the states by and large: of a tank that no sensor sees, an empty one is no start.
     """
     longest = sorted(plain.segments, key=lambda e: -len(e.time))[:PIECES]
     windows = [(float(e.time[0]), float(e.time[-1])) for e in longest]
-    problem = Identification(task.model, [task.recording] * len(windows), window=windows)
-    z, _ = default_start(problem.transcription)
+    try:
+        problem = Identification(task.model, [task.recording] * len(windows), window=windows)
+        z, _ = default_start(problem.transcription)
+        z = problem.solve_from(z, max_iterations=ITERATIONS).z
+    except SymidError:
+        return {}
     layout = problem.transcription.layout
     states = np.median(np.vstack([layout.states(z, k) for k in range(len(windows))]), axis=0)
     names, values = (*task.model.states, *layout.parameter_names), (*states, *layout.parameters(z))

@@ -35,10 +35,12 @@ def modulated(projection: Projection) -> list[tuple[str, float, int]]:
     Nothing where random forces do not act, pieces of the recording have each a start of their own, or it is too short.
     """
     data, model, found = projection.data, projection.fit.model, []
+    if not data.driven or len(data.segments) > 1:
+        return found
     every = max(1, int(data.pace / (RATE * data.segments[0].step)))
     time = _coarse(data.segments[0].time - data.segments[0].time[0], every)
     frequencies = np.arange(1.5, HIGHEST * time[-1] / data.pace, SPACING) / time[-1]
-    if not data.driven or len(data.segments) > 1 or not len(frequencies):
+    if not len(frequencies):
         return found
     path, slow = _coarse(fitted_path(projection.fit, data), every), _Slow(projection, every)
     for port in (p for p in model.ports.values() if p.role == "joint"):

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.signals.data import Data, observed_state
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.fitting.kalman import linearised_along
+from symid.estimation.signals.segment import FEWEST
 from symid.model import Model
 from symid.simulation import simulator
 
@@ -32,8 +35,7 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -
     DiagnosisError : no start leads to a run that stays finite.
     """
     sim, start = simulator(model), start or {}
-    values = {k: start.get(k, _first(p)) for k, p in model.parameters.items()}
-    initial = np.array([observed_state(model, e.recorded[0], start) for e in data.segments])
+    values, initial = _begun(model, data, start)
     fitter = Fitter(model, data)
     if not fitter.driven:
         return _grow(model, data, values, initial, all_known=values.keys() <= start.keys())
@@ -57,14 +59,35 @@ def _grow(model: Model, data: Data, values: dict[str, float], initial: np.ndarra
     longest, length = max(len(e.time) for e in data.segments), FIRST * data.pace / data.segments[0].step
     fixed = tuple(model.parameters)
     while True:
-        rows = int(min(longest, max(8, length)))
-        head = data.with_segments(e.head(rows) for e in data.segments)
-        fit = Fitter(model, head, fixed).fit(values, initial, np.zeros(len(model.noises)))
+        rows = int(min(longest, max(FEWEST, length)))
+        fit = _fit_heads(model, data, values, initial, rows, fixed)
         values, initial = fit.values, fit.initial
         if rows == longest and not fixed:
             return fit
         length *= GROWING
         fixed = fixed if all_known and rows < longest else ()
+
+
+def fit_states(model: Model, data: Data, start: Mapping[str, float]) -> Fit:
+    """The initial states that the first samples of each segment show, for parameters [SI] as they are known.
+
+    Raises
+    ------
+    DiagnosisError : these samples already diverge.
+    """
+    values, initial = _begun(model, data, start)
+    rows = int(max(FEWEST, FIRST * data.pace / data.segments[0].step))
+    return _fit_heads(model, data, values, initial, rows, tuple(model.parameters))
+
+
+def _begun(model: Model, data: Data, start: Mapping[str, float]) -> tuple[dict[str, float], np.ndarray]:
+    values = {k: start.get(k, _first(p)) for k, p in model.parameters.items()}
+    return values, np.array([observed_state(model, e.recorded[0], start) for e in data.segments])
+
+
+def _fit_heads(model: Model, data: Data, values, initial: np.ndarray, rows: int, fixed: tuple[str, ...]) -> Fit:
+    head = data.with_segments(e.head(rows) for e in data.segments)
+    return Fitter(model, head, fixed).fit(values, initial, np.zeros(len(model.noises)))
 
 
 def _first(parameter) -> float:

@@ -189,7 +189,9 @@ class Fitter(Predictor):
         if system is None:
             return -np.inf
         samples = self.data.samples * len(self.data.sensor_noise)
-        explained = damped_step(system, 0.0, self.bounds[self.index], at.p[self.index]) @ system[1] / samples
+        explained = (
+            damped_step(system, 0.0, self.bounds[self.index], at.p[self.index], at.x0.shape) @ system[1] / samples
+        )
         return at.value - samples * np.log1p(-min(float(explained), 0.999))
 
     @classmethod
@@ -218,7 +220,7 @@ class Fitter(Predictor):
     def _improved(self, at: _Point, system, damping: float) -> tuple[_Point | None, np.ndarray, float]:
         """A better point, the last step tried, and the damping to go on with."""
         for _ in range(PATIENCE):
-            step = damped_step(system, damping, self.bounds[self.index], at.p[self.index])
+            step = damped_step(system, damping, self.bounds[self.index], at.p[self.index], at.x0.shape)
             p, x0, process = self._moved(at.p, at.x0, at.process, step)
             gain, value, path = self._tried(p, x0, process, at.path)
             if value > at.value - 1e-9:
