@@ -1,6 +1,7 @@
 """Flexible laws: what no list has is placed; and what it takes to see laws that hide at zero strength."""
 
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from driven_cart import cart, data_of, few, finding, recorded
 
 from symid.conceal import conceal, draw_case, rig_facts, setup_from_facts
 from symid.discrepancy import suspects
+from symid.discrepancy.locate import flexible_law
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.policy import POLICY
@@ -129,3 +131,15 @@ def test_a_fit_goes_on_where_another_ended():
     fit = fit_model(cart(), data)
     again = Fitter(cart(), data).again(fit)
     assert again.iterations <= 2 and again.loglik2 == pytest.approx(fit.loglik2, abs=0.05)
+
+
+def test_a_law_that_no_part_would_replace_is_kept(monkeypatch):
+    """A fit with the law may end where nothing is missing: a law of no parts is none."""
+    monkeypatch.setattr(flexible_law, "Projection", lambda *args, **known: None)
+    monkeypatch.setattr(flexible_law, "chosen_blocks", lambda *args: (0.0, None, ()))
+    monkeypatch.setattr(flexible_law, "candidate_blocks", lambda *args: [])
+    monkeypatch.setattr(flexible_law, "names_of", lambda term: ())
+    monkeypatch.setattr(flexible_law, "fitted", lambda fit, data, port, blocks: pytest.fail() if not blocks else None)
+    law = SimpleNamespace(fit=None, base=None, port=None, term=None, force=None, blocks=(object(),), evidence=1.0)
+    monkeypatch.setattr(flexible_law, "FINER", ())
+    assert flexible_law._refined(law, None) is law

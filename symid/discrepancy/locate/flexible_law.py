@@ -141,7 +141,7 @@ def _refined(law: FlexibleLaw, data: Data) -> FlexibleLaw:
     for _ in range(ROUNDS):
         around = Projection(law.fit, data, known=names_of(law.term))
         _, _, blocks = chosen_blocks(law.base, data, law.port, around, law.force)
-        if len(blocks) == len(law.blocks) and all(_same(b, law.blocks) for b in blocks):
+        if not blocks or len(blocks) == len(law.blocks) and all(_same(b, law.blocks) for b in blocks):
             break
         new = fitted(law.base, data, law.port, blocks)
         if new is None or new.evidence <= law.evidence:
