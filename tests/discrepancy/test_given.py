@@ -15,7 +15,7 @@ from symid.estimation.signals.windows import segments_of
 
 def test_a_motion_that_cannot_be_followed_at_all_is_fitted_in_shorter_pieces(monkeypatch):
     """What a wrong model does in the end may have no equations, as a load that swings into its pulley."""
-    monkeypatch.setattr(given, "_collocated", lambda task, plain: {})
+    monkeypatch.setattr(given, "_start", lambda task, plain: {})
     recording = pendulum_recording(duration=24.0)
     task = task_of(pendulum(), recording, (0, 24), None, held_out=None, driven=False)
     plain = Data(segments_of(task.model, recording, (0, 24), None), np.array([5e-4]), driven=False)

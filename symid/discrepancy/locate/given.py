@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from symid.errors import DiagnosisError, SymidError
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.signals.pieces import cut
-from symid.estimation.fitting.sensitive import SHORTEST, followed
+from symid.estimation.fitting.sensitive import SHORTEST, followed, lost
 from symid.identification import Identification
 from symid.identification.starts.default import default_start
 
@@ -36,20 +36,31 @@ def fitted_as_given(task: Task, plain: Data, fits: Fitting) -> tuple[Task, Data,
     ------
     DiagnosisError : as `fitted_in_pieces` does.
     """
-    collocated = cache(lambda: _collocated(task, plain))
     try:
-        found = fitted_in_pieces(task, plain, fits, collocated)
+        found = fitted_in_pieces(task, plain, fits)
     except DiagnosisError as error:
-        return _fitted_in_shorter_pieces(task, plain, fits, collocated, error)
+        return _fitted_in_shorter_pieces(task, plain, fits, error)
     data, fit = found[0]
     if not task.moved or fit.kalman_gain is not None or data.filter is not None:
         return task, plain, found
-    start = {**(fit.values if is_met(fit, data) else collocated()), **task.start}
+    start = dict(task.start)
+    if lost(fit, data):
+        with suppress(SymidError):
+            start = _start(task, plain, solved=True)
     lasts = followed(task.model, plain, fit, start, is_met)
     if lasts is None:
         return task, plain, found
     task, plain = _in_pieces(task, plain, lasts)
-    return task, plain, fits(task, plain, start)
+    found = fitted_in_pieces(task, plain, fits)
+    data, fit = found[0]
+    if lost(fit, data):
+        with suppress(SymidError):
+            found = _likelier([found, fits(task, plain, start)])
+    return task, plain, found
+
+
+def _likelier(found: list[Fits]) -> Fits:
+    return max(found, key=lambda f: f[0][1].loglik2)
 
 
 def _in_pieces(task: Task, plain: Data, seconds: float) -> tuple[Task, Data]:
@@ -57,60 +68,59 @@ def _in_pieces(task: Task, plain: Data, seconds: float) -> tuple[Task, Data]:
     return replace(task, segment_length=seconds), plain.with_segments(parts)
 
 
-def _fitted_in_shorter_pieces(task, plain, fits, collocated, error: DiagnosisError) -> tuple[Task, Data, Fits]:
+def _fitted_in_shorter_pieces(task: Task, plain: Data, fits: Fitting, error: DiagnosisError) -> tuple[Task, Data, Fits]:
     """The fits of pieces short enough to be followed: a wrong model may lead a motion where it has no equations."""
     longest = max(e.time[-1] - e.time[0] for e in plain.segments)
     length = longest / 2
     while length > SHORTEST * plain.pace:
         shorter = _in_pieces(task, plain, length)
         try:
-            return *shorter, fitted_in_pieces(*shorter, fits, collocated)
+            return *shorter, fitted_in_pieces(*shorter, fits)
         except DiagnosisError:
             length /= 2
     raise error
 
 
-def fitted_in_pieces(task: Task, plain: Data, fits: Fitting, collocated: Callable[[], Start]) -> Fits:
-    """What `fits` makes of the start values of a task, or of those that collocation finds, whichever is likelier.
+def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
+    """What `fits` makes of the start values of a task, or of those that regression finds, whichever is likelier.
 
-    Collocation is asked where the first way fails, and where free motion is far from the recording: the errors of
-    simulations have local optima, and those of an unstable motion have little else.
+    Regression is asked where the first way fails, and where free motion is far from the recording: output errors
+    have local optima, the errors of equations that are linear in their parameters have none.
 
     Raises
     ------
     DiagnosisError : neither way leads to a fit.
     """
-    start, problem, found = dict(task.start), None, None
+    start, problem, found = dict(task.start), None, []
     try:
-        found = fits(task, plain, start)
-        data, fit = found[0]
+        found.append(fits(task, plain, start))
+        data, fit = found[0][0]
         if fit.kalman_gain is not None or start.keys() >= task.model.parameters.keys() or is_met(fit, data):
-            return found
+            return found[0]
     except DiagnosisError as error:
         problem = error
-    try:
-        other = fits(task, plain, {**collocated(), **start})
-    except SymidError:
-        other = None
-    if found is None and other is None:
+    with suppress(SymidError):
+        found.append(fits(task, plain, _start(task, plain)))
+    if not found:
         raise problem
-    return max((f for f in (found, other) if f), key=lambda f: f[0][1].loglik2)
+    return _likelier(found)
 
 
-def _collocated(task: Task, plain: Data) -> Start:
-    """Parameters [SI] of the model identified by collocation, as far as that comes; nothing where it does not begin.
+def _start(task: Task, plain: Data, solved: bool = False) -> Start:
+    """Values [SI] with which the recorded motion satisfies the equations best, improved by simulation.
 
     And the states by and large: of a tank that no sensor sees, an empty one is no start.
+
+    solved : whether they are identified by collocation, which an unstable motion does not mislead: it is followed
+        nowhere from one state.
     """
     longest = sorted(plain.segments, key=lambda e: -len(e.time))[:PIECES]
     windows = [(float(e.time[0]), float(e.time[-1])) for e in longest]
-    try:
-        problem = Identification(task.model, [task.recording] * len(windows), window=windows)
-        z, _ = default_start(problem.transcription)
-        z = problem.solve_from(z, max_iterations=ITERATIONS).z
-    except SymidError:
-        return {}
+    problem = Identification(task.model, [task.recording] * len(windows), window=windows)
+    z, _ = default_start(problem.transcription)
+    with suppress(SymidError):
+        z = problem.solve_from(z, max_iterations=ITERATIONS).z if solved else z
     layout = problem.transcription.layout
     states = np.median(np.vstack([layout.states(z, k) for k in range(len(windows))]), axis=0)
     names, values = (*task.model.states, *layout.parameter_names), (*states, *layout.parameters(z))
-    return dict(zip(names, map(float, values), strict=True))
+    return {**dict(zip(names, map(float, values), strict=True)), **task.start}

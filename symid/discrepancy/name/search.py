@@ -283,12 +283,9 @@ class Search:
             found = polished(best)
 
     def _reexamined(self, found: Hypothesis, single: list[Hypothesis]) -> Hypothesis:
-        """Suspects are left out in turn, and other good single ones tried in the place of the first.
-
-        The last one, too: it may have led the others to a better optimum and done nothing else.
-        """
+        """Earlier suspects are left out in turn, and other good single ones tried in the place of the first."""
         kept, taken = list(found.suspects[1:]), {s.term for s in found.suspects}
-        sets = [([s for s in found.suspects if s is not out], None) for out in found.suspects]
+        sets = [([s for s in found.suspects if s is not earlier], None) for earlier in found.suspects[:-1]]
         rivals = [h for h in single if h.suspect.term not in taken and h.established >= found.suspects[0].established]
         sets += [([h.suspect, *kept], h.fit.values) for h in rivals[: POLICY.rivals]]
         tried = [found, *self._together(sets, found)]

@@ -42,10 +42,10 @@ def followed(
     """
     whole = length = max(e.time[-1] - e.time[0] for e in data.segments)
     pieces, grows = data, _largest(fit, data)
-    if _lost(fit, data):
+    if lost(fit, data):
         length = _held_together(model, data, start, whole)
     sensitive = grows > GROWTH or length < whole
-    if not (sensitive or _lost(fit, data)):
+    if not (sensitive or lost(fit, data)):
         return None
     try:
         if length < whole:
@@ -58,7 +58,7 @@ def followed(
             fit = fit_model(model, pieces, dict(start))
             grows = _largest(fit, pieces)
             sensitive = sensitive or grows > GROWTH
-            if not (sensitive or _lost(fit, pieces)):
+            if not (sensitive or lost(fit, pieces)):
                 return None
     except SymidError:
         return None
@@ -93,7 +93,8 @@ def _shortest(grows: float, data: Data) -> float:
     return SHORTEST * data.pace
 
 
-def _lost(fit: Fit, data: Data) -> bool:
+def lost(fit: Fit, data: Data) -> bool:
+    """Whether a fit leaves more than the part `LOST` of what an output moves."""
     moves = np.vstack([e.recorded for e in data.segments]).std(axis=0)
     return bool(np.any(np.sqrt(np.mean(np.vstack(fit.innovations) ** 2, axis=0)) > LOST * moves))
 

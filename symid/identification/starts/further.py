@@ -12,7 +12,7 @@ import numpy as np
 
 from symid.identification.starts.bounds import guesses
 from symid.identification.starts.led import along, around, free, tracked
-from symid.identification.starts.shooting import Shooting, can_shoot, with_hidden
+from symid.identification.starts.shooting import Shooting, can_shoot, hides, with_hidden
 from symid.identification.sensitivity import outputs_and_targets
 from symid.identification.starts.default import equation_error
 from symid.threads import one_blas_thread
@@ -49,7 +49,12 @@ def far(t: Transcription, z: np.ndarray) -> bool:
 
 @one_blas_thread
 def led_starts(t: Transcription, z: np.ndarray) -> Iterator[np.ndarray]:
-    """Free vectors of simulations that are led along the recording, from a solution `z` that is in doubt."""
+    """Free vectors of simulations that are led along the recording, from a solution `z` that is in doubt.
+
+    Of a large problem, whose solve takes no longer than this, only where states are hidden: seen ones lose no turn.
+    """
+    if _large(t) and not hides(t):
+        return
     if np.any(excess(t, z) > (FAR if _large(t) else DOUBTED)) and can_shoot(t):
         shooting = Shooting(t)
         for found in along(shooting, shooting.of_solution(z)):
