@@ -1,10 +1,13 @@
 """Optima that lost a turn, or are the best for the first weights alone: the default start finds the better ones."""
 
+from pathlib import Path
+
 import numpy as np
 import sympy as sm
 from drawn_systems import System, log_uniform, smooth, system
 
 import symid as si
+from symid.identification.starts.further import excess, led_starts
 
 
 def phase_locked_loop(rng) -> System:
@@ -49,3 +52,14 @@ def test_the_best_optimum_is_that_of_the_weights_at_the_end():
     drawn = latent_epidemic(np.random.default_rng([6, 16]))
     solution = drawn.problem().solve(check=False)
     assert drawn.lost(solution) == "" and drawn.failure(solution, allowed=1.08) == ""
+
+
+def test_a_long_recording_of_seen_states_is_not_led_however_much_is_left():
+    """Random torques leave much of a person who stands; looking for other optima took as long as the solve."""
+    data = Path(__file__).parents[2] / "data" / "standing_synthetic"
+    model = si.mechanics.DoubleLinkPendulum.from_json(data / "body.json").with_feedback(si.mechanics.FullStatePD())
+    problem = si.Identification(model, si.read_recording(data / "recording.csv"), window=(0, 100))
+    t = problem.transcription
+    still = np.zeros_like(t.measured[0].states[t.measured[0].nodes])
+    z = t.start(np.zeros(len(t.layout.parameter_names)), [still])
+    assert np.max(excess(t, z)) > 2 and next(led_starts(t, z), None) is None
