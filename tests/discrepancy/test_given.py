@@ -27,3 +27,8 @@ def test_a_motion_that_cannot_be_followed_at_all_is_fitted_in_shorter_pieces(mon
 
     task, plain, found = given.fitted_as_given(task, plain, fits)
     assert task.segment_length == pytest.approx(6, rel=0.01) and found[0][0] is plain
+
+
+def test_a_recorded_input_keeps_a_motion_in_its_pieces_without_random_forces_too():
+    task = task_of(pendulum(), pendulum_recording(duration=4.0), (0, 4), None, held_out=None, driven=False)
+    assert task.model.inputs and task.moved and not task.random

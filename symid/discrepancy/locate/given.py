@@ -118,8 +118,9 @@ def _start(task: Task, plain: Data, solved: bool = False) -> Start:
     windows = [(float(e.time[0]), float(e.time[-1])) for e in longest]
     problem = Identification(task.model, [task.recording] * len(windows), window=windows)
     z, _ = default_start(problem.transcription)
-    with suppress(SymidError):
-        z = problem.solve_from(z, max_iterations=ITERATIONS).z if solved else z
+    if solved:
+        with suppress(SymidError):
+            z = problem.solve_from(z, max_iterations=ITERATIONS).z
     layout = problem.transcription.layout
     states = np.median(np.vstack([layout.states(z, k) for k in range(len(windows))]), axis=0)
     names, values = (*task.model.states, *layout.parameter_names), (*states, *layout.parameters(z))

@@ -8,9 +8,7 @@ TINY = 1e-13
 """Directions in which the information is this part of the largest are not moved along."""
 
 
-def damped_step(
-    system, damping: float, bounds: np.ndarray, at: np.ndarray, initial: tuple[int, int] = (1, 0)
-) -> np.ndarray:
+def damped_step(system, damping: float, bounds: np.ndarray, at: np.ndarray, initial: tuple[int, int]) -> np.ndarray:
     """The damped step; parameters that would leave their bounds are held there.
 
     Parameters
