@@ -30,7 +30,7 @@ class RecordingError(SymidError):
 
 
 class ModelError(SymidError):
-    """A model is incomplete or contradicts itself. `violations` lists all that was found.
+    """A model is incomplete or contradicts itself, says `message`; `violations` lists all that was found.
 
     Examples
     --------

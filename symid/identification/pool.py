@@ -187,6 +187,7 @@ class Cluster(Executor):
     Parameters
     ----------
     client : address of a scheduler ("tcp://host:8786"), or a `distributed.Client`.
+    timeout_s : how long to wait for the scheduler's answer [s].
 
     Raises
     ------

@@ -40,6 +40,7 @@ class Solution:
     result : what Ipopt returned for the best start.
     starts : one row for each start, in their order.
     best : which of them this is.
+    fingerprint : of the model that was solved. created : when, as ISO 8601 in UTC.
     error_model : asked for: "auto", "white", "coloured" or "clustered"; see `with_errors`.
 
     Examples

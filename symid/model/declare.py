@@ -52,7 +52,7 @@ class State(AlongTime, Component):
 
 @dataclass(frozen=True, kw_only=True)
 class Algebraic(AlongTime, Component):
-    """A quantity without a time derivative, determined at every instant by an equation (index-1 DAE).
+    """A quantity without a time derivative, given by an equation at every instant (index-1 DAE); bounds in its unit.
 
     Raises
     ------
@@ -211,7 +211,7 @@ class Noise(Quantity, Component):
 
 @dataclass(frozen=True)
 class Expression(Quantity, Component):
-    """A named intermediate quantity, such as a joint torque, that a Term can redefine.
+    """A named intermediate quantity `expr` in its unit, such as a joint torque, that a Term can redefine.
 
     Raises
     ------
@@ -230,7 +230,7 @@ class Expression(Quantity, Component):
 
 @dataclass(frozen=True)
 class Equation(Component):
-    """A residual that must be zero at all times.
+    """A residual `expr` that must be zero at all times; its terms have one unit.
 
     Raises
     ------

@@ -95,6 +95,10 @@ class Law:
 class Term:
     """A law at one place. `Model.with_term(term)` gives a new model that contains it.
 
+    Attributes
+    ----------
+    law : what acts. location : the place's name, "joint1" or "sensor:link2".
+
     Examples
     --------
     >>> str(si.mechanics.LIBRARY["viscous_friction"].at("joint1"))

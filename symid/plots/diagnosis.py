@@ -22,6 +22,7 @@ from symid.plots.style import (
     banded,
     opened,
     over_time,
+    plain_ticks,
     size_of,
     swing,
 )
@@ -138,6 +139,7 @@ def plot_spectra(diagnosis: Diagnosis) -> Picture:
             axes.loglog(*banded(f[1:], power[1:]), color=color, lw=width, label=label)
         axes.set_title(output.channel.replace("_", " "), loc="left", fontsize=10)
         axes.set_xlabel("frequency [Hz]")
+        plain_ticks(axes.xaxis)
         if axes is panels[0] or not comparable:
             axes.set_ylabel(f"power of the error\n[{f'({unit})' if {'/', ' '} & set(unit) else unit}²/Hz]", fontsize=9)
         opened(axes)
@@ -173,17 +175,10 @@ def plot_scores(diagnosis: Diagnosis) -> Picture:
         axes.axvline(best, color=INK, lw=0.8, ls="--")
     for y, x, c in zip(places, behind, shown, strict=True):
         text = f"{c.score:,.0f}".replace("-", "\N{MINUS SIGN}")
-        left = 0 < best / 5 < x  # away from the dashed line
-        axes.annotate(
-            text,
-            (x, y),
-            xytext=(-7 if left else 7, 0),
-            textcoords="offset points",
-            ha="right" if left else "left",
-            va="center",
-            fontsize=8,
-            color=INK,
-        )
+        left = 0 < best / 5 < x  # away from the dashed line, which stays behind it
+        side = {"xytext": (-7 if left else 7, 0), "ha": "right" if left else "left"}
+        ground = {"fc": "white", "ec": "none", "pad": 0.5} if left else None
+        axes.annotate(text, (x, y), textcoords="offset points", va="center", fontsize=8, color=INK, bbox=ground, **side)
     axes.set_yticks(places, names, fontsize=8, linespacing=1.0)
     axes.set(xlim=(-POLICY.equivalent / 4, far), ylim=(len(shown) - 0.4, -0.6))
     decades = int(np.log10(far))

@@ -18,6 +18,10 @@ EVERY_S = 0.5
 class LivePlot:
     """Objective, violated equations and optimality after each iteration; drawn anew twice a second.
 
+    Attributes
+    ----------
+    iterations : all that it was told, in their order.
+
     Examples
     --------
     In a notebook::

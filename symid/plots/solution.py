@@ -19,6 +19,7 @@ from symid.plots.style import (
     bridged,
     opened,
     over_time,
+    plain_ticks,
     size_of,
     swing,
 )
@@ -156,6 +157,7 @@ def plot_residual_spectra(solution: Solution, episode: int = 0) -> Picture:
         opened(axes)
     figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=9)
     panels[-1].set_xlabel("frequency [Hz]")
+    plain_ticks(panels[-1].xaxis)
     figure.align_ylabels(panels)
     return figure
 

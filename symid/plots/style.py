@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.backend_bases import RendererBase
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+from matplotlib.ticker import MaxNLocator
 from PIL import Image
 
 from symid.units import time_unit
@@ -99,6 +100,7 @@ def bridged(values: np.ndarray) -> np.ndarray:
 def over_time(axes, time: np.ndarray) -> float:
     """Name the time axis by the unit in which the span of `time` [s] is read; the factor to that unit."""
     unit, factor = time_unit(float(np.ptp(time)))
+    axes.xaxis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 5, 10]))  # no steps of 2.5: long labels
     axes.set(xlabel=f"time [{unit}]", xlim=(time[0] * factor, time[-1] * factor))
     return factor
 

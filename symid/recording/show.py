@@ -16,7 +16,10 @@ if TYPE_CHECKING:
 
 def as_text(recording: "Recording") -> str:
     """Name and extent, then one line for each channel with its unit and range."""
-    rows = [f"  {n:<24s} {u:<8s} {lo:>11s} to {hi:>11s}" for n, u, lo, hi in _rows(recording)]
+    rows = [
+        f"  {n:<24s} {u:<8s} {lo:>11s} to {hi:>11s}{f', {gone} missing' if gone else ''}"
+        for n, u, lo, hi, gone in _rows(recording)
+    ]
     return "\n".join([f"Recording {recording.name}: {_extent(recording)}", *rows])
 
 
@@ -25,7 +28,8 @@ def as_html(recording: "Recording") -> str:
     body = "".join(
         "<tr>" + "".join(_cell("td", text, i) for i, text in enumerate(row)) + "</tr>" for row in _rows(recording)
     )
-    head = "".join(_cell("th", text, i) for i, text in enumerate(("channel", "unit", "lowest", "highest")))
+    titles = ("channel", "unit", "lowest", "highest", "missing")
+    head = "".join(_cell("th", text, i) for i, text in enumerate(titles))
     steps = "".join(f"<li>{html.escape(step)}</li>" for step in recording.history)
     return (
         f"<b>Recording {html.escape(recording.name)}</b>: {html.escape(_extent(recording))}"
@@ -56,8 +60,9 @@ def _extent(recording: "Recording") -> str:
     return f"{len(recording)} samples, {first:g} s to {last:g} s, {rate}{runs}"
 
 
-def _rows(recording: "Recording") -> Iterator[tuple[str, str, str, str]]:
+def _rows(recording: "Recording") -> Iterator[tuple[str, str, str, str, str]]:
+    """Channel, unit, lowest and highest value, and how many samples have none ("" where all have one)."""
     for name, values in recording.channels.items():
         some = values[np.isfinite(values)]
         ends = (f"{some.min() + 0.0:.4g}", f"{some.max() + 0.0:.4g}") if some.size else ("none", "none")  # 0 for -0
-        yield name, recording.units[name], *ends
+        yield name, recording.units[name], *ends, str(len(values) - len(some) or "")

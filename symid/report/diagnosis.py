@@ -115,15 +115,14 @@ def effects_table(d: Diagnosis) -> str:
     """What was found: law, place, when, whether both halves of the window ask for it, parameters and their errors."""
     timed = any(e.window is not None for e in d.named)
     kept = {(s.name, s.location): "no" if s.reason else "yes" for s in d.halves}
+    halved = any((e.name, e.location) in kept for e in d.named)
     rows = []
     for e in d.named:
         values = "; ".join(f"{_said(k)} {quantity(v, s, d.unit_of(e, k))}" for k, (v, s) in e.parameters.items())
-        rows.append(
-            [law_name(e.name), place_name(e.location), kept.get((e.name, e.location), ""), values or e.sentence]
-        )
-        if timed:
-            rows[-1].append("always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s")
-    return table(["effect", "place", "on both halves", "parameters", *["when"] * timed], rows)
+        both = [kept.get((e.name, e.location), "")] * halved
+        when = ["always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s"] * timed
+        rows.append([law_name(e.name), place_name(e.location), *both, values or e.sentence, *when])
+    return table(["effect", "place", *["on both halves"] * halved, "parameters", *["when"] * timed], rows)
 
 
 def _said(key: str) -> str:
@@ -262,28 +261,30 @@ def _odds(minus_log10_p: float) -> str:
 
 def _parameters(d: Diagnosis) -> list[str]:
     """Of the model and of what was found; those of splines, which nobody reads, are folded away."""
-    own = {
-        parameter_name(e.name, e.location, k): f"{law_name(e.name)}, {place_name(e.location)}: {_said(k)}"
-        for e in d.named
-        for k in e.parameters
-    }
     splines = [name for name in d.values if name.startswith(FLEXIBLE)]
-    told = _values(d, [name for name in d.values if name not in splines], own)
+    told = _values(d, [name for name in d.values if name not in splines])
     if not splines:
         return [told]
     note = (
         "The improved model holds a flexible law beside what is named above, and it takes over a part of that: the "
         "values here are those beside it."
     )
-    folds = folded(f"{len(splines)} coefficients of the flexible law", _values(d, splines, own))
+    folds = folded(f"{len(splines)} coefficients of the flexible law", _values(d, splines))
     return [paragraph(note, "note"), told, folds]
 
 
-def _values(d: Diagnosis, names: list[str], own: dict[str, str]) -> str:
+def _values(d: Diagnosis, names: list[str]) -> str:
+    """Values of parameters; what was found has those of the words, where a moment is the mean over its peaks."""
     rows = []
+    own = {
+        t.parameter_name(q.key): f"{law_name(t.name)}, {place_name(t.location)}: {_said(q.key)}"
+        for t in d.improved.terms
+        for q in t.law.parameters
+    }
+    found = {parameter_name(e.name, e.location, k): v for e in d.named for k, v in e.parameters.items()}
     for name in names:
-        part, before, value = d.improved.parameters[name], d.baseline.values.get(name), float(d.values[name])
-        error = float(d.final.errors.get(name, float("nan")))
+        part, before = d.improved.parameters[name], d.baseline.values.get(name)
+        value, error = found.get(name, (float(d.values[name]), float(d.final.errors.get(name, float("nan")))))
         given = "" if before is None else quantity(float(before), unit=part.unit, digits=4)
         rows.append([(name, own.get(name, part.meaning)), given, quantity(value, error, part.unit, digits=4)])
     if not d.named:

@@ -20,6 +20,8 @@ _TEMPLATES = Environment(
 )
 _PARTS = _TEMPLATES.get_template("parts.html").module
 _NUMBER = re.compile(r"[−-]?[\d,]*\.?\d+|(over )?10[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+_COUNTED = re.compile(r"(?<=[a-z]{3}) (?=\d{1,3}$)")
+"""Before the number of a place, "joint 2", which stays beside its word."""
 _MINUS = re.compile(r"(?<![\w.-])-(?=\d)")
 NARROW = 4.3
 """Width [inch] at which figures are drawn for a screen of a hand's width: their letters keep their size."""
@@ -127,7 +129,7 @@ def _numeric(rows: list[list], i: int) -> bool:
 
 def _breakable(text: str) -> Markup:
     """Text that may go on in the next line behind an underscore, as long names must on a phone."""
-    return Markup(escape(text).replace("_", Markup("_<wbr>")))
+    return Markup(escape(_COUNTED.sub("\N{NO-BREAK SPACE}", text)).replace("_", Markup("_<wbr>")))
 
 
 def _cell(x, minus: bool = True) -> dict[str, object]:

@@ -246,9 +246,8 @@ def _weighed_anew(solution: Solution) -> list[str]:
     """In words, that the solution is not where the best start ended."""
     if solution.result.objective == solution.starts[solution.best].objective:
         return []
-    told = f"in {solution.result.iterations} iterations and {solution.result.seconds['total']:.2f} s"
     why = "with outputs weighed by the noise that it left, or from a better place"
-    return [paragraph(f"From the end of the best start the problem was solved again, {why}, {told}.", "note")]
+    return [paragraph(f"From the end of the best start the problem was solved again, {why}.", "note")]
 
 
 def in_words(status: str, solved: bool) -> str:

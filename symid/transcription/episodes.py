@@ -38,6 +38,7 @@ class Episodes:
     count : number of episodes; 1 is deterministic, without noise.
     amplitude : half width (uniform) or standard deviation (gaussian) of every noise; a multisine
         has the power of the uniform noise, so a standard deviation of amplitude/sqrt(3).
+    by_word : amplitudes by a word, ``torque=0.25``: of the noises that have it in their name.
     seed : of the draws.
     distribution : "multisine", "uniform" (as in the authors' result files; independent), or
         "gaussian" (as in the article; independent).

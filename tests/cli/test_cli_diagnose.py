@@ -8,10 +8,12 @@ from dataclasses import replace
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from browser import assert_well_shown, needs_browser
+from conftest import ROOT
 
 from symid import plots
 from symid.cases import diagnose_case, read_case
@@ -19,9 +21,10 @@ from symid.cli import main
 from symid.conceal import draw_case, write_case
 from symid.discrepancy import suspects
 from symid.discrepancy.locate.latent import latent_torques
-from symid.mechanics import LIBRARY
+from symid.mechanics import LIBRARY, DoubleLinkPendulum, FullStatePD
 from symid.report import diagnosis_html, page, write_diagnosis_report
 from symid.report.experiment import experiment
+from symid.simulation import Simulator
 
 
 @pytest.fixture(scope="module")
@@ -172,6 +175,16 @@ def test_figures_show_the_numbers_of_the_finding(finding):
     assert len(plots.plot_spectra(finding).axes[0].lines) == 2
 
 
+def test_a_number_of_the_finding_is_the_same_wherever_the_report_says_it(finding):
+    """Of a moment the words say a mean over many peaks, the fit itself one of these."""
+    (effect,) = finding.named
+    said = replace(effect, parameters={k: (1.5 * v, e) for k, (v, e) in effect.parameters.items()})
+    html = diagnosis_html(replace(finding, effects=(said,), halves=()))
+    (value,) = re.findall(r"offset ([\d.]+ ± [^<]+)<", html)
+    assert f'sensor offset, the sensor of link 1: offset</small></td><td class=""></td><td class="">{value}<' in html
+    assert ">on both halves<" in diagnosis_html(finding) and ">on both halves<" not in html
+
+
 def test_a_hidden_torque_is_located_in_time_place_size_and_sign():
     """A push at the ankle: there, then, as large, and not at the hip."""
     case = draw_case(
@@ -194,6 +207,18 @@ def test_a_hidden_torque_is_located_in_time_place_size_and_sign():
     during = (ankle.time > 20) & (ankle.time < 20.6)
     assert ankle.torque[during].mean() == pytest.approx(20, rel=0.25)  # the mean of sin^2 is a half
     assert abs(hip.torque[during].mean()) < 0.25 * ankle.torque[during].mean()
+
+
+def test_a_hidden_torque_of_a_model_with_a_delay_stays_finite():
+    """The states of a delay and what it delays are nearly one: their covariance has no inverse."""
+    folder = ROOT / "data" / "standing_synthetic"
+    body = DoubleLinkPendulum.from_json(folder / "body.json")
+    model = body.with_feedback(FullStatePD()).with_term(LIBRARY["feedback_delay"].at("global"))
+    values = json.loads((folder / "truth.json").read_text())["parameters"] | {"feedback_delay_global_delay_s": 0.05}
+    sway = 0.002 * np.column_stack([np.sin(0.06 * np.arange(1500)), np.cos(0.04 * np.arange(1500))])
+    run = SimpleNamespace(time=0.02 * np.arange(1500), recorded=sway, simulated=0 * sway, lengths=[1500], pace=1.0)
+    for force in latent_torques(SimpleNamespace(model=model, simulator=Simulator(model), values=values), run):
+        assert np.abs(force.torque).max() < 5 and 0 < force.error.min() and force.error.max() < 5
 
 
 def test_every_law_has_an_experiment_that_would_split_it_from_its_likes():

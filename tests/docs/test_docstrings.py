@@ -100,6 +100,18 @@ def test_what_a_constructor_or_a_property_raises_is_told(name):
             assert not (written and re.search(raises, inspect.getsource(function))) or "Error" in told, f"{name}.{k}"
 
 
+@pytest.mark.parametrize("name", [n for n in PUBLIC if n not in DATA and inspect.isclass(PUBLIC[n])])
+def test_what_an_object_is_made_of_and_holds_is_told(name):
+    own = [c for c in PUBLIC[name].__mro__ if c.__module__.startswith("symid")]
+    words = " ".join(c.__doc__ or "" for c in own)
+    makers = [vars(c)["__init__"] for c in own if inspect.isfunction(vars(c).get("__init__"))]
+    taken = [p for made in makers for p in inspect.signature(made).parameters.values() if p.name != "self"]
+    given = {p.name for p in taken if p.kind not in (p.VAR_POSITIONAL, p.VAR_KEYWORD)}
+    held = {k for c in own for k in vars(c).get("__annotations__", {}) if not k.startswith("_")}
+    described = {k for c in own for k in re.findall(r'^ {4}(\w+)\b.*\n {4}"""', inspect.getsource(c), re.M)}
+    assert not [k for k in (given | held) - described if not re.search(rf"\b{k}\b", words)], name
+
+
 @pytest.fixture(scope="module")
 def prepared():
     """What the examples take for granted: a model, a recording, and `m`, which has a few parts already."""

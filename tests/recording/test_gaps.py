@@ -65,6 +65,15 @@ def test_outliers_hardly_move_a_robust_fit():
     assert abs(plain - 0.4) > 4 * abs(robust - 0.4) and robust == pytest.approx(0.4, abs=0.02)
 
 
+def test_a_recording_says_how_much_of_a_channel_is_missing():
+    recording = pendulum_recording()
+    angle = recording["angle"].copy()
+    angle[100:130] = np.nan
+    gappy = replace(recording, channels=dict(recording.channels) | {"angle": angle})
+    assert str(gappy).count("missing") == 1 and ", 30 missing" in str(gappy) and "missing" not in str(recording)
+    assert gappy._repr_html_().count(">30</td>") == 1
+
+
 def test_what_cannot_be_missing_is_refused_in_words():
     recording = pendulum_recording()
     drive = recording["drive"].copy()

@@ -1,8 +1,8 @@
 """Locate: the torque that a model lacks, per equation and over time, by smoothing what it leaves.
 
 The error of a fitted model's free run obeys the model linearised along that run, driven by what
-is missing. With the missing torque as a random walk, a Kalman filter and the smoother of Rauch,
-Tung & Striebel (1965) give it with its standard error.
+is missing. With the missing torque as a random walk, a Kalman filter and the smoother of Bryson and Frazier, as
+modified by Bierman (1973), give it with its standard error.
 """
 
 from __future__ import annotations
@@ -78,7 +78,7 @@ def _most_likely(A, G, C, residual, step, noise, pieces, pace: float):
         value, before, after = _filtered(F, H, residual, pieces, steps)
         if best is None or value > best[0]:
             best = value, F, before, after, steps
-    x, variance = _smoothed(*best[1:4], pieces, best[4])
+    x, variance = _smoothed(best[1], H, residual, *best[2:4], pieces, best[4])
     return x[:, n:], variance[:, n:]
 
 
@@ -166,16 +166,21 @@ def _filtered(F, H, residual, pieces, steps):
     return value, before, after
 
 
-def _smoothed(F, before, after, pieces, steps):
-    """States and their variances given all samples of the piece (Rauch, Tung & Striebel 1965)."""
-    x, variance = after.copy(), np.empty_like(after)
-    back = [np.linalg.solve(steps[min(i + 1, len(steps) - 1)][0], F @ s[1]).T for i, s in enumerate(steps)]
+def _smoothed(F, H, residual, before, after, pieces, steps):
+    """States and their variances given all samples of the piece, by the adjoint (Bierman 1973).
+
+    It inverts covariances of what is seen only: those of states are nearly singular where a delay is among them.
+    """
+    x, variance, eye = after.copy(), np.empty_like(after), np.eye(len(F))
+    seen = [np.linalg.solve(S, H).T for *_, S in steps]
+    passed = [eye - K @ H for _, _, K, _ in steps]
     for begin, end in pieces:
-        P = steps[min(end - 1 - begin, len(steps) - 1)][1]
-        variance[end - 1] = np.diag(P)
-        for k in range(end - 2, begin - 1, -1):
+        pull, tight = np.zeros(len(F)), np.zeros_like(F)
+        for k in range(end - 1, begin - 1, -1):
             i = min(k - begin, len(steps) - 1)
-            x[k] += back[i] @ (x[k + 1] - before[k + 1])
-            P = steps[i][1] + back[i] @ (P - steps[min(i + 1, len(steps) - 1)][0]) @ back[i].T
-            variance[k] = np.diag(P)
+            P = steps[i][1]
+            x[k] -= P @ pull
+            variance[k] = np.diag(P) - np.einsum("ij,jk,ki->i", P, tight, P)
+            pull = F.T @ (passed[i].T @ pull - seen[i] @ (residual[k] - H @ before[k]))
+            tight = F.T @ (passed[i].T @ tight @ passed[i] + seen[i] @ H) @ F
     return x, np.maximum(variance, 0.0)

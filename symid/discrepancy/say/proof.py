@@ -44,15 +44,19 @@ def proof_words(s: Story) -> list[str]:
 def _confirmation(p: Proof) -> str:
     """What the blocks of the held-out data say of the fall of the error."""
     if p.confirmed:
-        return f", which confirms the finding (probability {min(p.probability, 0.999):.3g} from {p.blocks} blocks)"
+        return f", which confirms the finding (probability {min(p.probability, 0.999):.3g} from {_blocks(p.blocks)})"
     if p.margin <= 0:
         return ": the held-out window does not confirm the finding"
     if p.contradicted:
-        chance = f"probability {p.free_runs.probability:.2g} from {p.free_runs.blocks} blocks"
+        chance = f"probability {p.free_runs.probability:.2g} from {_blocks(p.free_runs.blocks)}"
         return f": not confirmed, because free simulation loses more than that ({chance})"
     longer = f"; about {p.needed:.2g} s like these would" if p.needed is not None and p.needed > p.seconds else ""
-    chance = f"probability {p.probability:.2g} from {p.blocks} blocks{longer}"
+    chance = f"probability {p.probability:.2g} from {_blocks(p.blocks)}{longer}"
     return f": not confirmed, because chance could do that ({chance})"
+
+
+def _blocks(count: int) -> str:
+    return f"{count} block{'s' * (count != 1)}"
 
 
 def _chance(s: Story) -> list[str]:
