@@ -25,11 +25,12 @@ def as_text(recording: "Recording") -> str:
 
 def as_html(recording: "Recording") -> str:
     """The same as a table, with the history to unfold."""
+    titles, rows = ("channel", "unit", "lowest", "highest", "missing"), list(_rows(recording))
+    shown = len(titles) - (not any(gone for *_, gone in rows))
+    head = "".join(_cell("th", text, i) for i, text in enumerate(titles[:shown]))
     body = "".join(
-        "<tr>" + "".join(_cell("td", text, i) for i, text in enumerate(row)) + "</tr>" for row in _rows(recording)
+        "<tr>" + "".join(_cell("td", text, i) for i, text in enumerate(row[:shown])) + "</tr>" for row in rows
     )
-    titles = ("channel", "unit", "lowest", "highest", "missing")
-    head = "".join(_cell("th", text, i) for i, text in enumerate(titles))
     steps = "".join(f"<li>{html.escape(step)}</li>" for step in recording.history)
     return (
         f"<b>Recording {html.escape(recording.name)}</b>: {html.escape(_extent(recording))}"
