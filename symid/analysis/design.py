@@ -16,6 +16,7 @@ from symid.errors import ModelError
 from symid.model import Model
 from symid.model.information import RATE, information_name, with_information
 from symid.optimization import Optimization, Plan
+from symid.units import with_error
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +55,7 @@ class Design:
         return table[RATE] if RATE in table else pd.Series(self.plan.problem.model[RATE].value, index=table.index)
 
     def __repr__(self) -> str:
-        errors = ", ".join(f"{k} {self.values[k]:.5g} +- {e:.2g}" for k, e in self.std_errors.items())
+        errors = ", ".join(f"{k} {with_error(self.values[k], e, 5)}" for k, e in self.std_errors.items())
         return f"Design ({self.criterion}-optimal): {errors}\n{self.plan}"
 
 

@@ -14,6 +14,7 @@ from symid.errors import ModelError
 from symid.identification import Solution
 from symid.identification.covariance import ParameterErrors
 from symid.identification.noise import CHOICES
+from symid.units import with_error
 
 ALIKE = 0.95
 """Share of a parameter's variance explained by others from which on the data hardly tell them apart."""
@@ -63,7 +64,7 @@ class Uncertainty:
         lines = [self.parameters.to_string(float_format="%.4g")]
         lines += [f"At a bound: {', '.join(self.at_bound)}."] if self.at_bound else []
         if self.undetermined:
-            known = ", ".join(f"{text}: {value:.5g} +- {error:.2g}" for text, (value, error) in self.determined.items())
+            known = ", ".join(f"{text}: {with_error(*known, 5)}" for text, known in self.determined.items())
             lines.append(f"Not determined: {', '.join(self.undetermined)}" + (f"; only {known}." if known else "."))
         for growth, members in self.combinations:
             together = ", ".join(f"{name} {step:+.2f}" for name, step in members.items())

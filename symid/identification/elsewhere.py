@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symid.identification.starts.further import asked_for, excess, far
-from symid.units import quantity
+from symid.units import quantity, rough
 
 if TYPE_CHECKING:
     from symid.identification.solution import Solution
@@ -50,7 +50,7 @@ def said_of_optimum(solution: Solution) -> list[str]:
         ratio = solution.result.objective / max(end.objective, np.finfo(float).tiny)
         return [
             f"This is a local optimum: {_excess_said(solution)}, and another start ends with an objective "
-            f"{ratio:.3g} times smaller ({_values(solution, t.layout.parameters(end.z))}); solve again with "
+            f"{rough(ratio, 3)} times smaller ({_values(solution, t.layout.parameters(end.z))}); solve again with "
             "start='default'"
         ]
     asked = asked_for(t, solution.result.z)

@@ -14,6 +14,7 @@ import numpy as np
 
 from symid.codegen.symbols import used_data
 from symid.errors import SymidError
+from symid.units import rough
 
 if TYPE_CHECKING:
     from symid.identification.solution import Solution
@@ -90,6 +91,6 @@ def _solved(solution: Solution, holds: dict[str, str]) -> tuple[float, str] | No
     said = ", ".join(f"{k} {OTHERS[hold]}, Input(hold='{hold}')" for k, hold in holds.items())
     return ratio, (
         "An input whose declaration does not say what it does between its samples is taken to be smooth, and the "
-        f"recording is likelier if {said}: {100 * (1 - left):.2g} % of the squared errors vanish"
-        + (f", and {table.index[worst]} moves by {shifts[worst]:+.2g} standard errors" if worst < len(shifts) else "")
+        f"recording is likelier if {said}: {rough(100 * (1 - left))} % of the squared errors vanish"
+        + (f", and {table.index[worst]} moves by {rough(shifts[worst])} standard errors" if worst < len(shifts) else "")
     )

@@ -12,7 +12,7 @@ from symid.identification.fit import common_unit, fit_text, rms_text
 from symid.identification.noise import UNFIT
 from symid.identification.weighting import by_noise
 from symid.model.show import MEANING_EM
-from symid.units import unit_symbol, with_error
+from symid.units import rough, unit_symbol, with_error
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
@@ -92,7 +92,7 @@ def warnings(solution: Solution) -> list[str]:
     verified = solution.verification.sentences if checked else ()
     return [*solution.problem.remarks, *_at_bounds(solution), *_joint(solution), *_unfit(solution), *verified] + [
         f"{name} lies at its bounds ({states[name].bounds[0]:g} to {states[name].bounds[1]:g} "
-        f"{unit_symbol(states[name].unit)}) at {100 * share:.2g} % of the nodes: they cut the motion off, which "
+        f"{unit_symbol(states[name].unit)}) at {rough(100 * share)} % of the nodes: they cut the motion off, which "
         f"biases the parameters; widen them with model.with_bounds({name}=(lower, upper))"
         for name, share in solution.cut_off.items()
     ]
@@ -135,18 +135,18 @@ def _unfit(solution: Solution) -> list[str]:
             continue
         if name in solution.model.processes:
             found.append(
-                f"{name}: its motion is {np.sqrt(ratio):.2g} times what its size {u.size:g} says; leave out size"
+                f"{name}: its motion is {rough(np.sqrt(ratio))} times what its size {u.size:g} says; leave out size"
             )
         elif ratio > 1:
             found.append(
-                f"{name}: smooth={u.smooth:g} is {ratio:.2g} times too stiff beside the noise, so that the parameters "
-                f"take up what it does not follow; smooth={u.smooth / ratio:.2g} fits"
+                f"{name}: smooth={u.smooth:g} is {rough(ratio)} times too stiff beside the noise, so that the "
+                f"parameters take up what it does not follow; smooth={rough(u.smooth / ratio)} fits"
             )
         else:
-            told = f"{1 / ratio:.2g} times" if ratio > 1 / FAR else "far"
+            told = f"{rough(1 / ratio)} times" if ratio > 1 / FAR else "far"
             found.append(
                 f"{name}: smooth={u.smooth:g} is {told} too loose beside the noise, which it follows and which "
-                f"biases the parameters; try smooth={u.smooth / max(ratio, 1 / FAR):.2g}"
+                f"biases the parameters; try smooth={rough(u.smooth / max(ratio, 1 / FAR))}"
             )
     return found
 
@@ -170,7 +170,7 @@ def error_notes(solution: Solution) -> list[str]:
     if lost:
         found = e.determined(list(solution.values), np.array(list(solution.values.values())))
         only = "near these values only" if any(c.local for c, _ in found) else "only"
-        told = ", ".join(f"{c.text}: {c.value:.5g} +- {error:.2g}" for c, error in found)
+        told = ", ".join(f"{c.text}: {with_error(c.value, error, 5)}" for c, error in found)
         notes.append(f"These data do not determine {', '.join(lost)}" + (f": {only} {told}" if told else " at all"))
     return [*notes, *excess_note(solution), *_unverified(solution)]
 

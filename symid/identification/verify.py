@@ -16,7 +16,7 @@ from symid.identification.held import said_of_inputs
 from symid.identification.integrate import Reintegration
 from symid.nlp import OptimalityReport, check_optimality
 from symid.threads import one_blas_thread
-from symid.units import quantity, unit_symbol
+from symid.units import quantity, rough, unit_symbol
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -177,7 +177,7 @@ def _said_of_mesh(solution: Solution, mesh: pd.DataFrame | None) -> list[str]:
     unit = unit_symbol(solution.model.parameters[name.split("[")[0]].unit)
     factor = int(np.ceil((worst.max() / FINE) ** (1 / p.scheme.order)))
     return [
-        f"The mesh is too coarse: it shifts {name} by {mesh.loc[name, 'std_errors']:.2g} standard errors "
-        f"({mesh.loc[name, 'error']:+.3g} {unit}); "
+        f"The mesh is too coarse: it shifts {name} by {rough(mesh.loc[name, 'std_errors'])} standard errors "
+        f"({rough(mesh.loc[name, 'error'], 3)} {unit}); "
         f"solution.refined() solves again with {p.refine * factor} intervals in a sample interval"
     ]

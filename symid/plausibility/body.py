@@ -7,6 +7,7 @@ from math import sqrt
 from typing import NamedTuple
 
 from symid.model import Constant, Model
+from symid.units import rough
 
 
 class Range(NamedTuple):
@@ -108,6 +109,6 @@ def _links(model: Model) -> Iterator[str]:
             if ratio > LINK_GYRATION:
                 inertia, mass = parts["inertia"], parts["mass"]
                 yield (
-                    f"{link}: the inertia {inertia.value:.3g} kg m² is that of a body {ratio:.2g} times larger than "
+                    f"{link}: the inertia {inertia.value:.3g} kg m² is that of a body {rough(ratio)} times larger than "
                     f"the link; {inertia.name} or {mass.name} has another unit than kg m² and kg, or wrong digits"
                 )

@@ -9,7 +9,7 @@ import numpy as np
 
 from symid.plausibility.motion import even_pieces
 from symid.recording import Recording, rate_name
-from symid.units import unit_symbol
+from symid.units import rough, unit_symbol
 
 WAY = 1e3
 """Distance [m] over which an acceleration that comes and goes moves a body to and fro: no farther. The steps between
@@ -53,7 +53,7 @@ def _time(recording: Recording) -> Iterator[str]:
         )
         if change > 0 and (way := np.sqrt(power) * power / change * step**2) > WAY:
             yield (
-                f"{name} would move a body to and fro by {way:.2g} m with samples {step:.3g} s apart; if the time "
+                f"{name} would move a body to and fro by {rough(way)} m with samples {step:.3g} s apart; if the time "
                 "column holds milliseconds, call it time_ms"
             )
             return

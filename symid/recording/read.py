@@ -20,7 +20,7 @@ from symid.recording.recording import Recording
 from symid.recording.remarks import remarks_on
 from symid.recording.rows import LABELS, Table, with_missing, without_repeats
 from symid.recording.timing import on_grid, time_fault
-from symid.units import FloatArray, IntArray
+from symid.units import FloatArray, IntArray, rough
 
 PLAIN = (".csv", ".txt", "")
 """Endings of comma-separated text; an ending that no reader has is taken for it, too."""
@@ -211,7 +211,7 @@ def _checked_time(
             raise RecordingError(f"{path}: column '{text}', {_place(path, row)}: {fault.text}; {fault.cure}")
     if largest == 0.0:
         return time, None
-    return time, f"times moved onto an even grid, by at most {largest:.2g} s"
+    return time, f"times moved onto an even grid, by at most {rough(largest)} s"
 
 
 def _runs(path: Path, table: Table, rows: IntArray) -> list[slice]:

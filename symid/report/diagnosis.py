@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from symid.discrepancy import Diagnosis
@@ -10,7 +9,6 @@ from symid.discrepancy.locate.latent import latent_torques
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.say.names import law_name, place_name
 from symid.discrepancy.say.rest import rest_words
-from symid.errors import RecordingError
 from symid.files import write_atomically
 from symid.identification.fit import common_unit, rms_text
 from symid.mechanics.laws import parameter_name
@@ -20,7 +18,7 @@ from symid.plots import plot_before_after, plot_latent, plot_rest, plot_scores, 
 from symid.report.experiment import experiment
 from symid.report.origin import CITATION, origin, written
 from symid.report.page import equations, facts, figure, folded, heading, page, paragraph, table
-from symid.units import quantity, split_column_name, typeset
+from symid.units import quantity, typeset, without_unit
 
 VERDICTS = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}
 MEANING = {
@@ -33,8 +31,6 @@ REST = (
     "motion (red) or takes out (blue), with two standard errors."
 )
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-_UNITS = re.compile(r"(_(1|Nms?|Ns?|Hz|kg|rad|m|s)\d?)+$")
-"""What laws have for units at the end of a parameter's name, and recordings have not in this order."""
 MOST = 15
 """Suspects listed."""
 
@@ -118,20 +114,11 @@ def effects_table(d: Diagnosis) -> str:
     halved = any((e.name, e.location) in kept for e in d.named)
     rows = []
     for e in d.named:
-        values = "; ".join(f"{_said(k)} {quantity(v, s, d.unit_of(e, k))}" for k, (v, s) in e.parameters.items())
+        values = "; ".join(f"{without_unit(k)} {quantity(v, s, d.unit_of(e, k))}" for k, (v, s) in e.parameters.items())
         both = [kept.get((e.name, e.location), "")] * halved
         when = ["always" if e.window is None else f"{e.window[0]:.2f} to {e.window[1]:.2f} s"] * timed
         rows.append([law_name(e.name), place_name(e.location), *both, values or e.sentence, *when])
     return table(["effect", "place", *["on both halves"] * halved, "parameters", *["when"] * timed], rows)
-
-
-def _said(key: str) -> str:
-    """A parameter's name without its unit: ``time_constant_s`` as "time constant", ``k2_Nm_rad2`` as "k2"."""
-    try:
-        name = split_column_name(key)[0]
-    except RecordingError:  # one without a unit
-        name = key
-    return _UNITS.sub("", name).replace("_", " ")
 
 
 def _equivalents(d: Diagnosis) -> str:
@@ -277,7 +264,7 @@ def _values(d: Diagnosis, names: list[str]) -> str:
     """Values of parameters; what was found has those of the words, where a moment is the mean over its peaks."""
     rows = []
     own = {
-        t.parameter_name(q.key): f"{law_name(t.name)}, {place_name(t.location)}: {_said(q.key)}"
+        t.parameter_name(q.key): f"{law_name(t.name)}, {place_name(t.location)}: {without_unit(q.key)}"
         for t in d.improved.terms
         for q in t.law.parameters
     }

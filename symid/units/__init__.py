@@ -17,8 +17,8 @@ u     known input                              p     parameter
 ====  =======================================  ====  =======================================
 """
 
-from symid.units.columns import HOW_NAMED, column_name, known_suffixes, split_column_name
-from symid.units.show import quantity, shown_unit, time_unit, typeset, unit_for, unit_symbol, with_error
+from symid.units.columns import HOW_NAMED, column_name, known_suffixes, split_column_name, without_unit
+from symid.units.show import quantity, rough, shown_unit, time_unit, typeset, unit_for, unit_symbol, with_error
 from symid.units.si import (
     STANDARD_GRAVITY,
     FloatArray,
@@ -47,6 +47,7 @@ __all__ = [
     "nearest",
     "quantity",
     "reduced",
+    "rough",
     "same_dimension",
     "shown_unit",
     "si_factor",
@@ -56,4 +57,5 @@ __all__ = [
     "unit_for",
     "unit_symbol",
     "with_error",
+    "without_unit",
 ]

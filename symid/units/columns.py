@@ -125,3 +125,16 @@ def _nearest_suffixes(words: list[str]) -> str:
     endings = ["_".join(words[start:]) for start in range(1, len(words))] or words
     close = [match for ending in endings for match in nearest(ending, known_suffixes())]
     return f" (nearest known units: {', '.join(dict.fromkeys(close))})" if close else ""
+
+
+def without_unit(key: str) -> str:
+    """A parameter's key without its unit: ``time_constant_s`` as "time constant", ``k2_Nm_rad2`` as "k2"."""
+    try:
+        name = split_column_name(key)[0]
+    except RecordingError:  # one without a unit
+        name = key
+    return _OF_LAWS.sub("", name).replace("_", " ")
+
+
+_OF_LAWS = re.compile(r"(_(1|Nms?|Ns?|Hz|kg|rad|m|s)\d?)+$")
+"""What laws have for units at the end of a parameter's name, and recordings have not in this order."""

@@ -63,6 +63,11 @@ def with_error(value: float, error: float, digits: int = 3) -> str:
     return f"{_rounded(value, place):.{decimals}f} ± {_rounded(error, place):.{decimals}f}"
 
 
+def rough(value: float, digits: int = 2) -> str:
+    """A number in a sentence, to a few digits: ``120``, where Python's ``:.2g`` writes ``1.2e+02``."""
+    return with_error(value, float("nan"), digits)
+
+
 def quantity(value: float, error: float = float("nan"), unit: str = "1", digits: int = 3, beside: float = 0.0) -> str:
     """An SI value with its standard error in the unit that suits its size: ``"84.0 ± 3.0 ms"``, ``"5.2 ± 1.1 mN m"``.
 

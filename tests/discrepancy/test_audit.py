@@ -11,7 +11,7 @@ from scipy.signal import butter, filtfilt
 from symid.discrepancy.locate.audit import audit
 from symid.estimation.sensors.sensor_noise import white_noise
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.prove.halves import Half, HalfVerdict, _reason, _said, survivals, verdicts
+from symid.discrepancy.prove.halves import Half, HalfVerdict, _reason, survivals, verdicts
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import law_name, place_name, sentence
 from symid.discrepancy.say.proof import verdicts_of_halves
@@ -170,7 +170,6 @@ def test_one_recording_is_cut_in_its_middle():
 def test_reasons_name_the_quantity_without_its_unit():
     one = Half((0, 1), 5.0, {"time_constant_s": (0.1, 0.001)})
     assert "its time constant differs" in _reason((one, replace(one, parameters={"time_constant_s": (0.2, 0.001)})))
-    assert [_said(k) for k in ("coefficient_Nm_s2_rad2", "delay_s", "k_Nm_rad")] == ["coefficient", "delay", "k"]
 
 
 # ---- words -----------------------------------------------------------------------------------

@@ -214,7 +214,7 @@ def test_the_answer_is_in_the_stated_format(tmp_path):
     lines = finding_.held_out_csv(tmp_path / "held.csv").read_text().splitlines()
     assert lines[0] == "time_s,position_m" and len(lines) == 1 + 1001
     assert finding_.improved.terms[-1].name == "coulomb_friction"
-    assert "coulomb friction" in finding_._repr_html_()
+    assert "Coulomb friction" in finding_._repr_html_()
 
 
 def test_windows_and_channels_are_checked():

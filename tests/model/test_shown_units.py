@@ -14,7 +14,7 @@ from symid.identification import Identification
 from symid.identification.fit import common_unit, fit_text, rms_text
 from symid.mechanics.terms import LIBRARY
 from symid.recording import Recording
-from symid.units import quantity, shown_unit, unit_symbol, with_error
+from symid.units import quantity, rough, shown_unit, unit_symbol, with_error
 
 
 @pytest.mark.parametrize(
@@ -34,6 +34,11 @@ from symid.units import quantity, shown_unit, unit_symbol, with_error
 )
 def test_digits_follow_the_error(value, error, text):
     assert with_error(value, error) == text
+
+
+@pytest.mark.parametrize(("value", "text"), [(123.4, "120"), (99.96, "100"), (-4.83, "-4.8"), (3.14e-5, "3.1·10⁻⁵")])
+def test_a_number_in_a_sentence_is_no_power_of_ten_unless_it_must(value, text):
+    assert rough(value) == text
 
 
 def test_values_that_are_compared_have_one_unit():

@@ -13,13 +13,13 @@ from symid.discrepancy.model.hypothesis import penalty, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.policy import POLICY
+from symid.units import without_unit
 from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.fitting.robust_errors import with_robust_errors
 from symid.threads import in_threads
 
 ITERATIONS = 15
-_UNITS = ("Nm", "Nms", "N", "rad", "rad2", "rad3", "s", "s2", "Hz", "kg", "m", "m2")
 
 
 @dataclass(frozen=True)
@@ -149,12 +149,5 @@ def _reason(halves: tuple[Half, Half]) -> str:
         (a, s), (b, r) = (h.parameters[key] for h in halves)
         error = hypot(s, r)  # zero where both are held by their bounds
         if error and abs(a - b) > POLICY.apart * error:
-            return f"its {_said(key)} differs between the halves by {abs(a - b) / error:.0f} standard errors"
+            return f"its {without_unit(key)} differs between the halves by {abs(a - b) / error:.0f} standard errors"
     return ""
-
-
-def _said(key: str) -> str:
-    """A parameter's key without its unit: "time constant" of ``time_constant_s``."""
-    words = key.split("_")
-    kept = [w for w in words if w not in _UNITS]
-    return " ".join(kept if kept else words)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from html import escape
 from typing import TYPE_CHECKING
 
-from symid.units import quantity
+from symid.discrepancy.say.names import law_name, place_name
+from symid.units import quantity, without_unit
 
 if TYPE_CHECKING:
     from symid.discrepancy.say.diagnosis import Diagnosis
@@ -17,9 +18,10 @@ def html_of(d: Diagnosis) -> str:
     rows = [["effect", "place", "value (± standard error)"]] if d.effects else []
     rows += [
         [
-            e.name.replace("_", " "),
-            e.location,
-            ", ".join(f"{k}: {quantity(*v, d.unit_of(e, k))}" for k, v in e.parameters.items()) or e.sentence,
+            law_name(e.name),
+            place_name(e.location),
+            ", ".join(f"{without_unit(k)} {quantity(*v, d.unit_of(e, k))}" for k, v in e.parameters.items())
+            or e.sentence,
         ]
         for e in d.effects
     ]

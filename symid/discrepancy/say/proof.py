@@ -7,6 +7,7 @@ import numpy as np
 from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.names import law_name
 from symid.discrepancy.say.story import Story, capital, listed
+from symid.units import rough
 
 STILL = 3.0
 """What varies by less than so many times the sensors' noise does not move."""
@@ -35,7 +36,7 @@ def proof_words(s: Story) -> list[str]:
     more = "less" if s.proof.margin > 0 else "more"
     errors = errors if s.proof.free_runs.margin > 0 else f"does not fall: it {errors}"
     return [
-        f"On the held-out window predictions from sample to sample err {more}, by {100 * abs(s.proof.margin):.2g} %"
+        f"On the held-out window predictions from sample to sample err {more}, by {rough(100 * abs(s.proof.margin))} %"
         f"{_confirmation(s.proof)}. The error of free simulation, which holds all that random forces did, {errors}.",
         *_chance(s),
     ]
@@ -50,7 +51,7 @@ def _confirmation(p: Proof) -> str:
     if p.contradicted:
         chance = f"probability {p.free_runs.probability:.2g} from {_blocks(p.free_runs.blocks)}"
         return f": not confirmed, because free simulation loses more than that ({chance})"
-    longer = f"; about {p.needed:.2g} s like these would" if p.needed is not None and p.needed > p.seconds else ""
+    longer = f"; about {rough(p.needed)} s like these would" if p.needed is not None and p.needed > p.seconds else ""
     chance = f"probability {p.probability:.2g} from {_blocks(p.blocks)}{longer}"
     return f": not confirmed, because chance could do that ({chance})"
 
@@ -63,7 +64,7 @@ def _chance(s: Story) -> list[str]:
     """How often chance alone looks like the finding, in recordings like this one."""
     if s.chance is None or s.effects and s.effects[0].name.startswith("unknown"):
         return []
-    size = f"{s.chance:.2g}" if s.chance >= 1e-6 else "below one in a million"
+    size = rough(s.chance) if s.chance >= 1e-6 else "below one in a million"
     what = "the least certain effect" if s.effects else "the best suspect"
     dear = ", but it does not explain enough to pay for its unknowns" if not s.effects and s.chance < 0.05 else ""
     return [

@@ -9,6 +9,7 @@ from symid.discrepancy.say.names import law_name, place_name
 from symid.discrepancy.say.proof import halves_words, proof_words, unproved, verdicts_of_halves
 from symid.discrepancy.say.rest import nameless_words
 from symid.discrepancy.say.story import Story, listed
+from symid.units import rough
 
 LOSSES = (
     "viscous_friction",
@@ -152,7 +153,7 @@ def _caveats(s: Story) -> list[str]:
     if s.pieces:
         out.append(
             "In this motion small differences soon become large ones: it is compared in pieces of about "
-            f"{s.pieces:.2g} s, each from a state of its own."
+            f"{rough(s.pieces)} s, each from a state of its own."
         )
     if s.filter is not None:
         stated = ", as stated" if s.audit.known else ""
@@ -168,7 +169,7 @@ def _caveats(s: Story) -> list[str]:
     if s.data.memory:
         out.append(
             f"The noise is not white: each sample follows in part from the {s.data.memory} before it "
-            f"({s.data.memory * s.data.segments[0].step:.2g} s), which was fitted with the model."
+            f"({rough(s.data.memory * s.data.segments[0].step)} s), which was fitted with the model."
         )
     if not s.white and any(e.parameters for e in s.effects):
         out.append("What is left is not random, so the standard errors are taken from blocks of the recording.")

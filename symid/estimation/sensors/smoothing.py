@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 from scipy.signal import savgol_coeffs
 
 from symid.estimation.sensors.zero_phase import ROLL_OFF, ZeroPhase
+from symid.units import rough
 
 LEAST_GAIN = 1e-6
 """Beyond its first zero the gain changes its sign; there nothing is kept, and this stands for it."""
@@ -35,7 +36,7 @@ class Smoothing(ZeroPhase):
 
     def __str__(self) -> str:
         fitted = f"a polynomial of degree {self.order} fitted to" if self.order else "the mean of"
-        return f"{fitted} {self.samples} samples at a time, at -3 dB at {self.cutoff:.2g} Hz,"
+        return f"{fitted} {self.samples} samples at a time, at -3 dB at {rough(self.cutoff)} Hz,"
 
     @cached_property
     def _weights(self) -> np.ndarray:

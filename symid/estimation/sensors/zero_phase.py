@@ -14,6 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from symid.units import rough
+
 SMALLEST_GAIN = 0.03
 """The filter is undone where it left at least this part of a signal; rounding stays far below the sensors' noise."""
 LARGEST_EXCESS = 10 / SMALLEST_GAIN
@@ -39,7 +41,7 @@ class ZeroPhase:
     rate: float
 
     def __str__(self) -> str:
-        return f"a Butterworth filter of order {self.order}, forwards and backwards, at {self.cutoff:.2g} Hz"
+        return f"a Butterworth filter of order {self.order}, forwards and backwards, at {rough(self.cutoff)} Hz"
 
     def excess(self, frequency: np.ndarray) -> np.ndarray:
         """x^2n, so that the gain is 1 / (1 + excess), with the digital filter's warped frequency."""
