@@ -228,7 +228,7 @@ def _starts(solution: Solution) -> str:
             in_words(r.status, r.solved),
             rms_text(r.rms, unit),
             r.iterations,
-            round(r.seconds, 2),
+            f"{r.seconds:.2f}",
             "best" if i == solution.best else "",
         ]
         for i, r in enumerate(solution.starts)

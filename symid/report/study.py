@@ -46,7 +46,8 @@ def study_html(result: StudyResult, name: str = "Study") -> str:
     note = (
         f"The same optimum: objectives within {100 * SAME:g} % of the best. Seconds are those of all solves together."
     )
-    parts += [paragraph(note, "note"), figure(plot_study(result), "Every solve; hollow ones did not reach an optimum.")]
+    hollow = "; hollow ones did not reach an optimum" if solved < len(rows) else ""
+    parts += [paragraph(note, "note"), figure(plot_study(result), f"Every solve{hollow}.")]
     parts += [heading("Best parameters"), *_parameters(result, groups), heading("Solves"), _solves(result)]
     parts += [heading("Provenance"), facts(origin()), heading("Please cite"), *map(paragraph, CITATION)]
     return page(name, *parts, footer=written())
@@ -68,7 +69,7 @@ def _problems(result: StudyResult, groups: dict[str, list[str]]) -> str:
                 f"{len(solved)} of {len(rows)}",
                 f"{same} of {len(rows)}",
                 "none" if best is None else rms_text(best.rms, unit),
-                round(sum(r.seconds for r in rows), 1),
+                f"{sum(r.seconds for r in rows):.1f}",
             ]
         )
     return table(["problem", "solved", "at the same optimum", "RMS error of the best", "seconds"], cells)
@@ -96,7 +97,7 @@ def _parameters(result: StudyResult, groups: dict[str, list[str]]) -> list[str]:
 def _solves(result: StudyResult) -> str:
     marked = [not r.solved for r in result.rows.values()]
     rows = [
-        [name, r.kind, in_words(r.status, r.solved), r.iterations, round(r.seconds, 2)]
+        [name, r.kind, in_words(r.status, r.solved), r.iterations, f"{r.seconds:.2f}"]
         + ([r.message if not r.solved else ""] if any(marked) else [])
         for name, r in result.rows.items()
     ]
