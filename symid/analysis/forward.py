@@ -73,7 +73,7 @@ def forward_rms(
                 raise ModelError(f"forward simulation of '{model.name}' needs the {kind} '{name}'; found {list(given)}")
     kernel = kernel_of(model, step_program)
     fine = drive.resampled(step)
-    parts = np.array_split(np.arange(len(states)), threads)
+    parts = np.array_split(np.arange(len(states)), min(threads, len(states)))
     with ThreadPoolExecutor(threads) as pool:
         runs = pool.map(lambda part: _run(model, kernel, states[part], values, fine, limit, step), parts)
         return np.concatenate(list(runs))

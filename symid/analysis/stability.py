@@ -20,6 +20,8 @@ from symid.units import FloatArray
 
 RMS_OVER_STD = 3.0
 """A forward simulation counts as stable up to this many standard deviations of the recorded outputs."""
+MOST_POINTS = 1_000_000
+"""Grid points, and steps of a forward simulation: beyond, an answer takes gigabytes and hours."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +128,6 @@ def stability(
     checked.kind(solution, Solution, "stability", ModelError)
     recordings = solution.problem.recordings
     which = checked.whole(which, "stability: which", ModelError, most=len(recordings) - 1)
-    held_out = held_out if held_out is None else checked.window(held_out, "stability: held_out", ModelError)
     recording = recordings[which]
     options.setdefault("window", solution.problem.windows[which] or recording.interval)
     return stability_of(solution.model, solution.values, recording, held_out=held_out, **options)
@@ -162,7 +163,7 @@ def stability_of(
     Raises
     ------
     ModelError, RecordingError
-        If a parameter has no value or a channel is missing.
+        If a parameter has no value, a channel is missing, or a window holds no samples of the recording.
 
     Examples
     --------
@@ -171,6 +172,9 @@ def stability_of(
     100.0
     """
     chosen = tuple(name for name, s in model.states.items() if s.role != "memory")
+    most = max(2, int(MOST_POINTS ** (1 / max(len(chosen), 1))))
+    per_state = checked.whole(per_state, "stability: per_state", ModelError, least=1, most=most)
+    threads = checked.whole(threads, "stability: threads", ModelError, least=1)
     rows = recording_rows(recording, window)
     recorded = np.stack([recording[_channel(model, name, recording)][rows] for name in chosen], axis=1)
     outputs = {name: recording[o.channel] for name, o in model.outputs.items()}
@@ -180,9 +184,13 @@ def stability_of(
     limit = RMS_OVER_STD * float(np.mean([v[rows].std() for v in outputs.values()]))
     if held_out is None:
         return Stability(chosen, points, per_state, rates, None, limit)
-    within = np.flatnonzero((recording.time >= held_out[0] - 1e-9) & (recording.time <= held_out[1] + 1e-9))
+    within = recording_rows(recording, held_out, to_end=True)
+    time = recording.time[within]
+    least = (time[-1] - time[0]) / MOST_POINTS
+    if checked.number(step, "stability: step", ModelError, least=least) > time[-1] - time[0]:
+        raise ModelError(f"stability: step={step:g} s is longer than held_out, {held_out} s")
     drive = Drive(
-        recording.time[within],
+        time,
         {k: recording[u.channel][within] for k, u in model.inputs.items()},
         {k: v[within] for k, v in outputs.items()},
     )
@@ -190,9 +198,11 @@ def stability_of(
     return Stability(chosen, points, per_state, rates, rms, limit)
 
 
-def recording_rows(recording: Recording, window: tuple[float, float]) -> np.ndarray:
-    """Rows from the start of `window` up to, but without, its end."""
-    rows = np.flatnonzero((recording.time >= window[0] - 1e-9) & (recording.time < window[1] - 1e-9))
+def recording_rows(recording: Recording, window: tuple[float, float], to_end: bool = False) -> np.ndarray:
+    """Rows from the start of `window` up to its end, without it unless `to_end`."""
+    window = checked.window(window, "stability: held_out" if to_end else "stability: window", ModelError)
+    end = window[1] + 1e-9 if to_end else window[1] - 1e-9
+    rows = np.flatnonzero((recording.time >= window[0] - 1e-9) & (recording.time < end))
     if len(rows) < 2:
         raise ModelError(
             f"the window {window} s holds {len(rows)} samples of the recording, which lasts from "

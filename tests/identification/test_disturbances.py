@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import symid as si
-from symid.identification.covariance import bound_active, determined
+from symid.identification.covariance import _errors, _told, bound_active, determined
 from symid.identification.disturbances import Disturbances
 from symid.identification.sensitivity import Sensitivity
 
@@ -35,7 +35,8 @@ def problem(recordings, stiff: float | None = 1.0, **more) -> si.Identification:
         m.walk = si.Equation(m.d.dot - m.w)
     else:
         m.d = si.Control(unit="m/s", smooth=stiff * FITTING)
-    m.motion, m.seen = si.Equation(m.x.dot + m.c * m.x - m.u - m.d), si.Output(m.x)
+    m.push = si.Noise(unit="m/s")
+    m.motion, m.seen = si.Equation(m.x.dot + m.c * m.x - m.u - m.d - m.push), si.Output(m.x)
     return si.Identification(m, recordings, **more)
 
 
@@ -87,6 +88,20 @@ def test_what_is_left_is_a_projection_that_keeps_the_solution():
     once = d.left(drawn)
     for x, again in zip(once, d.left(once), strict=True):
         np.testing.assert_allclose(again, x, atol=1e-4 * np.abs(x).max())
+
+
+@pytest.mark.parametrize("count", [1, 2])
+def test_directions_of_the_parameters_are_orthonormal_over_outputs_and_disturbances(count):
+    """Episodes are added, of which a linear model has the same slopes in each."""
+    solution = problem(drift(4, 61), 100.0, episodes=si.Episodes(count, push=0.01)).solve(check=False)
+    t, result = solution.transcription, solution.result
+    white = Sensitivity(t, result.z, result.multipliers, bound_active(t, result)).gauss_newton
+    inverse, _, shared = determined(white)
+    for scale in (1.0, 1e-6):  # of both: in what unit the parameter is
+        d = Disturbances(white, scale * inverse)
+        (told,) = _told(d, _errors(white, shared, np.full((1, 1), NOISE)))
+        gram = np.einsum("kjd,j,kje->de", told.shared, told.weights, told.shared)
+        np.testing.assert_allclose(gram, scale * np.eye(1), rtol=1e-6)
 
 
 @pytest.mark.slow

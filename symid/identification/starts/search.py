@@ -76,8 +76,9 @@ def shared(step: Step) -> Step:
 
 
 def can_search(problem: Identification) -> bool:
-    """Whether `search_start` simulates `problem`: several episodes, no delays, all parameters shared."""
-    return problem.episodes.count > 1 and not problem.model.delays and not problem.per_recording
+    """Whether `search_start` simulates `problem`: several episodes, no delays or controls, all parameters shared."""
+    model = problem.model
+    return problem.episodes.count > 1 and not (model.delays or model.controls or problem.per_recording)
 
 
 @one_blas_thread
