@@ -12,6 +12,10 @@ import numpy as np
 from symid.errors import SymidError
 
 
+LONGEST_NAME, LONGEST_PATH = 255, 4000
+"""Letters of a file's name and of all folders before it that Linux and macOS take (4096 with what follows)."""
+
+
 def shown(value: Any) -> str:
     """The value where it is short, else its kind."""
     text = repr(value) if isinstance(value, (str, int, float, bool, type(None))) else f"a {type(value).__name__}"
@@ -72,6 +76,8 @@ def path(value: Any, what: str, error: type[SymidError]) -> Path:
         raise error(f"{what}: give the path of a file or a directory, not {shown(value)}") from None
     if "\0" in str(found):
         raise error(f"{what}: {shown(str(found))} holds a character that no path has")
+    if any(len(part.encode(errors="replace")) > LONGEST_NAME for part in found.parts) or len(str(found)) > LONGEST_PATH:
+        raise error(f"{what}: {shown(str(found))} is longer than the name of any file")
     return found
 
 
@@ -92,5 +98,6 @@ def nearest(name: str, names: Iterable[str]) -> str:
     """A phrase with the known names most like `name`, for error messages."""
     from difflib import get_close_matches
 
-    close = get_close_matches(str(name), list(names), n=3, cutoff=0.5)
+    names = [str(n) for n in names]
+    close = get_close_matches(str(name), names, n=3, cutoff=0.5)
     return f"did you mean {', '.join(map(repr, close))}?" if close else f"known: {', '.join(names) or 'none'}"

@@ -28,7 +28,8 @@ PARTS = {
     "estimation": ("symid/estimation", "estimation discrepancy/test_audit.py"),
     "covariance": (
         "symid/identification/covariance.py",
-        "identification/test_covariance.py identification/test_determined_effects.py",
+        "identification/test_covariance.py identification/test_determined_effects.py "
+        "identification/test_undetermined.py identification/test_disturbances.py",
     ),
     "codegen": ("symid/codegen", "codegen"),
 }

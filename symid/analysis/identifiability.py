@@ -85,6 +85,7 @@ def identifiability(model: Model, seed: int = 0) -> Identifiability:
     All parameters are determined by the outputs.
     """
     checked.kind(model, Model, "identifiability", ModelError)
+    seed = checked.whole(seed, "identifiability: seed", ModelError)
     model = model.simulated("identifiability")
     names = list(model.parameters)
     if not model.outputs:

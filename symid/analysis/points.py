@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from symid import checked
 from symid.checked import nearest
 from symid.codegen import Kernel, Program, compile_program
 from symid.errors import ModelError
@@ -23,6 +24,7 @@ def grid(low: Sequence[float], high: Sequence[float], per_state: int = 11) -> Fl
 
 def check_values(model: Model, values: Mapping[str, float]) -> None:
     """ModelError if a parameter has no value."""
+    checked.kind(values, Mapping, f"values of the parameters of '{model.name}'", ModelError)
     for name in model.parameters:
         if name not in values:
             raise ModelError(f"model '{model.name}': parameter '{name}' has no value; {nearest(name, values)}")

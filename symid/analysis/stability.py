@@ -171,7 +171,9 @@ def stability_of(
     >>> found.eigenvalue_percent
     100.0
     """
-    chosen = tuple(name for name, s in model.states.items() if s.role != "memory")
+    states = checked.kind(model, Model, "stability", ModelError).states
+    chosen = tuple(name for name, s in states.items() if s.role != "memory")
+    checked.kind(recording, Recording, "stability: recording", ModelError)
     most = max(2, int(MOST_POINTS ** (1 / max(len(chosen), 1))))
     per_state = checked.whole(per_state, "stability: per_state", ModelError, least=1, most=most)
     threads = checked.whole(threads, "stability: threads", ModelError, least=1)

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from symid import checked
 from symid.cases.schema import refuse_violations
 from symid.discrepancy.diagnose import diagnose
 from symid.discrepancy.say.diagnosis import Diagnosis
@@ -84,7 +85,7 @@ def read_case(directory: str | Path) -> Case:
     >>> case.model.name, case.fit_window
     ('double pendulum on a bench', (0.0, 24.0))
     """
-    directory = Path(directory)
+    directory = checked.path(directory, "read_case", DiagnosisError)
     path = directory / "case.json"
     facts = _facts(path)
     try:
@@ -166,6 +167,7 @@ def diagnose_case(case: Case, **options: Any) -> Diagnosis:
     >>> print(si.diagnose_case(si.read_case("data/concealed/cases/r01")))       # doctest: +SKIP
     Joint 2 is held back by a dry friction of 38.01 ± 0.40 µN m whatever its speed. ...
     """
+    checked.kind(case, Case, "diagnose_case", DiagnosisError)
     found = diagnose(
         case.model,
         case.recording,

@@ -36,7 +36,7 @@ def compile_program(program: Program, backend: str = "auto") -> Kernel:
     CodegenError
         If an expression cannot be computed, or the C backend was asked for and cannot be had.
     """
-    if backend not in BACKENDS:
+    if not isinstance(backend, str) or backend not in BACKENDS:
         raise CodegenError(
             f"backend '{backend}' of program '{program.name}' is not known; choose one of {', '.join(BACKENDS)}"
         )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from math import inf
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -105,6 +105,12 @@ def refuse_wrong_options(options: Mapping[str, object]) -> None:
         checked.number(options["time_limit_s"], "time_limit_s", SolveError, least=0.0)
     if options.get("options") is not None:
         checked.kind(options["options"], Mapping, "options of Ipopt", SolveError)
+
+
+def refuse_wrong_executor(executor: Any) -> None:
+    """SolveError at what nothing can be sent to."""
+    if executor is not None and not (hasattr(executor, "submit") or hasattr(executor, "get_executor")):
+        raise SolveError(f"executor={checked.shown(executor)}: give an executor of concurrent.futures, or a Client")
 
 
 def refuse_scheme(scheme) -> None:

@@ -204,6 +204,8 @@ class Cluster(Executor):
         self._own_client = None
         if isinstance(client, str):
             client = self._own_client = _connected(client, timeout_s)
+        if not hasattr(client, "get_executor"):
+            raise SolveError(f"cluster: give the address of a scheduler or a Client of it, not {checked.shown(client)}")
         self._client, self._executor = client, client.get_executor(pure=False)
 
     def submit(self, function: Callable[..., Any], /, *arguments: Any) -> Future[Any]:  # type: ignore[override]

@@ -14,7 +14,13 @@ import numpy as np
 
 from symid import checked
 from symid.errors import RecordingWarning, SolveError, TranscriptionError
-from symid.identification.arguments import Recordings, refuse_wrong_options, refuse_wrong_types, shared_samples
+from symid.identification.arguments import (
+    Recordings,
+    refuse_wrong_executor,
+    refuse_wrong_options,
+    refuse_wrong_types,
+    shared_samples,
+)
 from symid.identification.identity import problem_identity
 from symid.identification.marginal import to_marginal
 from symid.identification.process_size import to_sized, unsized
@@ -265,8 +271,7 @@ class Identification:
         refuse_wrong_options(solver)
         seed = checked.whole(seed, "seed", SolveError)
         checked.flag(check, "check", SolveError)
-        if executor is not None and not (hasattr(executor, "submit") or hasattr(executor, "get_executor")):
-            raise SolveError(f"executor={checked.shown(executor)}: give an executor of concurrent.futures, or a Client")
+        refuse_wrong_executor(executor)
         self.transcription  # noqa: B018 - a problem that cannot be transcribed is refused before any start
         for remark in self.remarks if check else ():
             warnings.warn(remark, RecordingWarning, stacklevel=2)

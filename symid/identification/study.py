@@ -15,6 +15,7 @@ import numpy as np
 from symid import checked
 from symid.deadline import start_limit
 from symid.errors import SolveError
+from symid.identification.arguments import refuse_wrong_executor, refuse_wrong_options
 from symid.identification.dispatch import in_turn, on_executor
 from symid.identification.identity import digest
 from symid.identification.pool import Cluster, LocalPool
@@ -59,6 +60,11 @@ class Solve:
     together: str = ""
 
     def __post_init__(self) -> None:
+        checked.whole(self.number, "number of the start", SolveError)
+        checked.whole(self.seed, "seed", SolveError)
+        for what in ("options", "labels"):
+            checked.kind(getattr(self, what), Mapping, what, SolveError)
+        refuse_wrong_options(self.options)
         if isinstance(self.start, Solution):  # what a worker needs of it is the free vector alone
             object.__setattr__(self, "start", self.problem.start(self.start))
 
@@ -139,7 +145,9 @@ class Study:
     """
 
     def __init__(self, solves: Mapping[str, Solve], store: str | Path | None = None):
-        self.solves = dict(solves)
+        self.solves = dict(checked.kind(solves, Mapping, "study: solves", SolveError))
+        for name, solve in self.solves.items():
+            checked.kind(solve, Solve, f"study: solve {checked.shown(name)}", SolveError)
         if not self.solves:
             raise SolveError("a study needs at least one solve")
         self._store: Store = (
@@ -213,6 +221,7 @@ class Study:
         SolveError
             A result cannot be written, or worker processes cannot start. What was finished is kept.
         """
+        refuse_wrong_executor(executor)
         if executor is not None and not isinstance(executor, Executor) and hasattr(executor, "get_executor"):
             executor = Cluster(executor)
         with LocalPool(jobs) if executor is None else nullcontext(executor) as chosen:
@@ -254,6 +263,8 @@ class Study:
     def _collect(
         self, outcomes: Iterator[tuple[str, StartRow]], on_finished: Callable[[Finished], None] | None
     ) -> StudyResult:
+        if on_finished is not None and not callable(on_finished):
+            raise SolveError(f"on_finished: give a function of what has finished, not {checked.shown(on_finished)}")
         rows = {}
         for name, row in outcomes:
             rows[name] = row

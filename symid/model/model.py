@@ -65,6 +65,7 @@ class Model(Kinds, Derived):
 
     def __init__(self, name: str, description: str = ""):
         checked.kind(name, str, "the name of a Model", ModelError)
+        checked.kind(description, str, "the description of a Model", ModelError)
         fields = {"name": name, "description": description, "components": {}, "groups": {}, "delays": {}, "terms": ()}
         self.__dict__.update(fields)
 

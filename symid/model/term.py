@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from math import inf
 from types import SimpleNamespace
 
+from symid import checked
 from symid.errors import ModelError
 from symid.model.declare import Bounds, Parameter
 from symid.model.model import Model
@@ -107,6 +108,10 @@ class Term:
 
     law: Law
     location: str
+
+    def __post_init__(self) -> None:
+        checked.kind(self.law, Law, "the law of a Term", ModelError)
+        checked.kind(self.location, str, "the place of a Term", ModelError)
 
     @property
     def name(self) -> str:

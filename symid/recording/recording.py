@@ -87,7 +87,7 @@ class Recording:
 
     def __getitem__(self, name: str) -> FloatArray:
         """One channel, shape(N,), in its SI unit; read-only."""
-        if name not in self.channels:
+        if checked.kind(name, str, f"{self.name}: the name of a channel", RecordingError) not in self.channels:
             raise RecordingError(f"{self.name}: {no_channel(self, name)}")
         return self.channels[name]
 

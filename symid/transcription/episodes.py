@@ -75,7 +75,7 @@ class Episodes:
         checked.whole(count, "episodes: the count", TranscriptionError, least=1, most=MOST_EPISODES)
         checked.whole(seed, "episodes: the seed", TranscriptionError)
         checked.flag(shared_initial_state, "episodes: shared_initial_state", TranscriptionError)
-        if distribution not in DISTRIBUTIONS:
+        if not isinstance(distribution, str) or distribution not in DISTRIBUTIONS:
             raise TranscriptionError(f"episodes: no distribution '{distribution}'; known: {', '.join(DISTRIBUTIONS)}")
         for word, value in {"amplitude": amplitude, **by_word}.items():
             checked.number(value, f"episodes: {word}", TranscriptionError)

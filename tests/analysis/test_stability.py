@@ -222,6 +222,26 @@ def test_what_is_missing_is_named():
         stability_of(model, GAINS, recording(), window=(10, 20))
 
 
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"held_out": (-2.0, -1.0)}, r"window \(-2.0, -1.0\) s holds 0 samples"),
+        ({"held_out": (1.0, 1.001)}, "holds 1 samples"),
+        ({"window": 3}, "stability: window=3: give a start and a later end"),
+        ({"step": 0.0}, "stability: step=0.0: give a number of at least"),
+        ({"step": 1e-9}, "stability: step=1e-09: give a number of at least"),
+        ({"step": 9.0}, r"step=9 s is longer than held_out, \(0.0, 1.0\) s"),
+        ({"per_state": 40}, "per_state=40: give a whole number of at least 1, 31 at most"),
+        ({"per_state": -1}, "per_state=-1: give a whole number of at least 1"),
+        ({"threads": 0}, "threads=0: give a whole number of at least 1"),
+    ],
+)
+def test_windows_steps_and_counts_are_checked(given, said):
+    arguments = {"window": (0.0, 4.0), "held_out": (0.0, 1.0), "per_state": 1} | given
+    with pytest.raises(ModelError, match=said):
+        stability_of(BODY.with_feedback(PD()), GAINS, recording(), **arguments)
+
+
 def test_a_model_that_is_not_linear_in_its_rates_is_refused():
     m = si.Model("odd")
     m.x = si.State(unit="1")

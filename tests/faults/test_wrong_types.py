@@ -189,6 +189,45 @@ def test_arguments_of_a_wrong_type_are_refused(call, words):
         call()
 
 
+FRAME, SOLVE = pd.DataFrame(), si.Solve(si.Identification(pendulum(), RECORDING))
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda: si.identifiability(pendulum(), seed="x"), "identifiability: seed='x': give a number"),
+        (lambda: si.suspects(3), "suspects: give a Model, not 3"),
+        (lambda: si.suspects(pendulum(), FRAME), "suspects: sizes: give a Sizes, not a DataFrame"),
+        (lambda: si.Optimization(cart(), duration=1, backend=FRAME).solve(), "choose one of"),
+        (lambda: si.Episodes(2, push=1.0, distribution=FRAME), "no distribution"),
+        (lambda: si.stability_of(3, {}, RECORDING, window=(0, 1)), "stability: give a Model, not 3"),
+        (lambda: si.stability_of(pendulum(), {}, 3, window=(0, 1)), "stability: recording: give a Recording"),
+        (lambda: si.stability_of(pendulum(), 3, RECORDING, window=(0, 1), per_state=1), "give a Mapping, not 3"),
+        (lambda: si.stability_of(pendulum(), {1: 2}, RECORDING, window=(0, 1), per_state=1), "known: 1"),
+        (lambda: si.Study({"a": SOLVE}).run(3), "executor=3: give an executor"),
+        (lambda: si.Study({"a": SOLVE}).run_here(on_finished=3), "on_finished: give a function"),
+        (lambda: si.Study(3), "study: solves: give a Mapping, not 3"),
+        (lambda: si.Study({"a": 3}), "study: solve 'a': give a Solve, not 3"),
+        (lambda: si.Solve(SOLVE.problem, "random", seed=-1), "seed=-1: give a whole number"),
+        (lambda: si.Solve(SOLVE.problem, "random", number=None), "number of the start=None: give a number"),
+        (lambda: si.Solve(SOLVE.problem, options=3), "options: give a Mapping, not 3"),
+        (lambda: si.Solve(SOLVE.problem, options={1: 2}), "solve has no option .1."),
+        (lambda: SOLVE.problem.start(FRAME), "start=a DataFrame: give 'default'"),
+        (lambda: si.Term(3, "joint1"), "the law of a Term: give a Law, not 3"),
+        (lambda: si.read_case(None), "read_case: give the path of a file or a directory, not None"),
+        (lambda: si.read_case("9" * 500), "read_case: '9.* is longer than the name of any file"),
+        (lambda: si.read_recording("a/" * 3000 + "r.csv"), "is longer than the name of any file"),
+        (lambda: si.diagnose_case(None), "diagnose_case: give a Case, not None"),
+        (lambda: si.Model("cart", 3), "the description of a Model: give a str, not 3"),
+        (lambda: si.Cluster(3), "cluster: give the address of a scheduler or a Client of it, not 3"),
+        (lambda: RECORDING[FRAME], "pendulum: the name of a channel: give a str, not a DataFrame"),
+    ],
+)
+def test_the_doors_of_the_other_calls_refuse_wrong_types(call, words):
+    with pytest.raises(SymidError, match=words):
+        call()
+
+
 @pytest.mark.parametrize("value", ["no", 0, None, np.zeros(2), pd.DataFrame()])
 def test_what_is_neither_true_nor_false_is_refused(value):
     """Python takes the text "no" for yes."""

@@ -9,6 +9,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from symid import checked
 from symid.discrepancy.model.sizes import Sizes
 from symid.errors import ModelError
 from symid.estimation.signals.data import Data
@@ -183,9 +184,10 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     True
     """
     found: dict[Any, Any] = {}
-    model = with_places(model)
+    sizes = checked.kind(Sizes() if sizes is None else sizes, Sizes, "suspects: sizes", ModelError)
+    model = with_places(checked.kind(model, Model, "suspects", ModelError))
     for term in terms_of(model):
-        term = replace(term, law=_sized(term.law, (sizes or Sizes()).at(term.location)))
+        term = replace(term, law=_sized(term.law, sizes.at(term.location)))
         equations = _equations(model, term)
         if equations is not None:
             found.setdefault(equations, Suspect(term, term.name in ESTABLISHED))

@@ -156,7 +156,7 @@ def given_start(t: Transcription, given: dict[str, float] | Solution) -> np.ndar
     A parameter that is not given starts at its guess; a Solution may be of a smaller model, of
     fewer episodes or of a shorter window: what it lacks is taken from the recording.
     """
-    if not isinstance(given, dict) and not hasattr(given, "values"):
+    if not isinstance(given, dict) and not isinstance(getattr(given, "values", None), dict):
         raise SolveError(
             f"start={checked.shown(given)}: give 'default', 'random', parameter values by name, or a Solution"
         )
