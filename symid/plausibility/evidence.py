@@ -63,7 +63,7 @@ class Witness:
         first = self._first()[0]
         with np.errstate(all="ignore"):
             given, recorded = self.equations.given(change, first)
-            p, _ = self._fitted(np.eye(len(recorded)), given, first)
+            p = self._fitted(np.eye(len(recorded)), given, first)[0]
         return (p / self.upper)[(self.lower >= 0) & np.isfinite(self.upper) & (self.upper > 0)]
 
     def _least(self, measure, change: Change) -> float:
@@ -78,9 +78,9 @@ class Witness:
                 found.append(measure(given, recorded, *ends[-1]))
             if not any(v <= NOTHING for v in found):
                 for p in self._other(given):
-                    end, errors = self._fitted(np.eye(len(recorded)), given, p)
-                    if not np.allclose(end, ends[0][0], rtol=SAME, atol=0.0):
-                        found.append(measure(given, recorded, end, errors))
+                    end = self._fitted(np.eye(len(recorded)), given, p)
+                    if not np.allclose(end[0], ends[0][0], rtol=SAME, atol=0.0):
+                        found.append(measure(given, recorded, *end))
         return min((float(v) for v in found if np.isfinite(v)), default=np.inf)
 
     def _first(self) -> list[FloatArray]:
@@ -121,11 +121,13 @@ class Witness:
         first, other = (np.abs(x).max(axis=(0, 1), initial=0.0) for x in self.equations.few("slopes", self._first()[0]))
         return bool(np.sum((first == 0) & (other > 0)) > BLIND * first.size)
 
-    def _share(self, given, recorded: FloatArray, p: FloatArray, errors: FloatArray) -> float:
+    def _share(self, given, recorded: FloatArray, p: FloatArray, errors: FloatArray, slopes) -> float:
         return float(np.mean(errors**2))
 
-    def _determinant(self, given, recorded: FloatArray, p: FloatArray, errors: FloatArray) -> float:
-        """p, errors : fitted with all errors alike."""
+    def _determinant(
+        self, given, recorded: FloatArray, p: FloatArray, errors: FloatArray, slopes: FloatArray | None
+    ) -> float:
+        """p, errors, slopes : fitted with all errors alike; see `_fitted`."""
         least = np.inf
         for _ in range(WEIGHTINGS):
             before, left = least, covariance(errors)
@@ -134,32 +136,41 @@ class Witness:
             least = min(least, float(np.exp(np.diff(np.linalg.slogdet([recorded, left])[1])[0] / len(left))))
             if not least < (1 - SETTLED) * before:
                 break
-            p, errors = self._fitted(np.linalg.inv(np.linalg.cholesky(left)), given, p)
+            white = np.linalg.inv(np.linalg.cholesky(left))
+            if slopes is None:
+                p, errors, slopes = self._fitted(white, given, p)
+            else:  # no kernel needs to be asked again
+                step = self._step(white, errors, slopes, p)
+                p, errors = p + step, errors + slopes @ step
         return least
 
-    def _fitted(self, white: FloatArray, given, p: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Parameters by Gauss-Newton steps, least squares of the errors times `white`; and these errors."""
+    def _fitted(self, white: FloatArray, given, p: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray | None]:
+        """Parameters by Gauss-Newton steps, least squares of the errors times `white`; these errors; and their slopes
+        by the parameters where the first step was the last, since the errors are linear in them."""
         errors = None
         for _ in range(STEPS[self.equations.steady] if p.size else 0):
             errors, slopes = self.equations.linearised(given, p)
-            left, slopes = (errors @ white.T).ravel(), (white @ slopes).reshape(errors.size, -1)
-            step = _step(slopes, left, self.lower - p, self.upper - p)
+            left, step = errors @ white.T, self._step(white, errors, slopes, p)
             for part in SHORTER:
                 new = np.clip(p + part * step, self.lower, self.upper)
                 there = self.equations.errors(given, new)
-                later = (there @ white.T).ravel()
+                later = there @ white.T
                 if np.sum(later**2) < (1 - 1e-3) * np.sum(left**2):
                     break
             else:
                 break
-            gone = np.sum((later - left - slopes @ (new - p)) ** 2) < 1e-6 * np.sum(later**2)
+            bent = (there - errors - slopes @ (new - p)) @ white.T
             p, errors = new, there
-            if part == 1.0 and gone:
-                break  # gains enter linearly: the first step was the last
-        return p, self.equations.errors(given, p) if errors is None else errors
+            if part == 1.0 and np.sum(bent**2) < 1e-6 * np.sum(later**2):
+                return p, errors, slopes
+        return p, self.equations.errors(given, p) if errors is None else errors, None
+
+    def _step(self, white: FloatArray, errors: FloatArray, slopes: FloatArray, p: FloatArray) -> FloatArray:
+        weighed = (white @ slopes).reshape(errors.size, -1)
+        return _bounded_step(weighed, (errors @ white.T).ravel(), self.lower - p, self.upper - p)
 
 
-def _step(slopes: FloatArray, left: FloatArray, lower: FloatArray, upper: FloatArray) -> FloatArray:
+def _bounded_step(slopes: FloatArray, left: FloatArray, lower: FloatArray, upper: FloatArray) -> FloatArray:
     """Bounded least-squares step of the parameters, from the normal equations in scaled columns."""
     scale = np.linalg.norm(slopes, axis=0)
     scale = np.where(scale > 0, scale, 1.0)
