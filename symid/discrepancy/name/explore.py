@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -31,12 +31,18 @@ MOMENTS = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """Where the fit of a suspect begins: at `values`, all else as fitted, or with all else from nothing (`afresh`)."""
+    """Where the fit of a suspect begins: at `values`, all else as fitted, or with all else from nothing (`afresh`).
+
+    Attributes
+    ----------
+    begun : what a few iterations from there lead to, once they were made.
+    """
 
     forecast: float
     suspect: Suspect
     values: dict[str, float]
     afresh: bool = False
+    begun: list[Hypothesis | None] = field(default_factory=list)
 
 
 def explore(
@@ -47,17 +53,22 @@ def explore(
     later: bool = False,
     least: float = 0.0,
     projection: Projection | None = None,
+    known: dict[Suspect, list[Start]] | None = None,
     progress: Callable[[str], None] = lambda text: None,
 ) -> list[Hypothesis]:
     """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found.
 
     least : log-likelihood ratio below which a suspect is of no use; those that promise too little of it are not fitted.
+    known : starts of suspects that were explored on top of this fit before; those of others are added.
     """
     projection = projection or Projection(fit, data)
     refitted, converged = (
         (POLICY.refitted_later, POLICY.converged_later) if later else (POLICY.refitted, POLICY.converged)
     )
-    starts = [s for s in in_threads(lambda s: _starts(fit, data, projection, s), suspects) if s]
+    known = {} if known is None else known
+    new = [s for s in suspects if s not in known]
+    known |= zip(new, in_threads(lambda s: _starts(fit, data, projection, s), new), strict=True)
+    starts = [known[s] for s in suspects if known[s]]
     reach = _reaches(starts)
     starts.sort(key=lambda s: -reach[s[0].suspect])
     promising = [s for s in starts if reach[s[0].suspect] > POLICY.worth_refitting]
@@ -204,6 +215,13 @@ def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothes
     return Hypothesis((suspect,), new, fit, data, start.forecast)
 
 
+def _begun(fit: Fit, data: Data, start: Start) -> Hypothesis | None:
+    """A few iterations from there, made once: convergence is sought from the same starts."""
+    if not start.begun:
+        start.begun.append(_refit(fit, data, start, FIRST_ITERATIONS))
+    return start.begun[0]
+
+
 def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
     """A few iterations from the best start, and from the others where it does not keep its promise.
 
@@ -212,7 +230,7 @@ def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
     best, least = None, 2 if starts[0].suspect.bypasses else 1
     others = [s for s in starts[1:] if not s.afresh] or starts[1:]
     for tried, start in enumerate([*starts[:1], *others], 1):
-        new = _refit(fit, data, start, FIRST_ITERATIONS)
+        new = _begun(fit, data, start)
         if new is not None and (best is None or new.log_ratio > best.log_ratio):
             best = new
         if best is not None and best.log_ratio > KEPT * start.forecast and tried >= least:
@@ -224,7 +242,7 @@ def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start]) -> H
     """The candidate fitted to convergence, or what another start leads to if that is better."""
     found = [_continued(fit, data, first)]
     for start in others:
-        other = _refit(fit, data, start, FIRST_ITERATIONS)
+        other = _begun(fit, data, start)
         if other is not None and other.log_ratio > found[0].log_ratio + 1.0:
             found.append(_continued(fit, data, other))
     best = max(found, key=lambda c: c.log_ratio)

@@ -12,7 +12,7 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import Test, remainder
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
-from symid.discrepancy.name.explore import by_score, explore
+from symid.discrepancy.name.explore import Start, by_score, explore
 from symid.discrepancy.name.held import held
 from symid.discrepancy.name.jump import with_fitted_jumps
 from symid.discrepancy.policy import POLICY
@@ -47,6 +47,7 @@ class Search:
     unstated: Sequence[str] = ()
     progress: Callable[[str], None] = lambda text: None
     left: dict[int, list[Test]] = field(default_factory=dict)
+    starts: dict[Suspect, list[Start]] = field(default_factory=dict)
     tried: list[Hypothesis] = field(default_factory=list)
     clocks: list[Hypothesis] = field(default_factory=list)
 
@@ -58,11 +59,13 @@ class Search:
     @cached_property
     def states_alone(self) -> list[Hypothesis]:
         """Each suspect that follows no clock, alone."""
-        return self.alone([s for s in self.pool if s.kind != "clock"])
+        found = self.alone([s for s in self.pool if s.kind != "clock"])
+        self.starts.clear()  # nothing asks for them again, and they hold many fits
+        return found
 
     def alone(self, suspects: Sequence[Suspect]) -> list[Hypothesis]:
         """Each of these suspects alone, best first."""
-        return self._explored(Hypothesis((), self.base, self.base, self.data), suspects)
+        return self._explored(Hypothesis((), self.base, self.base, self.data), suspects, known=self.starts)
 
     @cached_property
     def single(self) -> list[Hypothesis]:
@@ -224,7 +227,13 @@ class Search:
         tried = in_threads(lambda s: hypothesis(s[0], near.fit, self.base, self.data, s[1]), sets)
         return [h for h in tried if h is not None]
 
-    def _explored(self, best: Hypothesis, pool: Sequence[Suspect], least: float = 0.0) -> list[Hypothesis]:
+    def _explored(
+        self,
+        best: Hypothesis,
+        pool: Sequence[Suspect],
+        least: float = 0.0,
+        known: dict[Suspect, list[Start]] | None = None,
+    ) -> list[Hypothesis]:
         found = explore(
             best.fit,
             self.data,
@@ -233,6 +242,7 @@ class Search:
             least=least,
             progress=self.progress,
             projection=None if best.suspects else self.projection,
+            known=known,
         )
         return [Hypothesis((*best.suspects, h.suspect), h.fit, self.base, self.data, h.forecast) for h in found]
 
