@@ -43,7 +43,7 @@ class LivePlot:
 
     def figure(self) -> Picture:
         """What has happened so far; earlier starts are pale."""
-        figure = Picture(figsize=(8, 2.6), layout="constrained")
+        figure = Picture(figsize=(8, 2.8), layout="constrained")
         left, right = figure.subplots(1, 2)
         starts = self._starts()
         for start in starts:
@@ -62,8 +62,11 @@ class LivePlot:
         left.set(xlabel="iteration", ylabel="objective")
         left.set_title(f"{which}objective {self.iterations[-1].objective:.6g}", loc="left", fontsize=10)
         right.set(xlabel="iteration", ylabel="largest, scaled")
-        right.legend(frameon=False, fontsize=8.5, ncols=2, loc="lower left", bbox_to_anchor=(0, 1), borderaxespad=0.1)
         opened(left, right)
+        names = right.get_legend_handles_labels()
+        figure.legend(
+            *names, frameon=False, fontsize=8.5, ncols=2, loc="outside lower right"
+        )  # the title is above
         return figure
 
     def _starts(self) -> list[list[Iteration]]:

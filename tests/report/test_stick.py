@@ -9,6 +9,7 @@ from PIL import Image
 
 import symid as si
 from symid.mechanics import Chain, FullStatePD, rig_model, skeleton
+from symid.plots.style import NOTEBOOK
 from symid.plots import animate, plot_poses
 from symid.plots.live import LivePlot
 from symid.report import report_html
@@ -114,3 +115,8 @@ def test_starts_are_drawn_apart_while_they_are_solved():
     assert len(left.lines) == 2 and len(right.lines) == 4
     assert all((np.diff(line.get_xdata()) > 0).all() for line in (*left.lines, *right.lines))
     assert left.get_title(loc="left").startswith("start 2: objective")
+    figure = left.figure
+    figure.set_size_inches(NOTEBOOK, figure.get_figheight())
+    figure.draw_without_rendering()
+    title, (legend,) = left._left_title.get_window_extent(), [one.get_window_extent() for one in figure.legends]
+    assert not title.overlaps(legend) and 0 <= legend.x0 < legend.x1 <= figure.bbox.x1 and title.x1 <= figure.bbox.x1
