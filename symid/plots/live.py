@@ -64,9 +64,7 @@ class LivePlot:
         right.set(xlabel="iteration", ylabel="largest, scaled")
         opened(left, right)
         names = right.get_legend_handles_labels()
-        figure.legend(
-            *names, frameon=False, fontsize=8.5, ncols=2, loc="outside lower right"
-        )  # the title is above
+        figure.legend(*names, frameon=False, fontsize=8.5, ncols=2, loc="outside lower right")  # the title is above
         return figure
 
     def _starts(self) -> list[list[Iteration]]:

@@ -18,7 +18,7 @@ from symid.plots import plot_before_after, plot_latent, plot_rest, plot_scores, 
 from symid.report.experiment import experiment
 from symid.report.origin import CITATION, origin, written
 from symid.report.page import equations, facts, figure, folded, heading, page, paragraph, table
-from symid.units import quantity, typeset, without_unit
+from symid.units import quantity, rough, typeset, without_unit
 
 VERDICTS = {"missing_physics": "Missing physics", "adequate": "Adequate", "unexplained": "Unexplained"}
 MEANING = {
@@ -231,7 +231,7 @@ def _remainder(d: Diagnosis) -> list[str]:
     return [
         paragraph(
             f"{'After the finding something' if d.named else 'Something'} systematic is left: a test below reaches "
-            f"what chance would make once in more than {10**POLICY.remainder:,.0f} recordings."
+            f"what chance would make once in more than {float(rough(10**POLICY.remainder, 1)):,.0f} recordings."
             if systematic
             else "Nothing beyond what chance makes is left; these tests came nearest to it.",
             "note",
@@ -247,17 +247,19 @@ def _odds(minus_log10_p: float) -> str:
 
 
 def _parameters(d: Diagnosis) -> list[str]:
-    """Of the model and of what was found; those of splines, which nobody reads, are folded away."""
-    splines = [name for name in d.values if name.startswith(FLEXIBLE)]
-    told = _values(d, [name for name in d.values if name not in splines])
-    if not splines:
+    """Of the model and of what was found; coefficients of a curve without a formula, which nobody reads, are folded."""
+    curves = [t for t in d.improved.terms if t.name.startswith((FLEXIBLE, "unknown"))]
+    coefficients = [t.parameter_name(q.key) for t in curves for q in t.law.parameters]
+    told = _values(d, [name for name in d.values if name not in coefficients])
+    if not coefficients:
         return [told]
     note = (
         "The improved model holds a flexible law beside what is named above, and it takes over a part of that: the "
         "values here are those beside it."
     )
-    folds = folded(f"{len(splines)} coefficients of the flexible law", _values(d, splines))
-    return [paragraph(note, "note"), told, folds]
+    beside = [paragraph(note, "note")] if any(t.name == FLEXIBLE for t in curves) else []
+    folds = folded(f"{len(coefficients)} coefficients of what has no formula", _values(d, coefficients))
+    return [*beside, told, folds]
 
 
 def _values(d: Diagnosis, names: list[str]) -> str:
@@ -273,7 +275,10 @@ def _values(d: Diagnosis, names: list[str]) -> str:
         part, before = d.improved.parameters[name], d.baseline.values.get(name)
         value, error = found.get(name, (float(d.values[name]), float(d.final.errors.get(name, float("nan")))))
         given = "" if before is None else quantity(float(before), unit=part.unit, digits=4)
-        rows.append([(name, own.get(name, part.meaning)), given, quantity(value, error, part.unit, digits=4)])
+        bound = " at its bound" if value in part.bounds else ""
+        told = quantity(value, error, part.unit, digits=4) + bound
+        rows.append([(name, own.get(name, part.meaning)), given, told])
+    errors = " ± standard error" if any("±" in told for *_, told in rows) else ""
     if not d.named:
-        return table(["parameter", "value ± standard error"], [[name, value] for name, _, value in rows])
-    return table(["parameter", "model as given", "improved ± standard error"], rows)
+        return table(["parameter", f"value{errors}"], [[name, value] for name, _, value in rows])
+    return table(["parameter", "model as given", f"improved{errors}"], rows)

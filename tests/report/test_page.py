@@ -1,14 +1,18 @@
 """Parts of a page: tables, numbers, equations."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-from conftest import pendulum, pendulum_recording
+from conftest import ROOT, pendulum, pendulum_recording
 
 import symid as si
-from symid.units import without_unit
+from symid.mechanics.unknown_laws import unknown_sensor
 from symid.model import show
 from symid.plots.style import banded, bridged
 from symid.report import page, report_html
+from symid.report.diagnosis import _parameters
+from symid.units import without_unit
 
 
 def test_words_in_equations_are_no_products_of_letters():
@@ -76,6 +80,22 @@ def test_dense_frequencies_are_drawn_by_their_means():
 )
 def test_a_parameter_is_called_without_its_unit(key, said):
     assert without_unit(key) == said
+
+
+def test_coefficients_without_a_formula_are_folded_and_a_bound_is_named():
+    body = si.mechanics.DoubleLinkPendulum.from_json(ROOT / "data" / "standing_synthetic" / "body.json")
+    model = body.with_feedback(si.mechanics.PD()).with_term(
+        unknown_sensor({"sensor:ankle": 1.0}, (0, 10)).at("sensor:ankle")
+    )
+    values = dict.fromkeys(model.parameters, 0.01) | {"kp_ankle": 0.0}
+    found = SimpleNamespace(
+        improved=model, values=values, baseline=SimpleNamespace(values={}), final=SimpleNamespace(errors={}), named=()
+    )
+    table, fold = _parameters(found)
+    assert (
+        "unknown_" not in str(table) and "0 N m/rad at its bound" in str(table) and "standard error" not in str(table)
+    )
+    assert "<details>" in str(fold) and str(fold).count("<small>unknown sensor error, the sensor of the ankle: c") > 5
 
 
 def test_a_gap_is_no_noise_at_high_frequencies():
