@@ -80,8 +80,8 @@ class Stability:
         ModelError : there is no such state, or no forward simulations were made.
         """
         for name in (first, second):
-            if name not in self.states:
-                raise ModelError(f"the stability map has no state '{name}'; it has {', '.join(self.states)}")
+            self._place(name)
+        checked.choice(test, ("eigenvalue", "forward"), "stability map: test", ModelError)
         if test == "forward" and self.rms is None:
             raise ModelError("no forward simulations were made: ask for them with held_out=(start, end)")
         stable = np.asarray(self.growth <= 0 if self.rms is None or test == "eigenvalue" else self.rms <= self.limit)
@@ -93,7 +93,12 @@ class Stability:
 
     def axis(self, state: str) -> FloatArray:
         """(per_state,) the values of one state."""
-        return np.unique(self.points[:, self.states.index(state)])
+        return np.unique(self.points[:, self._place(state)])
+
+    def _place(self, state: str) -> int:
+        if not isinstance(state, str) or state not in self.states:
+            raise ModelError(f"the stability map has no state {checked.shown(state)}; it has {', '.join(self.states)}")
+        return self.states.index(state)
 
     def __repr__(self) -> str:
         forward = "" if self.rms is None else f", {self.forward_percent:.2f} % by forward simulation"

@@ -181,7 +181,8 @@ class Study:
         SolveError : a label has not as many words as `labels`.
         """
         solves: dict[str, Solve] = {}
-        for label, problem in problems.items():
+        checked.kind(labels, (tuple, list), "study: labels", SolveError)
+        for label, problem in checked.kind(problems, Mapping, "study: problems", SolveError).items():
             words = label if isinstance(label, tuple) else (label,)
             if len(words) != len(labels):
                 raise SolveError(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sm
 
+from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.lagrange import Surroundings, chain_residuals
 from symid.mechanics.link import ChainLink, subscripts
@@ -62,10 +63,17 @@ class Chain:
     name: str = ""
 
     def __post_init__(self) -> None:
+        for part in checked.kind(self.links, (tuple, list), "chain: links", ModelError):
+            checked.kind(part, ChainLink, "chain: links", ModelError)
+            checked.kind(part.name, str, "chain: the name of a link", ModelError)
+        for name in (*checked.kind(self.joints, (tuple, list), "chain: joints", ModelError), self.base_channel):
+            checked.kind(name, str, "chain: a joint or base_channel", ModelError)
+        for bound in ("angle_bound", "velocity_bound"):
+            checked.number(getattr(self, bound), f"chain: {bound}", ModelError)
         if not self.joints:
             object.__setattr__(self, "joints", tuple(f"joint{i + 1}" for i in range(len(self.links))))
         names = (*self.joints, *(k.name for k in self.links))
-        if len(self.joints) != len(self.links) or not self.links or len(set(names)) != len(names):
+        if len(self.joints) != len(self.links) or not self.links or len({*names, ""}) != len(names) + 1:
             raise ModelError(
                 f"a chain needs one joint before each link, all with different names; found joints "
                 f"{self.joints} and links {tuple(k.name for k in self.links)}: name one joint per link"

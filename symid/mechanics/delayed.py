@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sm
 
+from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.feedback import Feedback, full_state_gains, references
 from symid.model import Model
@@ -50,5 +51,7 @@ class DelayedFullState(Feedback):
 
 def check_lags(lags: tuple[float, ...], owner: str) -> None:
     """ModelError unless there are lags, none negative, strictly increasing."""
+    for lag in checked.kind(lags, (tuple, list), f"{owner}: lags", ModelError):
+        checked.number(lag, f"{owner}: lags", ModelError)
     if not lags or lags[0] < 0 or any(b <= a for a, b in zip(lags, lags[1:], strict=False)):
         raise ModelError(f"{owner}: lags = {lags!r} [s] must be one or more times, not negative and increasing")

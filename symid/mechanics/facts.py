@@ -44,6 +44,7 @@ def model_of(facts: Mapping[str, Any], channels: Iterable[str] = ()) -> Model:
     'pendulum on a bench'
     """
     readers = {"standing": _standing, "rig": _rig}
+    checked.kind(facts, Mapping, "model_of", ModelError)
     checked.choice(facts.get("system"), list(readers), "system", ModelError)
     return readers[facts["system"]](facts, channels)
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sm
 
+from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.delayed import check_lags
 from symid.mechanics.feedback import Feedback
@@ -68,12 +69,11 @@ class NeuralNetwork(Feedback):
 
     def __post_init__(self) -> None:
         check_lags(self.lags, type(self).__name__)
-        if self.activation not in ACTIVATIONS:
+        if not isinstance(self.activation, str) or self.activation not in ACTIVATIONS:
             raise ModelError(
                 f"NeuralNetwork: activation '{self.activation}' is not known; use one of {list(ACTIVATIONS)}"
             )
-        if self.hidden < 1:
-            raise ModelError(f"NeuralNetwork: hidden = {self.hidden!r} must be 1 or more nodes")
+        checked.whole(self.hidden, "NeuralNetwork: hidden", ModelError, least=1)
 
     def torques(self, model: Model, joints: tuple[str, ...]) -> list[sm.Expr]:
         inputs: list[sm.Expr] = []

@@ -11,6 +11,8 @@ import numpy as np
 import scipy
 import sympy as sm
 
+from symid import checked
+from symid.errors import ModelError
 from symid.mechanics.bodies import bodies
 from symid.mechanics.stated import stated
 from symid.model import Input, Model, Output, Port, State
@@ -49,6 +51,7 @@ def with_places(model: Model) -> Model:
     >>> [(p.role, p.at, p.unit) for p in with_places(slide).ports.values()]
     [('joint', 'carriage', 'N')]
     """
+    checked.kind(model, Model, "with_places", ModelError)
     new, ports = model.copy(), _ports_of_balances(model)
     for name, port in ports.items():
         setattr(new, f"{name}_place", port)

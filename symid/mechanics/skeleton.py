@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from symid import checked
 from symid.errors import ModelError
 from symid.model import Model
 
@@ -56,7 +57,7 @@ def skeleton(model: Model) -> Skeleton:
     >>> skeleton(Chain.uniform(2, length=0.5).plant()).positions([[0.0, 0.0, 0.0, 0.0]])[0, :, 1]
     array([ 0. , -0.5, -1. ])
     """
-    ports = model.find("link")
+    ports = checked.kind(model, Model, "skeleton", ModelError).find("link")
     upright = model.find(UPRIGHT)
     if not ports or not upright and not model.find(HANGING):
         raise ModelError(

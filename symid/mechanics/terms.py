@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from symid import checked
+from symid.errors import ModelError
 from symid.mechanics.bodies import BODY_LAWS
 from symid.mechanics.drive_laws import DRIVE_LAWS
 from symid.mechanics.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
@@ -45,4 +47,5 @@ def suspects(model: Model, laws: dict[str, Law] | None = None) -> list[Term]:
     >>> "viscous_friction@joint1" in {str(term) for term in suspects(Chain.uniform(1).plant())}
     True
     """
+    checked.kind(model, Model, "suspects", ModelError)
     return [law.at(place) for law in (LIBRARY if laws is None else laws).values() for place in law.places(model)]

@@ -115,8 +115,9 @@ class Model(Kinds, Derived):
 
     def __getitem__(self, name: str) -> Any:
         """The part called `name`; ModelError with the nearest names if there is none."""
-        if name not in self.components:
-            raise ModelError(f"model '{self.name}' has no part '{name}'; {checked.nearest(name, self.components)}")
+        if not isinstance(name, str) or name not in self.components:
+            near = checked.nearest(name, self.components)
+            raise ModelError(f"model '{self.name}' has no part {checked.shown(name)}; {near}")
         return self.components[name]
 
     def __setitem__(self, name: str, part: Component) -> None:

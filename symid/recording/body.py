@@ -67,6 +67,8 @@ def read_body(
 def load_table(source: str | os.PathLike | Mapping[str, object]) -> Mapping[str, object]:
     """The JSON object in a file, without a look at its keys; a mapping is given back as it is."""
     if isinstance(source, Mapping):
+        for key in source:
+            checked.kind(key, str, "a name in a table", RecordingError)
         return source
     path = checked.path(source, "a body file", RecordingError)
     if not path.exists():

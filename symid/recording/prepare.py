@@ -16,6 +16,8 @@ from symid.recording.timing import MOST_SAMPLES
 from symid.units import FloatArray
 
 _PASSBAND = 0.8  # of the new Nyquist frequency is kept when downsampling
+_HIGHEST_ORDER, _LOWEST_CUTOFF = 16, 1e-6
+"""Of a low-pass filter, the cut-off as a share of the sampling rate: beyond, its coefficients are rounding."""
 _ANTI_ALIAS_ORDER = 8  # of the Butterworth filter, before it runs in both directions
 _SAME_RATE = 0.01  # part by which a clock may be slow, so that nothing but its highest hundredth could be aliased
 
@@ -39,7 +41,7 @@ def fill_gaps(recording: Recording, max_gap_s: float, *channels: str) -> Recordi
     >>> fill_gaps(recording, 0.1, "angle").history[-1]
     'gaps of angle up to 0.1 s filled by PCHIP: 0 value(s)'
     """
-    chosen = channels or tuple(recording.channels)
+    chosen = channels or tuple(checked.kind(recording, Recording, "fill_gaps", RecordingError).channels)
     for name in chosen:
         recording[name]
     max_gap_s = checked.number(max_gap_s, "fill_gaps: max_gap_s", RecordingError)
@@ -88,6 +90,7 @@ def resample(recording: Recording, rate_hz: float) -> Recording:
     >>> 1 / resample(recording, 25.0).sampling_interval
     25.0
     """
+    checked.kind(recording, Recording, "resample", RecordingError)
     rate_hz = checked.number(rate_hz, "resample: rate_hz", RecordingError)
     if not rate_hz > 0 or not np.isfinite(rate_hz):
         raise RecordingError(f"{recording.name}: a rate of {rate_hz:g} Hz is not possible")
@@ -139,11 +142,15 @@ def lowpass(recording: Recording, cutoff_hz: float, *channels: str, order: int =
     """
     from scipy.signal import butter, sosfiltfilt
 
-    chosen = channels or tuple(recording.channels)
+    chosen = channels or tuple(checked.kind(recording, Recording, "lowpass", RecordingError).channels)
+    for name in chosen:
+        recording[name]
     step = even(recording, "lowpass")
-    if not 0 < cutoff_hz < 0.5 / step:
+    order = checked.whole(order, "lowpass: order", RecordingError, least=1, most=_HIGHEST_ORDER)
+    cutoff_hz = checked.number(cutoff_hz, "lowpass: cutoff_hz", RecordingError)
+    if not _LOWEST_CUTOFF / step < cutoff_hz < 0.5 / step:
         raise RecordingError(
-            f"{recording.name}: a cut-off of {cutoff_hz:g} Hz is not between 0 and half the "
+            f"{recording.name}: a cut-off of {cutoff_hz:g} Hz is not between {_LOWEST_CUTOFF / step:g} and half the "
             f"sampling rate, {0.5 / step:g} Hz"
         )
     sections = butter(order, cutoff_hz, fs=1 / step, output="sos")

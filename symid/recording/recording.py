@@ -74,7 +74,7 @@ class Recording:
         put("channels", MappingProxyType({k: frozen(v, float) for k, v in self.channels.items()}))
         for key in ("units", "signs", "noise"):
             put(key, MappingProxyType(dict(getattr(self, key))))
-        put("history", tuple(self.history))
+        put("history", tuple(checked.kind(line, str, "history", RecordingError) for line in self.history))
         put("segment", None if self.segment is None else frozen(self.segment, np.int64))
         put("split", None if self.split is None else frozen(self.split, str))
         refuse_faults(self)
@@ -164,9 +164,9 @@ class Recording:
         ------
         RecordingError : there is no such channel, or two would have one name.
         """
-        for old in names:
+        for old in checked.kind(names, Mapping, f"{self.name}: rename", RecordingError):
             self[old]
-        new = [names.get(name, name) for name in self.channels]
+        new = [checked.kind(names.get(k, k), str, f"{self.name}: rename '{k}'", RecordingError) for k in self.channels]
         if len(set(new)) < len(new):
             raise RecordingError(f"{self.name}: two channels would have one name: {new}")
         tables: dict[str, Any] = {
@@ -196,12 +196,13 @@ class Recording:
         note : the line for the history
         """
         known = known_unit(unit)
-        channels = {**self.channels, name: np.asarray(values, dtype=float) * known.factor}
+        checked.kind(name, str, f"{self.name}: the name of a channel", RecordingError)
+        channels = {**self.channels, name: frozen(values, float) * known.factor}
         line = note or f"{name} set" + (f", from {unit}" if known.factor != 1.0 else "")
         new = self._with_channels(channels, {**self.units, name: known.si}, line)
         noises = {k: v for k, v in self.noise.items() if k != name}
         signs = {k: v for k, v in self.signs.items() if k != name}
-        noises |= {} if noise is None else {name: noise * known.factor}
+        noises |= {} if noise is None else {name: checked.number(noise, "noise", RecordingError) * known.factor}
         signs |= {} if sign is None else {name: sign}
         return replace(new, noise=noises, signs=signs)
 

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
+from symid import checked
 from symid.errors import RecordingError
 from symid.recording.names import rate_name, rate_unit
 from symid.recording.prepare import even
@@ -47,9 +48,12 @@ def smooth_states(recording: Recording, *channels: str, noise: float | None = No
     >>> list(smooth_states(recording.select("angle"), "angle").channels)
     ['angle', 'velocity', 'acceleration']
     """
+    checked.kind(recording, Recording, "smooth_states", RecordingError)
+    noise = None if noise is None else checked.number(noise, "smooth_states: noise", RecordingError, least=0.0)
     if not channels:
         raise RecordingError(f"{recording.name}: smooth_states needs the name of a channel")
     for channel in channels:
+        recording[channel]
         level = recording.noise.get(channel) if noise is None else noise
         recording = _smoothed(recording, channel, level)
     return recording
@@ -78,6 +82,8 @@ def differentiate(recording: Recording, channel: str, name: str | None = None) -
     """
     from scipy.signal import savgol_filter
 
+    checked.kind(recording, Recording, "differentiate", RecordingError)
+    checked.kind("" if name is None else name, str, "differentiate: name", RecordingError)
     step = even(recording, "differentiate")
     values = np.empty(len(recording))
     for run in recording.runs:
@@ -179,7 +185,7 @@ def _smoothing_weight(pieces: list[FloatArray], noise: float | None) -> float:
         misfit = float(np.mean((1 - gain) ** 2 * power))
         if noise is None:
             return misfit / float(np.mean(1 - gain)) ** 2
-        return misfit + 2 * noise**2 * float(np.mean(gain))
+        return misfit + 2 * noise * noise * float(np.mean(gain))
 
     grid = np.linspace(-3.0, 10.0, 53)
     start = grid[int(np.argmin([risk(point) for point in grid]))]

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from symid import checked
 from symid.errors import RecordingError
 from symid.recording.recording import Recording
 from symid.units import FloatArray, IntArray
@@ -31,6 +32,8 @@ def unwrap(recording: Recording, *names: str, period: float | None = None) -> Re
     >>> unwrap(Recording("wheel", np.arange(4.0), {"angle": angle}, {"angle": "rad"}), "angle")["angle"].round(2)
     array([6.1 , 6.2 , 6.38, 6.48])
     """
+    checked.kind(recording, Recording, "unwrap", RecordingError)
+    period = None if period is None else checked.number(period, "unwrap: period", RecordingError, least=0.0)
     for name in names:
         values = recording[name].copy()
         found = [find_wraps(values[run], recording.units[name])[1] for run in recording.runs]

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from symid import checked
 from symid.errors import UnitError
 from symid.interrupt import held_back
 
@@ -83,7 +84,7 @@ def known_unit(text: str) -> KnownUnit:
     UnitError
         If the text is not a unit, or a unit with an offset such as degC.
     """
-    text = normal(text)
+    text = normal(checked.kind(text, str, "a unit", UnitError))
     if text in _BY_TEXT:
         return _BY_TEXT[text]
     factor, base = base_of(text)

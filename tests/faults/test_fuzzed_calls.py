@@ -16,7 +16,7 @@ from symid import fetch
 from symid.cli import main
 from symid.conceal.setup import setup_from_facts
 from symid.errors import DiagnosisError
-from symid.recording import fill_gaps, joint_angles, resample
+from symid.recording import fill_gaps, joint_angles, lowpass, resample, smooth_states, unwrap
 
 plain = st.one_of(st.none(), st.booleans(), st.integers(), st.floats(), st.just(10**400), st.just(-(10**400)))
 fewer = settings(few, max_examples=max(few.max_examples // 4, 1))
@@ -68,6 +68,19 @@ def test_arguments_of_analyses(solution, tmp_path_factory, data):
         "read_case": lambda: si.read_case(value),
         "diagnose_case": lambda: si.diagnose_case(value),
         "channel": lambda: RECORDING[value],
+        "part": lambda: pendulum()[value],
+        "rename": lambda: RECORDING.rename({"angle": value}),
+        "with_channel": lambda: RECORDING.with_channel("q", value, "m"),
+        "with_channel unit": lambda: RECORDING.with_channel("q", RECORDING["angle"], value),
+        "with_channel noise": lambda: RECORDING.with_channel("q", RECORDING["angle"], "m", noise=value),
+        "lowpass": lambda: lowpass(RECORDING, value),
+        "lowpass order": lambda: lowpass(RECORDING, 5.0, order=value),
+        "smooth_states": lambda: smooth_states(RECORDING, "angle", noise=value),
+        "unwrap": lambda: unwrap(RECORDING, "angle", period=value),
+        "table of a rig": lambda: si.mechanics.rig_model(value),
+        "lags": lambda: si.mechanics.DelayedFullState(lags=value),
+        "hidden": lambda: si.mechanics.NeuralNetwork(hidden=value),
+        "chain": lambda: si.mechanics.Chain(value),
         "uncertainty": lambda: si.uncertainty(solution, value),
         "uncertainty of": lambda: si.uncertainty(value),
         "identifiability": lambda: si.identifiability(value),

@@ -13,6 +13,7 @@ import symid as si
 from symid.errors import ModelError, SymidError, TranscriptionError
 from symid.mechanics.chain import Chain
 from symid.mechanics.link import ChainLink
+from symid.recording import differentiate, lowpass, resample, smooth_states, unwrap
 
 RECORDING = pendulum_recording(duration=1)
 
@@ -118,7 +119,7 @@ def cart() -> si.Model:
         (lambda m: si.LogNormal(None, 2), "median=None: give a number"),
         (lambda m: pendulum().fixed(damping=None), "damping=None: give a number"),
         (lambda m: pendulum().with_constants(stiffness="4"), "stiffness='4': give a number"),
-        (lambda m: pendulum().free(3), "no part '3'"),
+        (lambda m: pendulum().free(3), "no part 3; known: "),
         (lambda m: m.with_term(3), "give a Term"),
         (lambda m: si.compare([]), "give solutions by name"),
         (lambda m: si.compare({}), "give solutions by name"),
@@ -217,6 +218,28 @@ FRAME, SOLVE = pd.DataFrame(), si.Solve(si.Identification(pendulum(), RECORDING)
         (lambda: si.read_case(None), "read_case: give the path of a file or a directory, not None"),
         (lambda: si.read_case("9" * 500), "read_case: '9.* is longer than the name of any file"),
         (lambda: si.read_recording("a/" * 3000 + "r.csv"), "is longer than the name of any file"),
+        (lambda: lowpass(RECORDING, 1e-9), "a cut-off of 1e-09 Hz is not between 5e-05 and half"),
+        (lambda: lowpass(RECORDING, 5.0, order=0), "lowpass: order=0: give a whole number of at least 1"),
+        (lambda: lowpass(RECORDING, 5.0, "hip"), "no channel 'hip'"),
+        (lambda: resample(None, 5.0), "resample: give a Recording, not None"),
+        (lambda: smooth_states(RECORDING, "angle", noise="x"), "smooth_states: noise='x': give a number"),
+        (lambda: differentiate(RECORDING, "angle", FRAME), "differentiate: name: give a str, not a DataFrame"),
+        (lambda: unwrap(RECORDING, "angle", period=10**400), "unwrap: period=1.*: give a number"),
+        (lambda: RECORDING.rename({"angle": 3}), "pendulum: rename 'angle': give a str, not 3"),
+        (lambda: RECORDING.with_channel("q", "x", "m"), "holds numbers"),
+        (lambda: RECORDING.with_channel("q", RECORDING["angle"], 3), "a unit: give a str, not 3"),
+        (lambda: RECORDING.with_channel("q", RECORDING["angle"], "m", noise="x"), "noise='x': give a number"),
+        (lambda: RECORDING.noted(3), "history: give a str, not 3"),
+        (lambda: pendulum()[FRAME], "has no part a DataFrame; known: angle"),
+        (lambda: si.mechanics.NeuralNetwork(hidden=2.5), "hidden=2.5: give a whole number of at least 1"),
+        (lambda: si.mechanics.DelayedFullState(lags=3), "lags: give a tuple or a list, not 3"),
+        (lambda: Chain(3), "chain: links: give a tuple or a list, not 3"),
+        (lambda: Chain(Chain.uniform(2).links, angle_bound="x"), "chain: angle_bound='x': give a number"),
+        (lambda: Chain((ChainLink("", 1.0, 0.5, 0.1),)), "all with different names"),
+        (lambda: si.mechanics.rig_model({1: 2}), "a name in a table: give a str, not 1"),
+        (lambda: si.mechanics.with_places(3), "with_places: give a Model, not 3"),
+        (lambda: si.mechanics.model_of(3), "model_of: give a Mapping, not 3"),
+        (lambda: si.Study.product(3), "study: problems: give a Mapping, not 3"),
         (lambda: si.diagnose_case(None), "diagnose_case: give a Case, not None"),
         (lambda: si.Model("cart", 3), "the description of a Model: give a str, not 3"),
         (lambda: si.Cluster(3), "cluster: give the address of a scheduler or a Client of it, not 3"),

@@ -138,7 +138,7 @@ def test_lags_that_make_no_sense_are_refused(lags):
 def test_networks_that_make_no_sense_are_refused():
     with pytest.raises(ModelError, match="activation 'relu' is not known"):
         NeuralNetwork(activation="relu")
-    with pytest.raises(ModelError, match="hidden = 0"):
+    with pytest.raises(ModelError, match="hidden=0"):
         NeuralNetwork(hidden=0)
 
 

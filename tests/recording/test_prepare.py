@@ -133,7 +133,7 @@ def test_low_pass_has_no_phase_shift_and_6_db_at_the_cut_off():
 
 @pytest.mark.parametrize("cutoff", [0, -1, 50, 80, float("nan")])
 def test_cut_offs_that_are_refused(cutoff):
-    with pytest.raises(RecordingError, match="not between 0 and half the sampling rate, 50 Hz"):
+    with pytest.raises(RecordingError, match="not between 0.0001 and half the sampling rate, 50 Hz|give a number"):
         lowpass(wave(), cutoff)
 
 
