@@ -87,7 +87,8 @@ def _parameters(result: StudyResult, groups: dict[str, list[str]]) -> list[str]:
         rows = []
         for name, value in best.parameters.items():
             found = [r.parameters[name] for r in solved]
-            spread = f"{with_error(float(np.min(found)), np.nan)} to {with_error(float(np.max(found)), np.nan)}"
+            low, high = (with_error(float(end(found)), np.nan) for end in (np.min, np.max))
+            spread = f"{low} to {high}" if low != high else "the same"
             unit = unit_symbol(declared[name.split("[")[0]].unit)
             rows.append([name, with_error(value, np.nan, digits=4), unit, spread])
         parts.append(folded(label, table(["parameter", "value", "unit", "over all solved starts"], rows)))

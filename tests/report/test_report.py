@@ -235,6 +235,7 @@ def test_the_report_of_a_study_has_every_problem_and_solve(study, tmp_path):
     assert "4 of 4 solves of 2 problems" in text
     for part in ("Two models", "free/0", "bounded/1", "2 of 2", "at the same optimum", "Provenance", "Please cite"):
         assert part in text
+    assert ">the same<" in text and "hollow" not in text
     assert [t.get_text() for t in plots.plot_study(study).axes[0].texts] == ["free", "bounded"]
 
 
