@@ -32,7 +32,11 @@ def origin() -> dict[str, str]:
 
 def command(words: Sequence[str]) -> str:
     """A command line as one would type it, without the folder of the program."""
-    return shlex.join([Path(words[0]).name or "python", *words[1:]]) if words else "python"
+    program = Path(words[0] if words else "")
+    if program.name == "ipykernel_launcher.py":
+        return "in a notebook"
+    name = "symid" if program.parts[-3:] == ("symid", "cli", "__main__.py") else program.name or "python"
+    return shlex.join([name, *words[1:]])
 
 
 def written() -> str:

@@ -12,6 +12,7 @@ from symid.model import show
 from symid.plots.style import banded, bridged
 from symid.report import page, report_html
 from symid.report.diagnosis import _parameters
+from symid.report.origin import command
 from symid.units import without_unit
 
 
@@ -96,6 +97,21 @@ def test_coefficients_without_a_formula_are_folded_and_a_bound_is_named():
         "unknown_" not in str(table) and "0 N m/rad at its bound" in str(table) and "standard error" not in str(table)
     )
     assert "<details>" in str(fold) and str(fold).count("<small>unknown sensor error, the sensor of the ankle: c") > 5
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["/x/bin/symid", "demo"], "symid demo"),
+        (["/x/symid/cli/__main__.py", "demo"], "symid demo"),
+        (["/x/ipykernel_launcher.py", "-f", "/tmp/kernel.json"], "in a notebook"),
+        (["walk.py"], "walk.py"),
+        ([""], "python"),
+        ([], "python"),
+    ],
+)
+def test_a_command_is_told_as_one_would_type_it(words, said):
+    assert command(words) == said
 
 
 def test_a_gap_is_no_noise_at_high_frequencies():
