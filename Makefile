@@ -23,11 +23,11 @@ test-slow: $(READY)
 faults: $(READY)
 	$(PY) -m pytest -n 2 -m fault
 
-# Ten minutes of odd input of each kind: readers, JSON, declarations, expressions, arguments.
+# Odd input of each kind: readers, stores, JSON, declarations, expressions, arguments; 1 to 8 minutes of processor each.
 fuzz: $(READY)
 	SYMID_FUZZ=4000 $(PY) -m pytest -n 2 tests/faults/test_fuzzed_*.py
 
-# Of lines and branches, by the normal test run; processes that tests start are counted, too.
+# Of lines and branches, by the normal test run, in twice its time; processes that tests start are counted, too.
 coverage: $(READY)
 	$(PY) -m coverage erase
 	$(PY) -m coverage run -m pytest -n 2 --dist loadfile
