@@ -65,7 +65,7 @@ def weights_of(model: Model, expr: Any) -> np.ndarray | None:
 
 
 def widths(model: Model, port: Port, segments: Sequence[Segment], noise: np.ndarray) -> tuple[float, ...]:
-    """Speeds, the sharpest first.
+    """Speeds: the sharpest that creeps no more than the sensors see, and wider ones.
 
     The usual speed is that which was recorded, or the rms rate of a sine that moves as far and as fast as recorded;
     where outputs show the port's motion indirectly, of one with an amplitude of `INDIRECT`.

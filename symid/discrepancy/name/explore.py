@@ -121,14 +121,22 @@ def _begins_finite(starts: list[Start]) -> bool:
 
 
 def _unseen(starts: Sequence[list[Start]], first: Sequence[Hypothesis]) -> list[list[Start]]:
-    """Delays and lags of which a slope at zero sees too little to be fitted, where one alike explains much."""
+    """Those alike to one that explains much, which were not fitted since they promise little.
+
+    A slope at zero sees too little of delays and lags. Of other laws it sees little where the model is far off: there
+    the one that leads explains far more than it promised, and the simplest of its family may explain as much.
+    """
     best = max((c.log_ratio for c in first), default=0.0)
-    leading = [c.suspect for c in first if c.log_ratio > max(POLICY.beam_share * best, POLICY.worth_refitting)]
+    leading = [c for c in first if c.log_ratio > max(POLICY.beam_share * best, POLICY.worth_refitting)]
+    beyond = [c.suspect for c in leading if c.forecast < KEPT * c.log_ratio]
     fitted = {c.suspect for c in first}
     return [
         s
         for s in starts
-        if s[0].suspect.bypasses and s[0].suspect not in fitted and any(is_alike(s[0].suspect, c) for c in leading)
+        if s[0].suspect not in fitted
+        and any(
+            is_alike(s[0].suspect, c) for c in ([c.suspect for c in leading] if s[0].suspect.bypasses else beyond)
+        )
     ]
 
 

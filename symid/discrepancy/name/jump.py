@@ -11,7 +11,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.dry import widths
+from symid.discrepancy.model.dry import PARTS, WIDER, widths
 from symid.discrepancy.model.hypothesis import Hypothesis, polished, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
@@ -26,8 +26,8 @@ FINER = 1.7, 1.3, 1.15
 COARSE, SHARP = 10.0, 0.003
 """Factor between the widths that are fitted first once friction is found, and the part of itself to which the best is
 found then: where a sensor is very good a few percent leave an error that can be seen."""
-BLUNTER = 1.5
-"""Factor at which a likelihood that rises from the sharpest width shows it."""
+NEARBY = 1.5
+"""Factor at which a likelihood that rises from the width that was made shows it, to a wider one or a sharper."""
 ITERATIONS = 10
 """Of a fit with another width."""
 
@@ -71,7 +71,7 @@ def _likeliest(width: Constant, projection: Projection) -> float:
 def with_fitted_jumps(found: Hypothesis, made: Sequence[str], known: Model) -> Hypothesis:
     """The same suspects with dry friction that sets in as abruptly as the recording likes best, of a free motion.
 
-    A wider jump than the one that was made must be worth an unknown.
+    Another jump than the one that was made must be worth an unknown.
 
     Parameters
     ----------
@@ -107,11 +107,14 @@ def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
         if best != sharp and value < before:
             break
         best, width = (width if value > before else best), width / COARSE
-    if best == sharp and score(BLUNTER * sharp) > found.log_ratio:  # it may lie before the last that was wider
-        best = BLUNTER * sharp
+    least = sharp
+    if best == sharp and score(NEARBY * sharp) > found.log_ratio:  # it may lie before the last that was wider
+        best = NEARBY * sharp
+    elif best == sharp and score(sharp / NEARBY) > found.log_ratio:  # or sensors, many samples together, see more
+        best, least = sharp / NEARBY, PARTS[0] / WIDER[-1] * widest
     if best == sharp:
         return found
-    ends = log(max(best / COARSE, sharp)), log(min(best * COARSE, widest))
+    ends = log(max(best / COARSE, least)), log(min(best * COARSE, widest))
     options = {"xatol": SHARP}
     found_at = minimize_scalar(lambda w: -score(float(np.exp(w))), bounds=ends, method="bounded", options=options).x
     best = max((float(np.exp(w)) for w in (found_at, _vertex(score, float(found_at)))), key=score)
