@@ -15,12 +15,13 @@ from symid.mechanics import LIBRARY
 from symid.simulation import simulator
 
 
-def tried_beside_a_delay(monkeypatch, explains: float) -> set[str]:
-    """Names of the suspects that are fitted where a delay explains so much, and lags alike promise nothing."""
-    laws = ["feedback_delay", "muscle_lag", "second_order_muscle_lag", *["coulomb_friction"] * POLICY.always_refitted]
+def tried_beside(monkeypatch, leader: str, *alike: str, explains: float) -> set[str]:
+    """Names of the suspects that are fitted where the first explains so much of the 50 that it promises, and others
+    alike promise nothing."""
+    laws = [leader, *alike, *["cubic_stiffness"] * POLICY.always_refitted]
     pool = [Suspect(LIBRARY[name].at(f"place{max(0, i - 2)}")) for i, name in enumerate(laws)]
-    pool.append(Suspect(LIBRARY["muscle_lag"].at("another")))
-    promised = {"feedback_delay": 50.0, "coulomb_friction": 20.0}
+    pool.append(Suspect(LIBRARY[alike[0]].at("another")))
+    promised = {leader: 50.0, "cubic_stiffness": 20.0}
     fit = SimpleNamespace(converged=True)
 
     def starts(_fit, _data, _projection, s):
@@ -29,7 +30,8 @@ def tried_beside_a_delay(monkeypatch, explains: float) -> set[str]:
     def begin(_fit, _data, starts):
         s = starts[0].suspect
         begun.add(f"{s.term.name} at {s.term.location}")
-        return SimpleNamespace(suspect=s, log_ratio=explains if s is pool[0] else 0.0, fit=fit)
+        ratio = explains if s is pool[0] else 0.0
+        return SimpleNamespace(suspect=s, log_ratio=ratio, forecast=promised.get(s.term.name, 0.0), fit=fit)
 
     begun: set[str] = set()
     monkeypatch.setattr(exploring, "_starts", starts)
@@ -40,14 +42,26 @@ def tried_beside_a_delay(monkeypatch, explains: float) -> set[str]:
     return begun
 
 
+LAGS = "muscle_lag", "second_order_muscle_lag"
+
+
 def test_lags_alike_to_a_delay_that_leads_are_fitted_whatever_they_promise(monkeypatch):
-    begun = tried_beside_a_delay(monkeypatch, explains=100.0)
+    begun = tried_beside(monkeypatch, "feedback_delay", *LAGS, explains=100.0)
     assert {"muscle_lag at place0", "second_order_muscle_lag at place0"} <= begun
     assert "muscle_lag at another" not in begun
 
 
 def test_lags_alike_to_a_delay_that_explains_little_are_left_alone(monkeypatch):
-    assert not any("lag" in name for name in tried_beside_a_delay(monkeypatch, explains=1.0))
+    begun = tried_beside(monkeypatch, "feedback_delay", *LAGS, explains=1.0)
+    assert not any("lag" in name for name in begun)
+
+
+@pytest.mark.parametrize(("explains", "fitted"), [(1000.0, True), (60.0, False)])
+def test_simpler_friction_is_fitted_beside_one_that_explains_far_more_than_it_promised(monkeypatch, explains, fitted):
+    """A ball on a beam: its rolling friction promised little, and was named after what has three unknowns."""
+    begun = tried_beside(monkeypatch, "stribeck_friction", "coulomb_friction", explains=explains)
+    assert ("coulomb_friction at place0" in begun) is fitted
+    assert "coulomb_friction at another" not in begun
 
 
 @pytest.mark.parametrize(

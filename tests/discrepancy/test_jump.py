@@ -1,0 +1,41 @@
+"""How abruptly dry friction sets in, told by a free motion once friction is found."""
+
+import numpy as np
+import pytest
+from driven_cart import SENSOR, TRUE, cart
+
+from symid.discrepancy import Suspect
+from symid.discrepancy.model.dry import with_friction_speeds
+from symid.discrepancy.name.explore import explore
+from symid.discrepancy.name.jump import with_fitted_jumps
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_between
+from symid.mechanics import LIBRARY
+from symid.simulation import synthetic_recording
+
+DRY = Suspect(LIBRARY["coulomb_friction"].at("cart"))
+MADE = "cart_friction_speed"
+
+
+@pytest.mark.parametrize("part", [0.3, 1.0, 8.0])
+def test_friction_sets_in_as_it_did_sharper_or_wider_than_the_jump_that_was_made(part):
+    def segments(recording):
+        return segments_between(cart(), recording.time, dict(recording.channels), (0.0, 10.0), None)
+
+    def moving(model, values):
+        gust = {"gust": 0.0}
+        return synthetic_recording(
+            model, values, duration=10, rate=50, seed=1, process_noise=gust, sensor_noise={"position": SENSOR}
+        )
+
+    given = with_friction_speeds(cart(), segments(moving(cart(), TRUE)), np.array([100 * SENSOR]))
+    made = given.constants[MADE].value
+    true = given.with_constants(**{MADE: part * made}).with_term(DRY.term)
+    recording = moving(true, TRUE | {DRY.term.parameter_name("torque_Nm"): 0.4})
+    data = Data(segments(recording), np.array([SENSOR]), False)
+    base = fit_model(given, data)
+    (found,) = explore(base, data, [DRY])
+    told = with_fitted_jumps(found, [MADE], given)
+    assert told.base.model.constants[MADE].value == pytest.approx(part * made, rel=0.3)
+    assert told.log_ratio >= found.log_ratio
