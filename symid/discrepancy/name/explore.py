@@ -134,9 +134,7 @@ def _unseen(starts: Sequence[list[Start]], first: Sequence[Hypothesis]) -> list[
         s
         for s in starts
         if s[0].suspect not in fitted
-        and any(
-            is_alike(s[0].suspect, c) for c in ([c.suspect for c in leading] if s[0].suspect.bypasses else beyond)
-        )
+        and any(is_alike(s[0].suspect, c) for c in ([c.suspect for c in leading] if s[0].suspect.bypasses else beyond))
     ]
 
 
