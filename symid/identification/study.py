@@ -45,6 +45,10 @@ class Solve:
     together : of several processes one does all solves with the same word, in turn, and what their starts share once;
         their progress is told when all have ended.
 
+    Raises
+    ------
+    SolveError : the number, the seed, an option or the labels are none.
+
     Examples
     --------
     >>> Study({"first": Solve(problem), "second": Solve(problem, start={"damping": 1.0})})

@@ -96,6 +96,10 @@ class Law:
 class Term:
     """A law at one place. `Model.with_term(term)` gives a new model that contains it.
 
+    Raises
+    ------
+    ModelError : it is made of no Law, or its place has no name.
+
     Attributes
     ----------
     law : what acts. location : the place's name, "joint1" or "sensor:link2".
