@@ -76,7 +76,7 @@ def design(
 
     What is made large is Fisher's information of the parameters relative to their values, for samples with
     independent Gaussian noise and a known initial state; the constraints and bounds of the model hold. It is a local
-    optimum for these values: a design for others is another.
+    optimum for these values: a design for others is another (Goodwin & Payne 1977).
 
     Parameters
     ----------

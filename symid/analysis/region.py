@@ -35,7 +35,8 @@ def likelihood_region(solution: Solution, one: str, other: str, points: int = 9)
     DataFrame
         Deviance (twice the loss of log-likelihood, as in `profile`) by values of `one` (rows) and `other` (columns)
         [SI]; NaN where no fit was found or a bound is crossed. Inside the 95 % region it is below
-        ``attrs["limit"]``, 5.99; `symid.plots.plot_region` draws it.
+        ``attrs["limit"]``, 5.99, of chi squared with two degrees of freedom (Wilks 1938);
+        `symid.plots.plot_region` draws it.
 
     Raises
     ------
