@@ -111,7 +111,7 @@ def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
     if best == sharp and score(NEARBY * sharp) > found.log_ratio:  # it may lie before the last that was wider
         best = NEARBY * sharp
     elif best == sharp and score(sharp / NEARBY) > found.log_ratio:  # or sensors, many samples together, see more
-        best, least = sharp / NEARBY, PARTS[0] / WIDER[-1] * widest
+        best, least = sharp / NEARBY, PARTS[0] * widest / WIDER[-1]  # that part of the usual speed
     if best == sharp:
         return found
     ends = log(max(best / COARSE, least)), log(min(best * COARSE, widest))

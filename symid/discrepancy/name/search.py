@@ -36,6 +36,7 @@ class Search:
     unsteady : the oscillations of a hypothesis that a half of the data contradicts: what is found on top goes astray.
     jumps : constants of the model that say how abruptly dry friction sets in and that nobody stated.
     unstated : inputs of which nobody stated what they do between their samples.
+    starts : where fits on top of the model as given begin, until each suspect was tried alone.
     """
 
     base: Fit
@@ -59,18 +60,18 @@ class Search:
     @cached_property
     def states_alone(self) -> list[Hypothesis]:
         """Each suspect that follows no clock, alone."""
-        found = self.alone([s for s in self.pool if s.kind != "clock"])
-        self.starts.clear()  # nothing asks for them again, and they hold many fits
-        return found
+        return self.alone([s for s in self.pool if s.kind != "clock"])
 
     def alone(self, suspects: Sequence[Suspect]) -> list[Hypothesis]:
         """Each of these suspects alone, best first."""
-        return self._explored(Hypothesis((), self.base, self.base, self.data), suspects, known=self.starts)
+        return self._explored(Hypothesis((), self.base, self.base, self.data), suspects)
 
     @cached_property
     def single(self) -> list[Hypothesis]:
         """Each suspect alone, best first."""
-        return self._added(Hypothesis((), self.base, self.base, self.data))
+        found = self._added(Hypothesis((), self.base, self.base, self.data))
+        self.starts.clear()  # nothing asks for them again, and they hold many fits
+        return found
 
     def run(self) -> tuple[Hypothesis, list[Hypothesis]]:
         """The best hypothesis, and each suspect alone, best first.
@@ -227,13 +228,7 @@ class Search:
         tried = in_threads(lambda s: hypothesis(s[0], near.fit, self.base, self.data, s[1]), sets)
         return [h for h in tried if h is not None]
 
-    def _explored(
-        self,
-        best: Hypothesis,
-        pool: Sequence[Suspect],
-        least: float = 0.0,
-        known: dict[Suspect, list[Start]] | None = None,
-    ) -> list[Hypothesis]:
+    def _explored(self, best: Hypothesis, pool: Sequence[Suspect], least: float = 0.0) -> list[Hypothesis]:
         found = explore(
             best.fit,
             self.data,
@@ -242,7 +237,7 @@ class Search:
             least=least,
             progress=self.progress,
             projection=None if best.suspects else self.projection,
-            known=known,
+            known=None if best.suspects else self.starts,
         )
         return [Hypothesis((*best.suspects, h.suspect), h.fit, self.base, self.data, h.forecast) for h in found]
 
