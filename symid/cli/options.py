@@ -32,11 +32,15 @@ CONTROLLERS = ("pd", "fpd", "fpd-delay", "nn")
 
 
 def refuse_absurd(arguments: argparse.Namespace) -> None:
-    """SolveError for a number that is not finite, or so large that the command would never end."""
+    """SolveError for a number that is not finite, or so large that the command would never end; for a null character,
+    which stands in the name of no file.
+    """
     given = vars(arguments)
     for name, value in given.items():
         option = f"--{name.replace('_', '-')}"
         for number in value if isinstance(value, (list, tuple)) else [value]:
+            if isinstance(number, str) and "\0" in number:
+                raise SolveError(f"{number[:80]!r} holds a null character, which is not possible; leave it out")
             if (
                 isinstance(number, float) and not math.isfinite(number) and name not in ("window", "held_out")
             ):  # said by measure

@@ -143,6 +143,7 @@ OPTIONS = {
     "no iterations": (["--max-iterations", "-1"], "max"),
     "no processes": (["--jobs", "0"], "jobs"),
     "unknown option": (["--windows", "0", "1"], "unrecognized arguments"),
+    "a name that no file has": (["--report", "a\0b"], "null character"),
 }
 
 
