@@ -84,7 +84,7 @@ def path(value: Any, what: str, error: type[SymidError]) -> Path:
 def kind(value: Any, wanted: type | tuple[type, ...], what: str, error: type[SymidError]) -> Any:
     """`value`, which must be of one of the kinds `wanted`."""
     if not isinstance(value, wanted):
-        names = [k.__name__ for k in (wanted if isinstance(wanted, tuple) else (wanted,))]
+        names = dict.fromkeys(k.__name__ for k in (wanted if isinstance(wanted, tuple) else (wanted,)))
         raise error(f"{what}: give a {' or a '.join(names)}, not {shown(value)}")
     return value
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from symid import checked
 from symid.errors import SolveError
 from symid.identification.covariance import ParameterErrors, bound_active, parameter_errors
 from symid.identification.fit import fit_measures
@@ -182,9 +183,8 @@ class Solution:
         return verify(self)
 
     def refined(self, factor: int | None = None) -> Solution:
-        """Solved again from here with `factor` times as many collocation intervals.
-
-        factor : by default as many as leave a tenth of a standard error of the mesh's error, at most 16, at least 2.
+        """Solved again from here with `factor` times as many collocation intervals, by default as many as leave a tenth
+        of a standard error of the mesh's error, at most 16, at least 2.
         """
         if factor is None:
             from symid.identification.verify import FINE
@@ -192,8 +192,8 @@ class Solution:
             mesh = self.verification.mesh
             worst = 0.0 if mesh is None else mesh["std_errors"].abs().max()
             factor = int(np.clip(np.ceil((worst / FINE) ** (1 / self.problem.scheme.order)), 2, 16))
-        finer = replace(self.problem, refine=factor * self.problem.refine)
-        return finer.solve(start=self, check=False, near=True)
+        refine = checked.whole(factor, "refined: factor", SolveError, least=1) * self.problem.refine
+        return replace(self.problem, refine=refine).solve(start=self, check=False, near=True)
 
     @cached_property
     def trajectories(self) -> tuple[pd.DataFrame, ...]:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from symid import checked
+from symid.errors import ModelError
 from symid.mechanics.lagrange import Link
 from symid.model import Constant, Model
 
@@ -39,6 +41,13 @@ class ChainLink:
     inertia: float
     length: float | None = None
     constants: tuple[tuple[str, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        for pair in checked.kind(self.constants, (tuple, list), "link: constants", ModelError):
+            if len(checked.kind(pair, (tuple, list), "link: constants: a pair", ModelError)) != 2:
+                raise ModelError('link: constants: give pairs of quantity and name, as in (("mass", "m1"),)')
+            checked.choice(pair[0], list(_QUANTITIES), "link: constants: a quantity", ModelError)
+            checked.kind(pair[1], str, "link: constants: a name", ModelError)
 
     def declare(self, model: Model, letter: str) -> Link:
         """Declare this link's constants in `model`; their symbols.

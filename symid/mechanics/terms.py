@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.bodies import BODY_LAWS
@@ -35,7 +37,7 @@ LIBRARY: dict[str, Law] = {
 """Every law by name: the canonical ones first, then what else the field knows."""
 
 
-def suspects(model: Model, laws: dict[str, Law] | None = None) -> list[Term]:
+def suspects(model: Model, laws: Mapping[str, Law] | None = None) -> list[Term]:
     """Every law at every place of `model` where it could act.
 
     Parameters
@@ -48,4 +50,6 @@ def suspects(model: Model, laws: dict[str, Law] | None = None) -> list[Term]:
     True
     """
     checked.kind(model, Model, "suspects", ModelError)
-    return [law.at(place) for law in (LIBRARY if laws is None else laws).values() for place in law.places(model)]
+    known = checked.kind(LIBRARY if laws is None else laws, Mapping, "suspects: laws", ModelError).values()
+    found = [checked.kind(law, Law, "suspects: one of the laws", ModelError) for law in known]
+    return [law.at(place) for law in found for place in law.places(model)]

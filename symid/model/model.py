@@ -195,7 +195,7 @@ class Model(Kinds, Derived):
         already becomes later by `lag`.
         """
         expr, lag = self.inline(sympified(expr)), sympified(lag)
-        if lag.is_number and not (lag.is_finite and lag >= 0):
+        if lag.is_number and not (lag.is_finite and lag.is_real and lag >= 0):
             raise ModelError(f"model '{self.name}': delayed by {lag} s; give a lag of at least 0: no signal is early")
         late = {c.symbol for c in self._of((State, Control, Input)).values()}
         table = {}
@@ -207,7 +207,7 @@ class Model(Kinds, Derived):
 
     def copy(self, name: str | None = None) -> Model:
         """An independent copy, which can be declared further."""
-        new = Model(name or self.name, self.description)
+        new = Model(self.name if name is None else name, self.description)
         new.components.update(self.components)
         new.groups.update(self.groups)
         new.delays.update(self.delays)
@@ -236,7 +236,7 @@ class Model(Kinds, Derived):
         """
         from symid.model.check import violations
 
-        found = tuple(violations(self, units))
+        found = tuple(violations(self, checked.flag(units, "check: units", ModelError)))
         if found:
             more = [f"and {len(found) - MOST_TOLD} more"] if len(found) > MOST_TOLD else []
             lines = "\n".join(f"  - {v}" for v in (*found[:MOST_TOLD], *more))

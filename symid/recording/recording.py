@@ -261,19 +261,18 @@ class Recording:
         return self.sampling_interval
 
     def rows(self, rows: slice, note: str | None = None) -> "Recording":
-        """Some of the rows, without looking at their times.
-
-        Parameters
-        ----------
-        rows : places of the samples. note : a line for the history.
-        """
+        """Some of the rows, without looking at their times; `note` becomes a line of the history."""
+        try:
+            rows.indices(len(self.time))
+        except (AttributeError, TypeError, ValueError):
+            raise RecordingError(f"{self.name}: rows: give a slice of integers, not {checked.shown(rows)}") from None
         return replace(
             self,
             time=self.time[rows],
             channels={name: values[rows] for name, values in self.channels.items()},
             segment=None if self.segment is None else self.segment[rows],
             split=None if self.split is None else self.split[rows],
-            history=(*self.history, note) if note else self.history,
+            history=self.history if note is None else (*self.history, note),
         )
 
     def _segment(self, run: slice) -> "Recording":
@@ -292,7 +291,7 @@ class Recording:
             units={name: units[name] for name in channels},
             signs={name: text for name, text in self.signs.items() if name in channels},
             noise={name: rms for name, rms in self.noise.items() if name in channels},
-            history=(*self.history, note) if note else self.history,
+            history=self.history if note is None else (*self.history, note),
         )
 
 
