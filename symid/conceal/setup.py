@@ -123,18 +123,23 @@ def setup_from_facts(facts: Mapping, rng: np.random.Generator) -> Setup:
         raise SymidError(
             f"the windows {facts['fit_window_s']} and {facts['heldout_window_s']} must follow one another from 0 s"
         )
-    # What a user is told of the sensor is only about right, and holds the rounding of the encoder.
-    noise = numbers["angle_noise_rms_rad_approx"] * rng.uniform(0.9, 1.1)
-    noise = np.sqrt(max(noise**2 - rounding(numbers["encoder_step_rad"]) ** 2, JITTER[0] ** 2 / 4))
     return Setup(
         model=model,
         rate=numbers["sampling_rate_Hz"],
         fit=t1,
         held_out=t3 - t2,
-        sensor_noise=float(noise),
+        sensor_noise=_sensor_noise(numbers["angle_noise_rms_rad_approx"], numbers["encoder_step_rad"], rng),
         facts=dict(facts),
         **own,
     )
+
+
+def _sensor_noise(told: float, step: float, rng: np.random.Generator) -> float:
+    """What a user is told of the sensor is only about right, and holds the rounding of the encoder."""
+    if max(told, step) > np.pi:
+        raise SymidError("the case to be imitated: the noise or the encoder's step is more than half a turn; check rad")
+    noise = told * rng.uniform(0.9, 1.1)
+    return float(np.sqrt(max(noise**2 - rounding(step) ** 2, JITTER[0] ** 2 / 4)))
 
 
 def _standing(facts: Mapping, model: Model, rng: np.random.Generator) -> dict:

@@ -52,6 +52,7 @@ def test_bad_input_ends_in_one_sentence_and_writes_nothing(tmp_path, capsys, arg
         ({"system": "unicycle"}, "system 'unicycle' cannot be made"),
         ({"body": None}, "has no 'body'"),
         ({"heldout_window_s": [80, 90]}, "must follow one another"),
+        ({"angle_noise_rms_rad_approx": 1.5e154}, "more than half a turn"),
         ({"baseline": {"controller": "LQR"}}, "controller='LQR': known are 'PD', 'FPD'"),
     ],
 )
