@@ -29,6 +29,10 @@ class ChainLink:
     length : joint to joint [m]; None for the last link, where it has no meaning.
     constants : other names of the model's constants, by quantity (default ``<link>_mass`` ...).
 
+    Raises
+    ------
+    ModelError : `constants` are no pairs of a quantity and a name.
+
     Examples
     --------
     >>> Chain((ChainLink("arm", mass=0.2, com=0.15, inertia=1.5e-3),)).plant().constants["arm_mass"].value
