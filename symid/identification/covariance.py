@@ -96,7 +96,7 @@ def parameter_errors(
     """
     s = Sensitivity(t, result.z, result.multipliers, bound_active(t, result), penalty, loss or {})
     s = replace(s, fixed=_pushed(s))
-    white, at_bound = s.gauss_newton, s.fixed
+    white, at_bound = s.gauss_newton(), s.fixed
     inverse, null, shared = determined(white)
     errors, disturbances = _errors(white, shared, known), Disturbances(white, inverse)
     beside, told = None, errors
@@ -144,7 +144,7 @@ def _pushed(s: Sensitivity) -> np.ndarray:
     free = s.fixed & ~((np.arange(s.fixed.size) >= first) & (program.lower < program.upper))
     if np.array_equal(free, s.fixed):
         return s.fixed
-    null = determined(replace(s, fixed=free).gauss_newton)[1]
+    null = determined(replace(s, fixed=free).gauss_newton())[1]
     flat = first + np.flatnonzero(~free[first:])[np.any(null != 0, axis=1)]
     return np.where(np.isin(np.arange(s.fixed.size), flat), False, s.fixed)
 
@@ -181,10 +181,11 @@ def _exact(s: Sensitivity, white: Reduced, inverse: np.ndarray) -> tuple[Reduced
     """
     values, vectors = np.linalg.eigh(inverse)
     root = vectors[:, values > 0] * np.sqrt(values[values > 0])
-    curvature = root.T @ s.exact.curvature @ root
+    exact = s.exact()
+    curvature = root.T @ exact.curvature @ root
     if np.linalg.eigvalsh(curvature).min(initial=1.0) <= ALIKE:
         return white, inverse
-    return s.exact, root @ np.linalg.inv(curvature) @ root.T
+    return exact, root @ np.linalg.inv(curvature) @ root.T
 
 
 def _errors(reduced: Reduced, shared: np.ndarray, known: np.ndarray) -> list[Errors]:

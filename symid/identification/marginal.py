@@ -80,7 +80,7 @@ def slopes_of(solution: Solution, worth: float) -> tuple[dict[str, float], np.nd
     t, z = solution.transcription, solution.result.z
     fixed = bound_active(t, solution.result)
     s = Sensitivity(t, z, solution.result.multipliers, fixed)
-    reduced, scale, first = s.gauss_newton, t.layout.parameter_scale, t.layout.offsets[-1]
+    reduced, scale, first = s.gauss_newton(), t.layout.parameter_scale, t.layout.offsets[-1]
     slopes, errors = np.zeros(len(scale)), np.zeros(len(scale))
     for k, place in enumerate(reduced.parameters):
         along = np.zeros(len(z))
@@ -108,7 +108,7 @@ def _log_determinant(s: Sensitivity) -> float:
     for independent in (begun, free):  # the initial state is free, or given by conditions
         square = s.constraints[:, np.flatnonzero(~independent)].tocsc()
         if square.shape[0] == square.shape[1]:
-            return _log(s.gauss_newton.factor) - 2 * _log(scipy.sparse.linalg.splu(square))
+            return _log(s.gauss_newton().factor) - 2 * _log(scipy.sparse.linalg.splu(square))
     return np.nan
 
 

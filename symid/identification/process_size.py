@@ -148,7 +148,7 @@ class _Left:
     """Traces of the covariance of the motion that the data leave, parameters kept."""
 
     def __init__(self, s: Sensitivity):
-        self.s, self.reduced = s, s.gauss_newton
+        self.s, self.reduced = s, s.gauss_newton()
         self.unit = s.t.information / s.t.program.objective_scale
         self.place = np.full(len(s.z), -1)
         self.place[self.reduced.states] = np.arange(len(self.reduced.states))

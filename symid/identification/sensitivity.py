@@ -153,13 +153,14 @@ class Sensitivity:
         """The part of `beside` that is a likelihood: it counts as data, of which a sample is worth `information`."""
         return self.symmetric(self.t.program.curvature_beside_errors(self.z, likelihood_only=True))
 
-    @cached_property
     def gauss_newton(self) -> Reduced:
-        """Without the curvature of outputs and constraints: the expected information."""
+        """Without the curvature of outputs and constraints: the expected information.
+
+        Not kept here: a circle of the two would keep a large factorisation until Python looks for circles.
+        """
         rooted = self.outputs.multiply(np.sqrt(self.curvatures)[:, None]).tocsr()
         return Reduced(self, (rooted.T @ rooted + self.beside).tocsr())
 
-    @cached_property
     def exact(self) -> Reduced:
         """With the curvature of outputs and constraints."""
         return Reduced(self, self.symmetric(self.t.program.hessian(self.z, self.multipliers, 1.0)))

@@ -83,7 +83,8 @@ def test_what_is_left_is_a_projection_that_keeps_the_solution():
     solution = problem([recording, gappy], 1.0).solve(check=False)
     s = Sensitivity(solution.transcription, solution.result.z, solution.result.multipliers,
                     bound_active(solution.transcription, solution.result))  # fmt: skip
-    d = Disturbances(s.gauss_newton, determined(s.gauss_newton)[0])
+    white = s.gauss_newton()
+    d = Disturbances(white, determined(white)[0])
     drawn = [np.random.default_rng(0).standard_normal((*p.shape, 2)) * p[:, :, None] for p in d.present]
     once = d.left(drawn)
     for x, again in zip(once, d.left(once), strict=True):
@@ -95,7 +96,7 @@ def test_directions_of_the_parameters_are_orthonormal_over_outputs_and_disturban
     """Episodes are added, of which a linear model has the same slopes in each."""
     solution = problem(drift(4, 61), 100.0, episodes=si.Episodes(count, push=0.01)).solve(check=False)
     t, result = solution.transcription, solution.result
-    white = Sensitivity(t, result.z, result.multipliers, bound_active(t, result)).gauss_newton
+    white = Sensitivity(t, result.z, result.multipliers, bound_active(t, result)).gauss_newton()
     inverse, _, shared = determined(white)
     for scale in (1.0, 1e-6):  # of both: in what unit the parameter is
         d = Disturbances(white, scale * inverse)
