@@ -74,7 +74,7 @@ def with_states_of(fit: Fit, data: Data) -> Fit | None:
     """The fit with the initial states that other data ask for, its values kept; None where every way there diverges."""
     free = Data(data.segments, data.sensor_noise, driven=False, pace=data.pace)
     fitter, size = (
-        Fitter(fit.model, free, fixed=tuple(fit.values)),
+        Fitter.of(fit, free, fixed=tuple(fit.values)),
         moves(np.vstack([e.recorded for e in data.segments])),
     )
     found = []
@@ -122,7 +122,7 @@ def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:
                 count = max(8, int(part * data.pace / data.segments[0].step))
                 heads = tuple(e.head(count) for e in data.segments)
                 head = Data(heads, data.sensor_noise, driven=False, pace=data.pace)
-                initial = Fitter(fit.model, head, fixed=tuple(fit.values)).fit(fit.values, initial, fit.process).initial
+                initial = Fitter.of(fit, head, fixed=tuple(fit.values)).fit(fit.values, initial, fit.process).initial
         except SymidError:
             continue
         return [initial]

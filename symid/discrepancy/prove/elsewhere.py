@@ -30,7 +30,7 @@ def elsewhere(fit: Fit, held_out: Data, runs: Mapping[str, FreeRun]) -> Test | N
     if begin is None:
         return None
     try:
-        own = Fitter(fit.model, held_out).fit(fit.values, begin.initial, fit.process, ITERATIONS)
+        own = Fitter.of(fit, held_out).fit(fit.values, begin.initial, fit.process, ITERATIONS)
     except SymidError:
         return None
     left = remainder(own, held_out)

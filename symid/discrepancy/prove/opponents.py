@@ -35,7 +35,7 @@ def output_error_fit(fit: Fit, data: Data) -> list[Fit]:
     free = replace(data, driven=False, memory=0, filter=None)
     try:
         # Prediction corrects the state: a free run begins where a fit of its state alone ends.
-        begin = Fitter(fit.model, free, fixed=tuple(fit.values)).fit(fit.values, fit.initial, fit.process, errors=False)
+        begin = Fitter.of(fit, free, fixed=tuple(fit.values)).fit(fit.values, fit.initial, fit.process, errors=False)
         found = Fitter.of(begin, free).fit(fit.values, begin.initial, fit.process, MOST_ITERATIONS, errors=False)
     except SymidError:
         return []

@@ -131,7 +131,7 @@ class Fitter(Predictor):
 
         `kalman_gain` is one that is known to hold the start together, of an earlier fit that ended there.
         """
-        self.bounded = self.near is not None and self.near.bounded
+        self.bounded = self.driven and self.near is not None and self.near.bounded
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
         while self.substeps < MOST_SUBSTEPS and self._too_coarse(at):
