@@ -34,7 +34,7 @@ def tried_beside(monkeypatch, leader: str, *alike: str, explains: float) -> set[
         return SimpleNamespace(suspect=s, log_ratio=ratio, forecast=promised.get(s.term.name, 0.0), fit=fit)
 
     begun: set[str] = set()
-    monkeypatch.setattr(exploring, "_starts", starts)
+    monkeypatch.setattr(exploring, "starts_of", starts)
     monkeypatch.setattr(exploring, "_begin", begin)
     monkeypatch.setattr(exploring, "_converge", lambda fit, data, first, others: first)
     monkeypatch.setattr(exploring, "by_score", lambda found: found)

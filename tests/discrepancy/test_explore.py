@@ -6,6 +6,7 @@ from driven_cart import cart, data_of, few, recorded
 
 from symid.discrepancy.locate.projection import Projection
 import symid.discrepancy.name.explore as steps
+import symid.discrepancy.name.starts as begins
 from symid.discrepancy.name.explore import explore
 from symid.estimation.fitting.cold_start import fit_model
 from symid.mechanics import LIBRARY
@@ -25,8 +26,8 @@ def test_a_delay_that_no_value_of_a_wrong_model_survives_begins_from_nothing(mon
     data = data_of(recorded(term=LIBRARY["input_delay"].at("input"), values={"delay_s": 0.06}))
     fit = fit_model(cart(), data)
     late = next(s for s in few() if s.term.name == "input_delay")
-    monkeypatch.setattr(steps, "_here", lambda *a: -np.inf)
-    starts = steps._starts(fit, data, Projection(fit, data), late)
+    monkeypatch.setattr(begins, "_here", lambda *a: -np.inf)
+    starts = begins.starts_of(fit, data, Projection(fit, data), late)
     assert [s.afresh for s in starts] == [False, True]
     begun = steps._refit(fit, data, starts[1], 6)
     assert begun.fit.values[late.term.parameter_name("delay_s")] == pytest.approx(0.06, abs=0.005)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-
 import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.hypothesis import Hypothesis, extended, padded
+from symid.discrepancy.model.hypothesis import Hypothesis, extended
 from symid.discrepancy.model.suspects import Suspect, is_alike
-from symid.discrepancy.name.scan import scan
+from symid.discrepancy.name.short_pieces import short_pieces
+from symid.discrepancy.name.starts import Start, starts_of
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
@@ -19,30 +18,12 @@ from symid.estimation.fitting.fit import Fit, Fitter
 from symid.threads import in_threads
 
 FIRST_ITERATIONS, CONVERGING_ITERATIONS = 6, 20
-SMALL = 0.15
-"""A law that no value switches off nearly does nothing at this part of its usual sizes (a lag) or beyond (a limit)."""
 BEYOND = 3.0
 """A slope at zero may see but a third of what a delay, a lag or an integral explains."""
 KEPT = 0.5
 """A fit that explains less than this part of its forecast may have gone astray: the next start is tried."""
 MOMENTS = 0.3
 """Spacing [s] at the pace of a second of the moments at which a lasting change is tried."""
-
-
-@dataclass(frozen=True, eq=False)
-class Start:
-    """Where the fit of a suspect begins: at `values`, all else as fitted, or with all else from nothing (`afresh`).
-
-    Attributes
-    ----------
-    begun : what a few iterations from there lead to, once they were made.
-    """
-
-    forecast: float
-    suspect: Suspect
-    values: dict[str, float]
-    afresh: bool = False
-    begun: list[Hypothesis | None] = field(default_factory=list)
 
 
 def explore(
@@ -54,12 +35,14 @@ def explore(
     least: float = 0.0,
     projection: Projection | None = None,
     known: dict[Suspect, list[Start]] | None = None,
+    jumps: Sequence[str] = (),
     progress: Callable[[str], None] = lambda text: None,
 ) -> list[Hypothesis]:
     """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found.
 
     least : log-likelihood ratio below which a suspect is of no use; those that promise too little of it are not fitted.
     known : starts of suspects that were explored on top of this fit before; those of others are added.
+    jumps : friction speeds of the model that nobody stated.
     """
     projection = projection or Projection(fit, data)
     refitted, converged = (
@@ -67,7 +50,7 @@ def explore(
     )
     known = {} if known is None else known
     new = [s for s in suspects if s not in known]
-    known |= zip(new, in_threads(lambda s: _starts(fit, data, projection, s), new), strict=True)
+    known |= zip(new, in_threads(lambda s: starts_of(fit, data, projection, s), new), strict=True)
     starts = [known[s] for s in suspects if known[s]]
     reach = _reaches(starts)
     starts.sort(key=lambda s: -reach[s[0].suspect])
@@ -84,8 +67,11 @@ def explore(
     best = min(max((c.log_ratio for c in first), default=0.0), max(reach.values(), default=0.0))
     worth = [s for s in chosen[POLICY.always_refitted :] if reach[s[0].suspect] > POLICY.beam_share * best]
     first += begun(worth)
-    first += begun(_unseen(starts, first))
+    unseen = _unseen(starts, first)
+    first += begun(unseen)
     first += [c for c in in_threads(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first)) if c is not None]
+    tried = [*chosen[: POLICY.always_refitted], *worth, *unseen]
+    first += _eased(fit, data, tried, first, jumps)
     first = list({c.suspect: c for c in sorted(first, key=lambda c: c.log_ratio)}.values())
     first.sort(key=lambda c: -c.log_ratio)
     others = {
@@ -154,51 +140,21 @@ def _misled(chosen: Sequence[list[Start]], first: Sequence[Hypothesis]) -> list[
     ]
 
 
+def _eased(
+    fit: Fit, data: Data, tried: Sequence[list[Start]], first: Sequence[Hypothesis], jumps: Sequence[str]
+) -> list[Hypothesis]:
+    """Those that have not converged in a motion that cannot be followed for long, by way of short pieces."""
+    converged = {c.suspect for c in first if c.fit.converged}
+    astray = [s[0] for s in tried if s[0].suspect.scanned is None and s[0].suspect not in converged]
+    short = short_pieces(fit, data, jumps) if astray else None
+    found = in_threads(lambda s: short.fitted(s.suspect, s.values, s.forecast), astray) if short else []
+    return [c for c in found if c is not None]
+
+
 def by_score(found: Sequence[Hypothesis]) -> list[Hypothesis]:
     """Best first, all judged by the samples that the one with the least error lets count."""
     share = max(found, key=lambda c: c.log_ratio).share if found else 1.0
     return sorted(found, key=lambda c: -c.evidence(share))
-
-
-def _starts(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> list[Start]:
-    """Start values of one suspect, best forecast first; none where it cannot be simulated."""
-    model = fit.model.with_term(suspect.term)
-    if suspect.scanned is not None:
-        found = scan(projection, suspect, model)
-        return [Start(g, suspect, v) for g, v in found[:1] + [f for f in found[1:] if f[0] > 0.7 * found[0][0]][:2]]
-    fitter, found = Fitter(model, data, near=fit, tune=False), []
-    if suspect.strength is not None:
-        for values in suspect.starts():
-            try:
-                columns = projection.response(suspect, fitter.sim, values)
-            except SymidError:
-                continue
-            if columns is not None:
-                found.append(Start(projection.forecast(columns)[0], suspect, values))
-    found.sort(key=lambda s: -s.forecast)
-    if found and not suspect.strength.starts:
-        return found[:1]
-    # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
-    finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
-    finite = [v for here, v in finite if np.isfinite(here)][:2]
-    forecast = max([s.forecast for s in found] + [_promise(fitter, fit, suspect)])
-    # Values that a wrong model liked may hold it together with no size of what it lacks.
-    afresh = Start(forecast, suspect, suspect.starts(off=False)[0], afresh=True)
-    return [*found[:1], *(Start(forecast, suspect, v) for v in finite), afresh]
-
-
-def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
-    """Twice the log-likelihood with the suspect at these values and nothing refitted."""
-    initial, gain = extended(fit.initial, fitter.sim), padded(fit.kalman_gain, fitter.sim)
-    return fitter.evaluate(fit.values | suspect.named(values), initial, gain)
-
-
-def _promise(fitter: Fitter, fit: Fit, suspect: Suspect) -> float:
-    """Growth of twice the log-likelihood that one step promises from where the law nearly does nothing."""
-    initial, starts = extended(fit.initial, fitter.sim), suspect.starts(off=False)
-    weak = (SMALL, SMALL if suspect.strength is not None else 1 / SMALL)
-    ends = [{k: part * v for k, v in start.items()} for start, part in zip((starts[0], starts[-1]), weak, strict=True)]
-    return max(fitter.promise(fit.values | suspect.named(v), initial, fit.process) for v in ends) - fit.loglik2
 
 
 def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothesis | None:
@@ -246,21 +202,21 @@ def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
 
 def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start]) -> Hypothesis:
     """The candidate fitted to convergence, or what another start leads to if that is better."""
-    found = [_continued(fit, data, first)]
+    found = [_continued(data, first)]
     for start in others:
         other = _begun(fit, data, start)
         if other is not None and other.log_ratio > found[0].log_ratio + 1.0:
-            found.append(_continued(fit, data, other))
+            found.append(_continued(data, other))
     best = max(found, key=lambda c: c.log_ratio)
     moved = _profiled(best, data)
     again = _refit(fit, data, moved) if moved is not None else None
     return again if again is not None and again.log_ratio > best.log_ratio else best
 
 
-def _continued(fit: Fit, data: Data, begun: Hypothesis) -> Hypothesis:
+def _continued(data: Data, begun: Hypothesis) -> Hypothesis:
     """The same candidate after more iterations, with standard errors."""
     new = Fitter.of(begun.fit, data).again(begun.fit, CONVERGING_ITERATIONS)
-    return Hypothesis(begun.suspects, new, fit, data, begun.forecast)
+    return Hypothesis(begun.suspects, new, begun.base, data, begun.forecast)
 
 
 def _profiled(best: Hypothesis, data: Data) -> Start | None:

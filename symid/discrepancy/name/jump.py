@@ -85,6 +85,14 @@ def with_fitted_jumps(found: Hypothesis, made: Sequence[str], known: Model) -> H
     return found
 
 
+def with_jumps_of(fit: Fit, base: Fit, made: Sequence[str]) -> Fit:
+    """`base` with dry friction that sets in as in the model of `fit`: itself, where it does."""
+    other = {n: fit.model.constants[n].value for n in made}
+    if all(base.model.constants[n].value == v for n, v in other.items()):
+        return base
+    return replace(base, model=base.model.with_constants(**other))
+
+
 def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
     model, data, near = found.base.model, found.data, replace(found.fit, substeps=1)
     sharp = model.constants[name].value

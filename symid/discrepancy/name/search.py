@@ -7,14 +7,14 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, log
 
-
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import Test, remainder
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
-from symid.discrepancy.name.explore import Start, by_score, explore
+from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.held import held
-from symid.discrepancy.name.jump import with_fitted_jumps
+from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_of
+from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
 from symid.estimation.signals.data import Data
@@ -238,8 +238,11 @@ class Search:
             progress=self.progress,
             projection=None if best.suspects else self.projection,
             known=None if best.suspects else self.starts,
+            jumps=self.jumps,
         )
-        return [Hypothesis((*best.suspects, h.suspect), h.fit, self.base, self.data, h.forecast) for h in found]
+        bases = [with_jumps_of(h.fit, self.base, self.jumps) for h in found]
+        sets = [(*best.suspects, h.suspect) for h in found]
+        return [Hypothesis(s, h.fit, b, self.data, h.forecast) for s, h, b in zip(sets, found, bases, strict=True)]
 
     def _other_pairs(
         self, best: Hypothesis, single: list[Hypothesis], alone: bool = True, above: float = 0.0

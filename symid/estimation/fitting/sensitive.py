@@ -41,7 +41,7 @@ def followed(
     near : whether a fit has found the motion, so that its pieces need not be shorter.
     """
     whole = length = max(e.time[-1] - e.time[0] for e in data.segments)
-    pieces, grows = data, _largest(fit, data)
+    pieces, grows = data, largest_growth(fit, data)
     if lost(fit, data):
         length = _held_together(model, data, start, whole)
     sensitive = grows > GROWTH or length < whole
@@ -51,12 +51,12 @@ def followed(
         if length < whole:
             pieces = _parts(data, length)
             fit = fit_model(model, pieces, dict(start))
-            grows = _largest(fit, pieces)
+            grows = largest_growth(fit, pieces)
         while length / 2 > _shortest(grows, data) and not (grows <= MOST_GROWTH and near(fit, pieces)):
             length /= 2
             pieces = _parts(data, length)
             fit = fit_model(model, pieces, dict(start))
-            grows = _largest(fit, pieces)
+            grows = largest_growth(fit, pieces)
             sensitive = sensitive or grows > GROWTH
             if not (sensitive or lost(fit, pieces)):
                 return None
@@ -78,7 +78,7 @@ def _held_together(model: Model, data: Data, start: Mapping[str, float], whole: 
     while length / 2 > FEWEST * data.segments[0].step:
         pieces = _parts(data, length)
         try:
-            if _largest(fit_states(model, pieces, start), pieces) <= MOST_GROWTH:
+            if largest_growth(fit_states(model, pieces, start), pieces) <= MOST_GROWTH:
                 return length
         except SymidError:
             pass
@@ -99,7 +99,8 @@ def lost(fit: Fit, data: Data) -> bool:
     return bool(np.any(np.sqrt(np.mean(np.vstack(fit.innovations) ** 2, axis=0)) > LOST * moves))
 
 
-def _largest(fit: Fit, data: Data) -> float:
+def largest_growth(fit: Fit, data: Data) -> float:
+    """Of the differences of all pieces, as `growth` tells it of one."""
     return max(
         growth(fit, e, x0, data.pace, data.sensor_noise) for e, x0 in zip(data.segments, fit.initial, strict=True)
     )

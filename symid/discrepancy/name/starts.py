@@ -1,0 +1,75 @@
+"""Where the fit of a suspect begins on top of a fitted model, and what it promises there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.model.hypothesis import Hypothesis, extended, padded
+from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.name.scan import scan
+from symid.errors import SymidError
+from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.signals.data import Data
+
+SMALL = 0.15
+"""A law that no value switches off nearly does nothing at this part of its usual sizes (a lag) or beyond (a limit)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """Where the fit of a suspect begins: at `values`, all else as fitted, or with all else from nothing (`afresh`).
+
+    Attributes
+    ----------
+    begun : what a few iterations from there lead to, once they were made.
+    """
+
+    forecast: float
+    suspect: Suspect
+    values: dict[str, float]
+    afresh: bool = False
+    begun: list[Hypothesis | None] = field(default_factory=list)
+
+
+def starts_of(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> list[Start]:
+    """Start values of one suspect, best forecast first; none where it cannot be simulated."""
+    model = fit.model.with_term(suspect.term)
+    if suspect.scanned is not None:
+        found = scan(projection, suspect, model)
+        return [Start(g, suspect, v) for g, v in found[:1] + [f for f in found[1:] if f[0] > 0.7 * found[0][0]][:2]]
+    fitter, found = Fitter(model, data, near=fit, tune=False), []
+    if suspect.strength is not None:
+        for values in suspect.starts():
+            try:
+                columns = projection.response(suspect, fitter.sim, values)
+            except SymidError:
+                continue
+            if columns is not None:
+                found.append(Start(projection.forecast(columns)[0], suspect, values))
+    found.sort(key=lambda s: -s.forecast)
+    if found and not suspect.strength.starts:
+        return found[:1]
+    # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
+    finite = sorted(((_here(fitter, fit, suspect, v), v) for v in suspect.starts(off=False)), key=lambda s: -s[0])
+    finite = [v for here, v in finite if np.isfinite(here)][:2]
+    forecast = max([s.forecast for s in found] + [_promise(fitter, fit, suspect)])
+    # Values that a wrong model liked may hold it together with no size of what it lacks.
+    afresh = Start(forecast, suspect, suspect.starts(off=False)[0], afresh=True)
+    return [*found[:1], *(Start(forecast, suspect, v) for v in finite), afresh]
+
+
+def _here(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, float]) -> float:
+    """Twice the log-likelihood with the suspect at these values and nothing refitted."""
+    initial, gain = extended(fit.initial, fitter.sim), padded(fit.kalman_gain, fitter.sim)
+    return fitter.evaluate(fit.values | suspect.named(values), initial, gain)
+
+
+def _promise(fitter: Fitter, fit: Fit, suspect: Suspect) -> float:
+    """Growth of twice the log-likelihood that one step promises from where the law nearly does nothing."""
+    initial, starts = extended(fit.initial, fitter.sim), suspect.starts(off=False)
+    weak = (SMALL, SMALL if suspect.strength is not None else 1 / SMALL)
+    ends = [{k: part * v for k, v in start.items()} for start, part in zip((starts[0], starts[-1]), weak, strict=True)]
+    return max(fitter.promise(fit.values | suspect.named(v), initial, fit.process) for v in ends) - fit.loglik2
