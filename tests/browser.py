@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+import tempfile
 from html import unescape
 from pathlib import Path
 
@@ -43,7 +44,9 @@ def seen(page: Path) -> list[dict]:
     (page.parent / "frames.html").write_text(FRAMES.format(frames=frames))
     command = [CHROMIUM, "--headless", "--no-sandbox", "--disable-gpu", "--allow-file-access-from-files"]
     command += ["--enable-logging=stderr", "--virtual-time-budget=8000", "--dump-dom"]
-    done = subprocess.run([*command, f"file://{page.parent}/frames.html"], capture_output=True, text=True, timeout=120)
+    with tempfile.TemporaryDirectory() as own:  # the home may be one that cannot be written
+        command += [f"--user-data-dir={own}", f"file://{page.parent}/frames.html"]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=120)
     (page.parent / "frames.html").unlink()
     found = re.search(r'<p id="out">(.*?)</p>', done.stdout, re.S)
     assert found and found[1], done.stderr[-2000:]
