@@ -15,6 +15,7 @@ import importlib.abc
 import importlib.util
 import os
 import random
+import resource
 import signal
 import sys
 import tempfile
@@ -36,6 +37,9 @@ PARTS = {
 """Part -> its code, and the tests that should notice."""
 LIMIT = 10.0
 """Times the tests' own time: a mutant that loops is killed, too."""
+BYTES = 8 * 2**30
+"""Addresses that tests may take, twenty times what they need: a mutant that grows without end would have others killed,
+the next part's tests among them."""
 SWAPS = {
     ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult, ast.FloorDiv: ast.Mult, ast.Pow: ast.Mult,
     ast.Lt: ast.LtE, ast.LtE: ast.Lt, ast.Gt: ast.GtE, ast.GtE: ast.Gt, ast.Eq: ast.NotEq, ast.NotEq: ast.Eq,
@@ -117,12 +121,14 @@ def outcome(finder: Changed | None, tests: list[str], limit_s: float, cache: str
     """Whether tests in a fork are killed, survived or endless, and the time [s]; `cache` keeps their kernels."""
     began = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
+        said = Path(folder, "said.txt")
         child = os.fork()
         if child == 0:
             os.setsid()
-            with open(os.devnull, "w") as nowhere:
-                os.dup2(nowhere.fileno(), 1)
-                os.dup2(nowhere.fileno(), 2)
+            resource.setrlimit(resource.RLIMIT_AS, (BYTES, BYTES))
+            with said.open("w") as file:
+                os.dup2(file.fileno(), 1)
+                os.dup2(file.fileno(), 2)
             os.environ["SYMID_CACHE_DIR"] = cache or folder
             sys.meta_path[:0] = [] if finder is None else [finder]
             import pytest
@@ -131,6 +137,8 @@ def outcome(finder: Changed | None, tests: list[str], limit_s: float, cache: str
         while True:
             ended, status = os.waitpid(child, os.WNOHANG)
             if ended:
+                if status and finder is None:
+                    print(said.read_text()[-4000:])
                 return ("survived" if status == 0 else "killed"), time.monotonic() - began
             if time.monotonic() - began > limit_s:
                 os.killpg(child, signal.SIGKILL)
