@@ -1,5 +1,6 @@
 """Kernels: their structure, their arguments, and sources that depend on the equations alone."""
 
+import time
 import warnings
 from concurrent.futures import ThreadPoolExecutor
 
@@ -65,6 +66,22 @@ def test_the_hessian_is_added_through_the_index(backend):
     out = np.full(12, 100.0)
     k.hessian_into(out, index, *args, multipliers)
     assert np.allclose(out, [*range(101, 111), 155, 100])
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_an_index_is_looked_at_even_after_another_that_was_right(backend):
+    k = compile_program(program(X**2 / 2 + P * Y), backend)
+    args, multipliers, out = arguments(k, 10), np.ones((10, 1)), np.zeros(12)
+    k.hessian_into(out, np.zeros((10, 2), np.int32), *args, multipliers)
+    with pytest.raises(CodegenError, match="index points to 0 ... 12, outside of out"):
+        k.hessian_into(out, np.arange(0, 20, dtype=np.int32).reshape(10, 2).clip(0, 12), *args, multipliers)
+
+
+@pytest.mark.parametrize("backend", BACKENDS)
+def test_the_time_of_building_is_a_part_of_what_passed(backend):
+    before = time.perf_counter()
+    seconds = compile_program(program(X * P), backend).seconds
+    assert min(seconds.values()) >= 0 and sum(seconds.values()) <= time.perf_counter() - before
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
