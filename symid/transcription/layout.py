@@ -13,7 +13,7 @@ the parameters (a free duration among them) as its border.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.lib.stride_tricks import as_strided
@@ -47,12 +47,12 @@ class Layout:
     state_scale: np.ndarray
     parameter_scale: np.ndarray
     late_scale: np.ndarray
-    refine: int = 1
-    beside_names: tuple[str, ...] = ()
-    beside_scale: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    own_names: tuple[str, ...] = ()
-    own_scale: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    own_points: int = 0
+    refine: int
+    beside_names: tuple[str, ...]
+    beside_scale: np.ndarray
+    own_names: tuple[str, ...]
+    own_scale: np.ndarray
+    own_points: int
 
     @property
     def n(self) -> int:

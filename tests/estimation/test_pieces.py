@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from conftest import pendulum
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -10,6 +11,7 @@ from symid.discrepancy.model.dry import PARTS, with_friction_speeds
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.pieces import FEW, MANY, free_pieces
+from symid.estimation.signals.windows import segments_between
 from symid.mechanics import LIBRARY
 
 STEP, PERIOD = 0.02, 1.3
@@ -31,6 +33,15 @@ def test_one_coordinate_stays_in_one_piece_however_it_was_cut(places):
     np.testing.assert_array_equal(whole.time, TIME)
     np.testing.assert_array_equal(whole.recorded[:, 0], SWING)
     np.testing.assert_array_equal(whole.inputs["force"], TIME)
+
+
+@pytest.mark.parametrize("length", [None, 30.0, 31.0, 40.0])
+def test_every_sample_of_a_window_is_in_one_piece(length):
+    """31 s ends a piece just half way between two samples."""
+    time = np.arange(0, 121, 2.0)
+    pieces = segments_between(pendulum(), time, {"angle": time, "drive": time}, (0.0, 120.0), length)
+    np.testing.assert_array_equal(np.concatenate([p.time for p in pieces]), time)
+    assert len(pieces) == (1 if length is None else -(-120 // length))
 
 
 @pytest.mark.parametrize("pieces", [1, 26])
