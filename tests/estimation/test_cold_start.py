@@ -1,5 +1,7 @@
 """Where a fit begins that nobody gave a start: motions that ring on for many periods, and that turn over."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import sympy as sm
@@ -11,7 +13,8 @@ import symid as si
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
-from symid.estimation.fitting.sensitive import followed
+from symid.estimation.fitting.sensitive import followed, growth
+from symid.simulation import simulator
 
 NOISE = 2e-3
 
@@ -107,3 +110,15 @@ def test_a_state_may_be_any_number_in_its_unit(size):
     pieces = [Segment(e.time, size * e.recorded, {k: size * u for k, u in e.inputs.items()}) for e in data.segments]
     fit = fit_model(body(lambda x: x), Data(tuple(pieces), size * data.sensor_noise, driven=False))
     assert fit.values == pytest.approx(fit_model(body(lambda x: x), data).values, rel=1e-6)
+
+
+def test_a_small_difference_grows_as_the_motion_falls():
+    """x' = x: from half a second, the pace, to two it grows by e^1.5, and within the pace by e^0.5."""
+    m = si.Model("fall")
+    m.x = si.State(unit="m")
+    m.fall = si.Equation(m.x.dot - m.x)
+    m.place = si.Output(m.x)
+    time = np.arange(0, 2.005, 0.01)
+    fit = SimpleNamespace(simulator=simulator(m), values={}, substeps=1)
+    found = growth(fit, Segment(time, np.exp(time)[:, None], {}), np.array([1.0]), 0.5, np.array([1e-3]))
+    assert found == pytest.approx(np.exp(2.0), rel=0.05)

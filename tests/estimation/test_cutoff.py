@@ -6,6 +6,7 @@ from scipy.signal import butter, filtfilt
 
 from symid.estimation.sensors.cutoff import estimated_filter
 from symid.estimation.sensors.spectrum import power_spectrum
+from symid.estimation.sensors.zero_phase import _kept
 
 STEP = 0.01
 
@@ -59,3 +60,9 @@ def test_few_samples_are_no_error(count, empty):
     noise = np.random.default_rng(5).standard_normal((2, count))
     found = estimated_filter([noise[0]], [noise[1]], STEP, empty=empty)
     assert found is None or empty
+
+
+def test_what_is_kept_of_a_frequency_and_of_its_alias_have_the_power_of_one():
+    x = np.linspace(0, 2, 201)
+    np.testing.assert_allclose(_kept(x, 4) ** 2 + _kept(2 - x, 4) ** 2, 1, atol=1e-12)
+    assert np.all(_kept(x, 1) == 1) and np.all(np.diff(_kept(x, 4)) <= 0)

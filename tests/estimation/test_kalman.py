@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from symid.estimation.fitting.kalman import kalman_gain
+from symid.estimation.signals.segment import _between
 from symid.simulation import Linearised
 
 # A piston: position [m], speed [m/s] and pressure [Pa]; position and pressure are measured, the valve is noisy.
@@ -30,3 +31,8 @@ def test_units_do_not_matter(size):
 def test_both_sensors_are_used():
     gain = gain_of(np.ones(3), np.ones(2))
     assert 0.01 < gain[0, 0] < 1 and 0.5 < gain[2, 1] < 1
+
+
+def test_gains_between_samples_are_on_the_line_between_theirs():
+    gain = np.array([0.0, 1.0, 4.0])[:, None, None]
+    assert _between(gain, 2).ravel().tolist() == [0, 0.5, 1, 2.5, 4]

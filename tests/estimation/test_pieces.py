@@ -8,10 +8,12 @@ from hypothesis import strategies as st
 
 import symid as si
 from symid.discrepancy.model.dry import PARTS, with_friction_speeds
+from symid.errors import DiagnosisError
+from symid.estimation.fitting.fit import Fitter
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.pieces import FEW, MANY, free_pieces
-from symid.estimation.signals.windows import segments_between
+from symid.estimation.signals.windows import segments_between, segments_of
 from symid.mechanics import LIBRARY
 
 STEP, PERIOD = 0.02, 1.3
@@ -42,6 +44,37 @@ def test_every_sample_of_a_window_is_in_one_piece(length):
     pieces = segments_between(pendulum(), time, {"angle": time, "drive": time}, (0.0, 120.0), length)
     np.testing.assert_array_equal(np.concatenate([p.time for p in pieces]), time)
     assert len(pieces) == (1 if length is None else -(-120 // length))
+
+
+@pytest.mark.parametrize(
+    ("split", "words"),
+    [(None, "add a column split with labels"), (["a"] * 20 + ["b"] * 20, "column split instead: a, b")],
+)
+def test_a_window_of_times_that_begin_anew_is_refused(split, words):
+    time, segment = np.tile(np.arange(20.0), 2), np.repeat([0, 1], 20)
+    split = None if split is None else np.array(split)
+    units, values = {"angle": "rad", "drive": "1/s^2"}, {"angle": time, "drive": time}
+    recording = si.Recording("r", time, values, units, segment=segment, split=split)
+    with pytest.raises(DiagnosisError, match=words):
+        segments_of(pendulum(), recording, (0.0, 19.0))
+
+
+def test_what_was_before_a_free_motion_goes_on_as_it_began():
+    """A ball that is thrown, with a spring that reads late where the ball was, of stiffness 0: a parabola."""
+    m = si.Model("ball")
+    m.x, m.v = si.State(unit="m"), si.State(unit="m/s")
+    m.k = si.Parameter(unit="1/s^2", guess=0.0)
+    m.kinematics = si.Equation(m.x.dot - m.v)
+    m.balance = si.Equation(m.v.dot + 9.81 + m.k * m.delayed(m.x, 0.1))
+    m.place = si.Output(m.x)
+    time = np.arange(0, 1, STEP)
+    path = 1 + 3 * time - 9.81 / 2 * time**2
+    data = Data((Segment(time, path[:, None], {}),), np.array([1e-3]), driven=False)
+    before, x = Fitter(m, data)._history({"k": 0.0}, np.array([1.0, 3.0]), data.segments[0])
+    assert before[0] < 0 and before[-1] == 0
+    np.testing.assert_allclose(
+        x, np.column_stack([1 + 3 * before - 9.81 / 2 * before**2, 3 - 9.81 * before]), atol=1e-9
+    )
 
 
 @pytest.mark.parametrize("pieces", [1, 26])

@@ -7,6 +7,7 @@ import symid as si
 from symid.mechanics import FullStatePD
 from symid.simulation import simulator
 from symid.synthetic import BODY, standing_recording
+from symid.transcription.delays import LateSignal
 
 GAINS = {
     "kp_aa": 460.0,
@@ -129,3 +130,13 @@ def test_delays_of_a_state_and_of_an_input_are_found_together():
     solution = si.Identification(m, recording, (1, 19.5)).solve(start={"late_x": 0.2, "late_u": 0.2}, check=False)
     for name, value in true.items():
         assert abs(solution.values[name] - value) < 4 * solution.parameters["std_error"][name] < 0.05
+
+
+@pytest.mark.parametrize(("lag", "past"), [(2.4, 2), (2.7, 3)])
+def test_an_interval_reads_what_was_before_where_its_middle_does(lag, past):
+    """Of a control that may jump at node 0, with six intervals of 1 s."""
+    late = LateSignal(
+        samples=np.zeros(20), before=10, abscissa=0.5, lag=lag, lag_bounds=(lag, lag), step=1.0, row=np.arange(6),
+        late_column=np.arange(6), node_columns=np.arange(6, 13), jumps=True,
+    )  # fmt: skip
+    assert late.free.any(axis=1).tolist() == [False] * past + [True] * (6 - past)
