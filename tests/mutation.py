@@ -26,7 +26,7 @@ from pathlib import Path
 ROOT = Path(__file__).parents[1]
 PARTS = {
     "transcription": ("symid/transcription", "transcription model/test_conditions.py"),
-    "estimation": ("symid/estimation", "estimation discrepancy/test_audit.py"),
+    "estimation": ("symid/estimation", "estimation discrepancy/test_audit.py discrepancy/test_discrepancy_bounded.py"),
     "covariance": (
         "symid/identification/covariance.py",
         "identification/test_covariance.py identification/test_determined_effects.py "

@@ -1,10 +1,12 @@
 """What an input does between its samples is told by the likelihood where nobody stated it."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 import symid as si
-from symid.estimation.between_samples import with_likeliest_curves
+from symid.estimation.between_samples import _differs, with_likeliest_curves
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
@@ -40,3 +42,9 @@ def test_the_curve_of_an_input_is_told_where_it_is_not_stated(truth, stated):
     assert chosen.model.inputs["push"].hold == (told if stated == "either" else stated)
     if chosen.model.inputs["push"].hold == told:
         assert all(abs(chosen.values[k] - v) < 4 * chosen.errors[k] for k, v in values.items())
+
+
+def test_a_curve_that_changes_nothing_is_not_seen():
+    fitter = SimpleNamespace(run=lambda *given, **options: [SimpleNamespace(y=np.ones((20, 1)))])
+    fit = SimpleNamespace(values={}, initial=[], kalman_gain=None, process=[], innovations=[np.full((20, 1), 0.1)])
+    assert not _differs(fitter, fitter, fit)

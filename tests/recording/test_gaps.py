@@ -43,6 +43,16 @@ def test_derivatives_with_gaps_and_robust_loss_agree_with_central_differences():
     assert check_derivatives(t.nonlinear_program(t.start(np.array([0.7]))), z).worst_error < 1e-6
 
 
+def test_the_objective_of_a_robust_output_is_the_pseudo_huber_sum():
+    recording, width = pendulum_recording(duration=0.6, step=0.05), 0.02
+    t = si.Identification(pendulum(), recording, loss={"measured": width}, backend="numpy").transcription
+    z = t.start(np.array([0.7])) + np.random.default_rng(1).normal(0, 0.1, t.layout.size)
+    error = t.layout.states(z, 0)[:, 0] - recording["angle"]
+    weight = t.program.weights[0, 0] * t.program.data[0].step
+    expected = weight * np.sum(2 * width**2 * (np.sqrt(1 + (error / width) ** 2) - 1))
+    assert t.program.objective(z) == pytest.approx(expected)
+
+
 @pytest.mark.parametrize("scheme", [si.Midpoint(), si.HermiteSimpson()])
 def test_uneven_samples_need_no_resampling(scheme):
     recording = pendulum_recording(step=0.01)
