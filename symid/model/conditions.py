@@ -226,7 +226,9 @@ def row_of(condition: Any, lower: float | None = None, upper: float | None = Non
             "(== compares the parts themselves: use sympy.Eq)"
         )
     if not condition.free_symbols:
-        raise ModelError(f"the condition {condition} holds no quantity: compare parts of the model, as in m.x <= 1")
+        raise ModelError(
+            f"the condition {str(condition)[:80]} holds no quantity: compare parts of the model, as in m.x <= 1"
+        )
     if not isinstance(condition, Relational):
         both = lower is None and upper is None
         return Row(

@@ -196,7 +196,9 @@ class Model(Kinds, Derived):
         """
         expr, lag = self.inline(sympified(expr)), sympified(lag)
         if lag.is_number and not (lag.is_finite and lag.is_real and lag >= 0):
-            raise ModelError(f"model '{self.name}': delayed by {lag} s; give a lag of at least 0: no signal is early")
+            raise ModelError(
+                f"model '{self.name}': delayed by {str(lag)[:80]} s; give a lag of at least 0: no signal is early"
+            )
         late = {c.symbol for c in self._of((State, Control, Input)).values()}
         table = {}
         for s in sorted(free_symbols(expr) & (late | self.delays.keys()), key=str):

@@ -16,6 +16,8 @@ from symid.mechanics.link import ChainLink
 from symid.recording import differentiate, lowpass, resample, smooth_states, unwrap
 
 RECORDING = pendulum_recording(duration=1)
+HUGE = sm.exp(sm.Float(10) ** 400)
+"""A number of SymPy that Python's formats refuse."""
 
 
 @pytest.mark.parametrize(
@@ -131,6 +133,8 @@ def cart() -> si.Model:
         (lambda m: m.kinematic, "no part 'kinematic'; did you mean 'kinematics'"),
         (lambda m: math.sin(m.x), "has no number before it is solved for: use SymPy's functions"),
         (lambda m: (setattr(m, "q", si.State(unit="m", index=range(3))), m.q[7]), "no copy with the index 7"),
+        (lambda m: si.Constraint(HUGE, upper=1).row, "the condition [0-9.e+]+ holds no quantity"),
+        (lambda m: m.delayed(m.x, -HUGE), "delayed by -[0-9.e+]+ s; give a lag of at least 0"),
         (lambda m: si.Constraint(m.x <= 1, soft=True), "soft=True: give a number"),
         (lambda m: setattr(m, "t", si.State(unit="s")), "reserved .time, model.time."),
     ],
