@@ -131,3 +131,7 @@ def test_a_push_within_a_short_segment_is_no_constant():
     signs = _signs(np.random.default_rng(0), segment, pace=1.0).reshape(POLICY.fewest_blocks, -1, POLICY.nulls)
     assert np.all(signs == signs[:, :1]) and set(np.unique(signs)) == {-1.0, 1.0}
     assert np.all(np.ptp(signs[:, 0], axis=1) == 2) and np.ptp(np.abs(signs[:, 0].sum(axis=0))) > 0
+
+
+def test_errors_without_any_correlation_all_count():
+    assert independent_share([np.eye(20)[:, :1]]) == 1

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import butter, filtfilt
 
-from symid.estimation.sensors.cutoff import estimated_filter
+from symid.estimation.sensors.cutoff import _end_of_motion, estimated_filter
 from symid.estimation.sensors.spectrum import power_spectrum
 from symid.estimation.sensors.zero_phase import _kept
 
@@ -66,3 +66,9 @@ def test_what_is_kept_of_a_frequency_and_of_its_alias_have_the_power_of_one():
     x = np.linspace(0, 2, 201)
     np.testing.assert_allclose(_kept(x, 4) ** 2 + _kept(2 - x, 4) ** 2, 1, atol=1e-12)
     assert np.all(_kept(x, 1) == 1) and np.all(np.diff(_kept(x, 4)) <= 0)
+
+
+@pytest.mark.parametrize("size", [1e-8, 1.0, 1e8])
+def test_where_a_motion_ends_does_not_depend_on_units(size):
+    found = [_end_of_motion(np.arange(20.0), one * 10.0 ** -np.arange(20)) for one in (1.0, size)]
+    assert found[0] == found[1] > 1

@@ -1,5 +1,7 @@
 """An identification gives the same answer in whatever units its quantities and time are written."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -8,6 +10,7 @@ from hypothesis import strategies as st
 import symid as si
 from symid.recording import Recording
 from symid.simulation import simulator
+from symid.transcription.scales import rate_scale
 
 EXPONENT = st.floats(-9, 9)
 
@@ -113,3 +116,9 @@ def test_the_unit_of_a_hidden_state_does_not_matter(exponent):
     )
     assert here.solved and there.values == pytest.approx(here.values, rel=1e-6)
     assert abs(there.result.iterations - here.result.iterations) <= 3
+
+
+def test_the_pace_of_a_state_is_that_of_the_shortest_time_in_which_it_moves_by_half_its_scale():
+    time = 0.1 * np.arange(101)
+    ramp = SimpleNamespace(states=time[:, None], nodes=slice(None), intervals=100, step=0.1)
+    assert rate_scale([ramp], np.ones(1)) == pytest.approx(0.5 / 0.8)  # times double: 0.4 s are too short

@@ -13,6 +13,7 @@ from symid.errors import TranscriptionError
 from symid.nlp import check_derivatives
 from symid.transcription import SCHEMES, Episodes, measure, scheme_by_name, transcribe
 from symid.transcription.delays import SUPPORT, weights
+from symid.transcription.layout import Layout
 
 
 def transcribed(model, recording, scheme="midpoint", episodes=None, backend="numpy", window=None):
@@ -184,3 +185,28 @@ def test_multisines_follow_their_seed():
 def test_bad_input_is_refused_in_words(make, words):
     with pytest.raises(TranscriptionError, match=words):
         make()
+
+
+def test_what_stands_within_an_interval_begins_between_its_nodes():
+    one, none = np.ones(1), np.zeros(0)
+    layout = Layout(
+        state_names=("x",),
+        parameter_names=(),
+        late_names=(),
+        interior=0,
+        points=1,
+        intervals=(3,),
+        parameter_index=np.zeros((1, 0), dtype=int),
+        state_scale=one,
+        parameter_scale=none,
+        late_scale=none,
+        refine=1,
+        beside_names=("a",),
+        beside_scale=one,
+        own_names=("a",),
+        own_scale=one,
+        own_points=1,
+    )
+    nodes = np.column_stack([np.zeros(4), [0.0, 1.0, 4.0, 9.0]])
+    local = layout.local_view(layout.fill([nodes], none), 0)
+    assert local[:, layout.width : layout.width + 1].ravel().tolist() == [0.5, 2.5, 6.5]
