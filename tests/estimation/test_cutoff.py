@@ -5,6 +5,7 @@ import pytest
 from scipy.signal import butter, filtfilt
 
 from symid.estimation.sensors.cutoff import _end_of_motion, estimated_filter
+from symid.estimation.sensors.sensor_noise import white_noise
 from symid.estimation.sensors.spectrum import power_spectrum
 from symid.estimation.sensors.zero_phase import _kept
 
@@ -72,3 +73,8 @@ def test_what_is_kept_of_a_frequency_and_of_its_alias_have_the_power_of_one():
 def test_where_a_motion_ends_does_not_depend_on_units(size):
     found = [_end_of_motion(np.arange(20.0), one * 10.0 ** -np.arange(20)) for one in (1.0, size)]
     assert found[0] == found[1] > 1
+
+
+@pytest.mark.parametrize("level", [-2.0, 2.0])
+def test_a_channel_without_noise_has_that_of_its_digits(level):
+    assert white_noise([np.full(20, level)]) == pytest.approx(2e-6)
