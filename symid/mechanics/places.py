@@ -34,12 +34,13 @@ NOTHING = 1e-300
 def with_places(model: Model) -> Model:
     """The model with every place named at which something may be missing, where its user named none.
 
-    Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a ``joint``
-    at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed is all that
-    the model knows, as of a motor; the position of such a port is 0. In another equation of first order, such as that
-    of a tank, a force has no rate of its own, and moves the state: a ``balance``. Where no port is declared at all, a
-    mass that moves as no coordinate does is a ``body``, and a constant without a role is ``stated``. Outputs without a
-    role become sensors, inputs without one excitations.
+    Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a
+    ``joint`` at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed
+    is all that the model knows, as of a motor; the position of such a port is 0. An input that pushes several
+    joints at once is a ``joint``, too: the drive between them. In another equation of first order, such as that of
+    a tank, a force has no rate of its own, and moves the state: a ``balance``. Where no port is declared at all, a
+    mass that moves as no coordinate does is a ``body``, and a constant without a role is ``stated``. Outputs
+    without a role become sensors, inputs without one excitations.
 
     Examples
     --------
@@ -82,7 +83,7 @@ def _ports_of_balances(model: Model) -> dict[str, Port]:
         port = _port(model, name, residuals[name], state, rates)
         if name not in entered and port.unit:
             found[name] = port
-    return found | _between(found, residuals)
+    return found | _between(found, residuals) | _of_drives(model, found, residuals)
 
 
 def _between(ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
@@ -100,6 +101,33 @@ def _between(ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dic
                 rate=p.rate - q.rate,
                 into={**p.into, **{k: -v for k, v in q.into.items()}},
                 at=f"{p.at}-{q.at}",
+            )
+    return found
+
+
+def _of_drives(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
+    """Ports along the inputs that push several joints at once, by factors that nothing changes.
+
+    A motor between a wheel and the body that it carries turns with neither: its friction follows the speed that is
+    conjugate to its torque (virtual power; Lanczos 1970, section 1.7).
+    """
+    joints = {n: p for n, p in ports.items() if p.role == "joint"}
+    found = {}
+    for u in model.inputs.values():
+        slopes = {n: sm.diff(residuals[n], u.symbol) for n in joints}
+        into = {n: slope.subs({c.symbol: c.value for c in model.constants.values()}) for n, slope in slopes.items()}
+        into = {n: slope for n, slope in into.items() if slope != 0}
+        if len(into) < 2 or not u.unit or not all(slope.is_number for slope in into.values()):
+            continue
+        along = {n: float(slope) * joints[n].into[n] for n, slope in into.items()}
+        if len({joints[n].position == 0 for n in along}) == 1:
+            found[f"{u.name}_drive"] = Port(
+                position=sum(k * joints[n].position for n, k in along.items()),
+                rate=sum(k * joints[n].rate for n, k in along.items()),
+                into={n: float(slope) for n, slope in into.items()},
+                unit=u.unit,
+                role="joint",
+                at=f"drive of {u.channel or u.name}",
             )
     return found
 
