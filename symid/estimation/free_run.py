@@ -73,17 +73,20 @@ def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
 def with_states_of(fit: Fit, data: Data) -> Fit | None:
     """The fit with the initial states that other data ask for, its values kept; None where every way there diverges."""
     free = Data(data.segments, data.sensor_noise, driven=False, pace=data.pace)
-    fitter, size = (
-        Fitter.of(fit, free, fixed=tuple(fit.values)),
-        moves(np.vstack([e.recorded for e in data.segments])),
-    )
-    found = []
+    size = moves(np.vstack([e.recorded for e in data.segments]))
+    fitter, found = Fitter.of(fit, free, fixed=tuple(fit.values)), []
     for x0 in _beginnings(fit, data):
         try:
             found.append(fitter.fit(fit.values, x0, fit.process))
         except SymidError:
             continue
-    return min(found, key=lambda f: float(np.sum((np.vstack(f.innovations) / size) ** 2)), default=None)
+    if not found:
+        return None
+    # Each segment has a state of its own, and so a best beginning of its own.
+    best = np.argmin([[np.sum((e / size) ** 2) for e in f.innovations] for f in found], axis=0)
+    if np.all(best == best[0]):
+        return found[best[0]]
+    return fitter.fit(fit.values, np.array([found[i].initial[k] for k, i in enumerate(best)]), fit.process)
 
 
 def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
@@ -113,8 +116,9 @@ def first_states(fit: Fit, data: Data) -> np.ndarray:
 def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:
     """States fitted to the first second (of its pace) only, then to the whole: rates come out near enough.
 
-    Where a run from rest does not last so long, to the first tenth and more of it by and by.
+    And to the first tenth and more of it by and by: a run from rest need not last so long, or falls over by then.
     """
+    found = []
     for parts in ((1.0,), (0.1, 0.3, 1.0)):
         initial = plain
         try:
@@ -125,5 +129,5 @@ def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:
                 initial = Fitter.of(fit, head, fixed=tuple(fit.values)).fit(fit.values, initial, fit.process).initial
         except SymidError:
             continue
-        return [initial]
-    return []
+        found.append(initial)
+    return found

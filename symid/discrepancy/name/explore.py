@@ -78,11 +78,11 @@ def explore(
         s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast and not t.afresh][:2] for s in starts
     }
     good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
-    found = in_threads(lambda c: _converge(fit, data, c, others[c.suspect]), good)
+    found = in_threads(lambda c: _converge(fit, data, c, others[c.suspect], jumps), good)
     rest = first[len(good) :]
     near = max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near
     close = [c for c in rest if c.log_ratio > max(near, 0.0) and not c.fit.converged]
-    found += in_threads(lambda c: _converge(fit, data, c, others[c.suspect]), close)
+    found += in_threads(lambda c: _converge(fit, data, c, others[c.suspect], jumps), close)
     return by_score(found + [c for c in rest if c not in close])
 
 
@@ -200,7 +200,7 @@ def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
     return best
 
 
-def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start]) -> Hypothesis:
+def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], jumps: Sequence[str]) -> Hypothesis:
     """The candidate fitted to convergence, or what another start leads to if that is better."""
     found = [_continued(data, first)]
     for start in others:
@@ -208,6 +208,11 @@ def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start]) -> H
         if other is not None and other.log_ratio > found[0].log_ratio + 1.0:
             found.append(_continued(data, other))
     best = max(found, key=lambda c: c.log_ratio)
+    if not best.fit.converged and best.suspect.scanned is None:
+        own = {q.key: best.fit.values[best.suspect.term.parameter_name(q.key)] for q in best.suspect.law.parameters}
+        short = short_pieces(fit, data, jumps, [best.fit])
+        eased = short and short.fitted(best.suspect, own, best.forecast)
+        best = eased if eased and eased.log_ratio > best.log_ratio else best
     moved = _profiled(best, data)
     again = _refit(fit, data, moved) if moved is not None else None
     return again if again is not None and again.log_ratio > best.log_ratio else best

@@ -61,10 +61,14 @@ class ShortPieces:
         return None if whole is None else Hypothesis((suspect,), whole, base, self.data, forecast)
 
 
-def short_pieces(fit: Fit, data: Data, jumps: Sequence[str]) -> ShortPieces | None:
-    """Of a free motion; None where a fit can follow its pieces, or the model cannot be fitted in shorter ones."""
-    growth = largest_growth(fit, data) if fit.kalman_gain is None else 1.0
-    if not GROWTH < growth < np.inf:
+def short_pieces(fit: Fit, data: Data, jumps: Sequence[str], leading: Sequence[Fit] = ()) -> ShortPieces | None:
+    """Of a free motion; None where a fit can follow its pieces, or the model cannot be fitted in shorter ones.
+
+    leading : fits with more than `fit` has: a model far off may not know that it would fall over.
+    """
+    growths = [largest_growth(f, data) for f in (fit, *leading) if f.kalman_gain is None]
+    growth = max((g for g in growths if np.isfinite(g)), default=1.0)
+    if growth <= GROWTH:
         return None
     parts = int(np.ceil(np.log(growth) / np.log(EASY)))
     short = [_equal_parts(e, min(parts, len(e.time) // FEWEST)) for e in data.segments]
