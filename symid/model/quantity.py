@@ -14,6 +14,9 @@ from symid.errors import ModelError
 from symid.model.arrays import of_parts
 from symid.model.comparison import GreaterThan, LessThan, NoSuchUse, StrictGreaterThan, StrictLessThan
 
+LARGEST = 709.0
+"""Largest exponent of e that a float of 64 bits holds (IEEE 754)."""
+
 Operand = Any
 """What stands beside a quantity in an expression: a number, a part or a SymPy expression."""
 
@@ -197,9 +200,28 @@ def operand(other: Operand) -> sm.Expr:
 
 
 def sympified(other: Operand) -> sm.Expr:
+    """An operand as SymPy.
+
+    Raises
+    ------
+    ModelError : it is none, or holds a constant power that no float holds: SymPy would count its digits for ever.
+    """
     try:
-        return sm.sympify(other, strict=True)
+        found = sm.sympify(other, strict=True)
     except (sm.SympifyError, AttributeError, TypeError):
         raise ModelError(
             f"{other!r} cannot stand in an equation; use parts of the model, numbers and SymPy expressions"
         ) from None
+    for power in sm.postorder_traversal(found):  # from the inside, so that what is evaluated has passed
+        if isinstance(power, (sm.exp, sm.Pow)) and power.is_number and _is_huge(power):
+            raise ModelError(
+                f"the constant {str(power)[:60]} is larger than any float, or its inverse is (the largest is "
+                f"exp({LARGEST:g})); write one that a model can be evaluated with"
+            )
+    return found
+
+
+def _is_huge(power: sm.Expr) -> bool:
+    base, exponent = power.as_base_exp()
+    size = sm.Abs(exponent) if base == sm.E else sm.Abs(exponent * sm.log(sm.Abs(base)))
+    return bool(size.is_finite is not False and (size.evalf(5) > LARGEST) == sm.true)

@@ -36,7 +36,7 @@ def expressions(draw, symbols, depth=3):
     two += [lambda a, b: sm.Derivative(a, symbols[0]), lambda a, b: sm.Integral(a, symbols[0]), sm.Function("f")]
     kind = draw(st.sampled_from([*one, *two]))
     given = [inner()] if kind in one else [inner(), inner()]
-    if kind in (sm.factorial, sm.gamma, sm.Pow) and endless(given[-1]):
+    if kind in (sm.exp, sm.factorial, sm.gamma, sm.Pow) and endless(given[-1]):
         return sm.Integer(1)
     try:
         return kind(*given)
