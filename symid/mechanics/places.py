@@ -23,6 +23,8 @@ ROLES = ("joint", "link", "balance")
 """Of places where a force, or a flow in a balance, can act."""
 AT_REST = 0.1
 """Of every state, where what stands beside the rates is compared: near rest, and not where an angle's sine vanishes."""
+FORCES = dimension("N"), dimension("N*m")
+"""Of inputs that drive: an acceleration of the ground pushes all floors of a building, and is no drive between them."""
 TURNS = ("rad", "deg", "rpm", "rev")
 """Words in units of angular speed, which has the dimension of any rate."""
 MOST_BODIES = 6
@@ -36,8 +38,8 @@ def with_places(model: Model) -> Model:
 
     Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a
     ``joint`` at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed
-    is all that the model knows, as of a motor; the position of such a port is 0. An input that pushes several
-    joints at once is a ``joint``, too: the drive between them. In another equation of first order, such as that of
+    is all that the model knows, as of a motor; the position of such a port is 0. A force that drives
+    several joints at once is a ``joint``, too, between them. In another equation of first order, such as that of
     a tank, a force has no rate of its own, and moves the state: a ``balance``. Where no port is declared at all, a
     mass that moves as no coordinate does is a ``body``, and a constant without a role is ``stated``. Outputs
     without a role become sensors, inputs without one excitations.
@@ -106,18 +108,18 @@ def _between(ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dic
 
 
 def _of_drives(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
-    """Ports along the inputs that push several joints at once, by factors that nothing changes.
+    """Ports along the forces and torques that push several joints at once, by factors that nothing changes.
 
     A motor between a wheel and the body that it carries turns with neither: its friction follows the speed that is
     conjugate to its torque (virtual power; Lanczos 1970, section 1.7).
     """
     joints = {n: p for n, p in ports.items() if p.role == "joint"}
     found = {}
-    for u in model.inputs.values():
+    for u in [u for u in model.inputs.values() if u.unit and dimension(u.unit) in FORCES]:
         slopes = {n: sm.diff(residuals[n], u.symbol) for n in joints}
         into = {n: slope.subs({c.symbol: c.value for c in model.constants.values()}) for n, slope in slopes.items()}
         into = {n: slope for n, slope in into.items() if slope != 0}
-        if len(into) < 2 or not u.unit or not all(slope.is_number for slope in into.values()):
+        if len(into) < 2 or not all(slope.is_number for slope in into.values()):
             continue
         along = {n: float(slope) * joints[n].into[n] for n, slope in into.items()}
         if len({joints[n].position == 0 for n in along}) == 1:

@@ -303,5 +303,13 @@ def test_friction_of_a_motor_between_two_bodies_follows_the_speed_that_is_conjug
         assert float(sm.diff(more, m.w.symbol, lossy[list(lossy.parameters)[-1]].symbol)) == pytest.approx(-part)
 
 
-def test_an_input_that_pushes_one_joint_or_as_much_as_a_state_says_has_no_drive_of_its_own():
+def test_an_input_that_pushes_one_joint_or_shakes_the_ground_has_no_drive_of_its_own():
     assert [p.at for p in with_places(slide()).ports.values()] == ["slide"]
+    m = si.Model("house")
+    m.a, m.b, m.v, m.w = (si.State(unit=u) for u in ("m", "m", "m/s", "m/s"))
+    m.ground = si.Input(unit="m/s^2")
+    m.k1, m.k2 = si.Equation(m.a.dot - m.v), si.Equation(m.b.dot - m.w)
+    m.first = si.Equation(3.0 * m.v.dot + 90 * m.a - 40 * m.b + 3.0 * m.ground)
+    m.second = si.Equation(2.0 * m.w.dot + 40 * (m.b - m.a) + 2.0 * m.ground)
+    m.y1, m.y2 = si.Output(m.a), si.Output(m.b)
+    assert [p.at for p in with_places(m).ports.values()] == ["a", "b", "a-b"]
