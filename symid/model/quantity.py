@@ -224,4 +224,5 @@ def sympified(other: Operand) -> sm.Expr:
 def _is_huge(power: sm.Expr) -> bool:
     base, exponent = power.as_base_exp()
     size = sm.Abs(exponent) if base == sm.E else sm.Abs(exponent * sm.log(sm.Abs(base)))
-    return bool(size.is_finite is not False and (size.evalf(5) > LARGEST) == sm.true)
+    value = size.evalf(5)
+    return isinstance(value, sm.Float) and bool(value > LARGEST)  # no NaN, no infinity
