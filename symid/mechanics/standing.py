@@ -32,6 +32,10 @@ class DoubleLinkPendulum:
     leg_length [m], leg_com, trunk_com : joint to centre of mass [m], leg_mass, trunk_mass [kg],
     leg_inertia, trunk_inertia : about the centres of mass [kg m^2], gravity [m/s^2].
 
+    Raises
+    ------
+    ModelError : one of them is no number.
+
     Examples
     --------
     >>> body = DoubleLinkPendulum.from_json("data/standing_synthetic/body.json")
@@ -47,6 +51,10 @@ class DoubleLinkPendulum:
     leg_inertia: float
     trunk_inertia: float
     gravity: float = 9.81
+
+    def __post_init__(self) -> None:
+        for name in self.__dataclass_fields__:
+            checked.number(getattr(self, name), f"DoubleLinkPendulum: {name}", ModelError)
 
     @classmethod
     def from_json(cls, path: str | Path) -> DoubleLinkPendulum:

@@ -8,6 +8,8 @@ from symid.conceal import draw_case, setup_from_facts, standing_facts
 from symid.conceal.magnitudes import parse_effect
 from symid.errors import SymidError
 
+BODY = standing_facts(np.random.default_rng(1))["body"]
+
 
 @pytest.mark.parametrize(
     ("text", "expected"),
@@ -53,6 +55,7 @@ def test_bad_input_ends_in_one_sentence_and_writes_nothing(tmp_path, capsys, arg
         ({"body": None}, "has no 'body'"),
         ({"heldout_window_s": [80, 90]}, "must follow one another"),
         ({"angle_noise_rms_rad_approx": 1.5e154}, "more than half a turn"),
+        ({"body": BODY | {"l_L_m": None}}, "leg_length=None: give a number"),
         ({"baseline": {"controller": "LQR"}}, "controller='LQR': known are 'PD', 'FPD'"),
     ],
 )
