@@ -23,7 +23,7 @@ ROLES = ("joint", "link", "balance")
 """Of places where a force, or a flow in a balance, can act."""
 AT_REST = 0.1
 """Of every state, where what stands beside the rates is compared: near rest, and not where an angle's sine vanishes."""
-FORCES = dimension("N"), dimension("N*m")
+FORCES = "N", "N*m"
 """Of inputs that drive: an acceleration of the ground pushes all floors of a building, and is no drive between them."""
 TURNS = ("rad", "deg", "rpm", "rev")
 """Words in units of angular speed, which has the dimension of any rate."""
@@ -115,7 +115,8 @@ def _of_drives(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, 
     """
     joints = {n: p for n, p in ports.items() if p.role == "joint"}
     found = {}
-    for u in [u for u in model.inputs.values() if u.unit and dimension(u.unit) in FORCES]:
+    forces = [dimension(unit) for unit in FORCES]
+    for u in [u for u in model.inputs.values() if u.unit and dimension(u.unit) in forces]:
         slopes = {n: sm.diff(residuals[n], u.symbol) for n in joints}
         into = {n: slope.subs({c.symbol: c.value for c in model.constants.values()}) for n, slope in slopes.items()}
         into = {n: slope for n, slope in into.items() if slope != 0}
