@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -84,9 +85,11 @@ def with_states_of(fit: Fit, data: Data) -> Fit | None:
         return None
     # Each segment has a state of its own, and so a best beginning of its own.
     best = np.argmin([[np.sum((e / size) ** 2) for e in f.innovations] for f in found], axis=0)
-    if np.all(best == best[0]):
-        return found[best[0]]
-    return fitter.fit(fit.values, np.array([found[i].initial[k] for k, i in enumerate(best)]), fit.process)
+    if np.any(best != best[0]):
+        together = np.array([found[i].initial[k] for k, i in enumerate(best)])
+        with suppress(SymidError):  # in shorter steps of the integrator than some were found with
+            return fitter.fit(fit.values, together, fit.process)
+    return found[np.bincount(best).argmax()]
 
 
 def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:

@@ -240,9 +240,8 @@ class Search:
             known=None if best.suspects else self.starts,
             jumps=self.jumps,
         )
-        bases = [with_jumps_of(h.fit, self.base, self.jumps) for h in found]
-        sets = [(*best.suspects, h.suspect) for h in found]
-        return [Hypothesis(s, h.fit, b, self.data, h.forecast) for s, h, b in zip(sets, found, bases, strict=True)]
+        base = {h: with_jumps_of(h.fit, self.base, self.jumps) for h in found}
+        return [Hypothesis((*best.suspects, h.suspect), h.fit, base[h], self.data, h.forecast) for h in found]
 
     def _other_pairs(
         self, best: Hypothesis, single: list[Hypothesis], alone: bool = True, above: float = 0.0
