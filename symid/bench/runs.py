@@ -15,9 +15,17 @@ from symid.errors import SymidError
 from symid.threads import ONE_THREAD
 
 MARK = "measured: "
+STOPPED = "stopped"
 
 
-def run_fresh(call: str, task: Task, *arguments: str, cache: str | Path | None = None, threads: int = 1) -> dict:
+def run_fresh(
+    call: str,
+    task: Task,
+    *arguments: str,
+    cache: str | Path | None = None,
+    threads: int = 1,
+    limit_s: float | None = None,
+) -> dict:
     """What ``symid.bench.<call>(task, *arguments)`` returns in a fresh process.
 
     Parameters
@@ -25,6 +33,7 @@ def run_fresh(call: str, task: Task, *arguments: str, cache: str | Path | None =
     call : "module.function".
     cache : folder of compiled kernels instead of the user's.
     threads : of the linear solver, on as many cores.
+    limit_s : wall time after which the process is stopped; its result is then this time as "total", and "status".
 
     Raises
     ------
@@ -33,7 +42,12 @@ def run_fresh(call: str, task: Task, *arguments: str, cache: str | Path | None =
     environment = os.environ | ONE_THREAD | {"OMP_NUM_THREADS": str(threads)}
     environment |= {"SYMID_CACHE_DIR": str(cache)} if cache else {}
     command = [sys.executable, "-m", "symid.bench.runs", call, json.dumps(asdict(task)), *arguments]
-    ended = subprocess.run(command, env=environment, capture_output=True, text=True, errors="replace")
+    try:
+        ended = subprocess.run(
+            command, env=environment, capture_output=True, text=True, errors="replace", timeout=limit_s
+        )
+    except subprocess.TimeoutExpired:
+        return {"total": limit_s, "status": STOPPED}
     results = [line for line in ended.stdout.splitlines() if line.startswith(MARK)]
     if ended.returncode or not results:
         last = [line for line in (ended.stderr or ended.stdout).splitlines() if line.strip()][-1:]

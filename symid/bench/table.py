@@ -5,7 +5,7 @@ from __future__ import annotations
 import statistics
 from collections.abc import Iterator
 
-from symid.bench.measure import middle
+from symid.bench.measure import middle, stopped
 
 EVALUATION_MS = {"symid, C": 0.4, "symid, NumPy": 6.0}
 FIRST_USE_S = 1.5
@@ -44,7 +44,7 @@ def _solves(found: dict) -> Iterator[str]:
             yield (
                 f"{side:<40}{middle(runs, 'build'):>11.2f}{middle(runs, 'solve'):>11.2f}{middle(runs, 'total'):>11.2f}"
                 f"{middle(runs, 'iterations'):>11.0f}{middle(runs, 'rms'):>11.6f}   "
-                + ", ".join(f"{r['total']:.2f} ({r['iterations']}, {r['rms']:.6f})" for r in runs)
+                + ", ".join(stopped(r) or f"{r['total']:.2f} ({r['iterations']}, {r['rms']:.6f})" for r in runs)
             )
 
 

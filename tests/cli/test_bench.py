@@ -10,6 +10,7 @@ import pytest
 
 from symid.bench.formulations import FORMULATIONS
 from symid.bench.growth import exponents, growth_table, measure_load
+from symid.bench.measure import _solves
 from symid.bench.peers import TORQUE, for_peers
 from symid.bench.runs import run_fresh
 from symid.bench.starts import starts_table
@@ -33,7 +34,7 @@ def tiny(tmp_path_factory) -> Task:
 def run_here(monkeypatch):
     """Measurements in this process: fresh ones import for a second each."""
 
-    def run(call, task, *arguments, cache=None):
+    def run(call, task, *arguments, cache=None, limit_s=None):
         module, function = call.split(".")
         return getattr(import_module(f"symid.bench.{module}"), function)(task, *arguments)
 
@@ -82,6 +83,32 @@ def test_casadi_finds_the_same_optimum(tiny, setup):
     assert peer["rms"] == pytest.approx(own["rms"], rel=1e-4)
 
 
+ENDED = {
+    "build": 1.0,
+    "solve": 1.0,
+    "total": 2.0,
+    "iterations": 5,
+    "rms": 0.01,
+    "functions_share": 0.5,
+    "memory_mb": 900.0,
+    "import": 1.0,
+    "status": "Solve_Succeeded",
+}
+
+
+def measured(solves: dict) -> dict:
+    """What `measure` gives, with these solves."""
+    rates = {"residual_ms": 1.0, "jacobian_ms": 1.0, "hessian_ms": 1.0, "intervals": 10}
+    return {
+        "absent": ["casadi", "opty"],
+        "evaluations": {"symid, C": rates, "symid, NumPy": rates},
+        "first_use": [{"seconds": 0.2}],
+        "linear": {"chain": {"ms": 10.0}, "mumps": {"ms": 25.0}},
+        "first_identification": ENDED,
+        "solves": solves,
+    }
+
+
 def test_growth_of_the_cost_is_measured_and_drawn(monkeypatch, tmp_path, capsys, run_here):
     for name, value in {"SECONDS": (4, 8), "EPISODES": (1, 2), "EPISODE_SECONDS": 4, "RUNS": 1}.items():
         monkeypatch.setattr(f"symid.bench.growth.{name}", value)
@@ -113,7 +140,7 @@ PARTS = {
 
 
 def test_parts_are_measured_by_name(tiny, monkeypatch, tmp_path, capsys):
-    def here(call, task, *arguments, cache=None, threads=1):
+    def here(call, task, *arguments, cache=None, threads=1, limit_s=None):
         module, function = call.split(".")
         return getattr(import_module(f"symid.bench.{module}"), function)(task, *arguments)
 
@@ -185,6 +212,26 @@ def test_a_failed_run_is_told(tiny):
         run_fresh("symid_side.evaluations", tiny, "fortran")
 
 
+def test_a_peer_without_end_is_stopped_and_the_table_goes_on(tiny, monkeypatch):
+    run = run_fresh("symid_side.evaluations", tiny, "numpy", limit_s=0.05)
+    assert run == {"total": 0.05, "status": "stopped"}
+    limits, said, peer = {}, [], "casadi_side.identification"
+
+    def fresh(call, task, *arguments, cache=None, limit_s=None):
+        limits[call] = limit_s
+        return {"total": limit_s, "status": "stopped"} if arguments == ("expand",) else ENDED
+
+    monkeypatch.setattr("symid.bench.measure.run_fresh", fresh)
+    sides = {"symid, random start": ("symid_side.identification", "random")}
+    sides |= {f"CasADi, {setup}": (peer, setup) for setup in ("map + JIT", "expand")}
+    solves = {"FPD": _solves(replace(tiny, episodes=3), sides, 1, "", said.append)}
+    assert limits == {"symid_side.identification": None, peer: 600.0}
+    assert said[-1].endswith("CasADi, expand: > 600 s, stopped")
+    lines = table(measured(solves)).splitlines()
+    assert sum(line.endswith("> 600 s, stopped") for line in lines) == 1
+    assert any("CasADi's best / symid" in line and " 1 x" in line for line in lines)
+
+
 def test_recording_and_body_belong_together(tiny, capsys):
     assert main(["bench", "--recording", tiny.recording]) == 2
     assert "--recording and --body belong together" in capsys.readouterr().err
@@ -196,27 +243,7 @@ def test_ratio_is_the_median_over_starts_of_the_best_peer():
 
 
 def test_a_missed_target_is_said():
-    one = {
-        "build": 1.0,
-        "solve": 1.0,
-        "total": 2.0,
-        "iterations": 5,
-        "rms": 0.01,
-        "functions_share": 0.5,
-        "memory_mb": 900.0,
-        "import": 1.0,
-        "status": "Solve_Succeeded",
-    }
-    rates = {"residual_ms": 1.0, "jacobian_ms": 1.0, "hessian_ms": 1.0, "intervals": 10}
-    found = {
-        "absent": ["casadi", "opty"],
-        "evaluations": {"symid, C": rates, "symid, NumPy": rates},
-        "first_use": [{"seconds": 0.2}],
-        "linear": {"chain": {"ms": 10.0}, "mumps": {"ms": 25.0}},
-        "first_identification": one,
-        "solves": {"FPD": {"symid, random start": [one], "symid, default start": [one]}},
-    }
-    lines = table(found).splitlines()
+    lines = table(measured({"FPD": {"symid, random start": [ENDED], "symid, default start": [ENDED]}})).splitlines()
     missed = [line for line in lines if "NOT MET" in line]
     assert [line.split("  ")[0] for line in missed] == [
         "slowest evaluation, symid, C",
