@@ -26,4 +26,4 @@ def median_ms(call: Callable[[], object], times: int = 51) -> float:
 
 def peak_memory_mb() -> float:
     """The most memory that this process has held so far [MB]."""
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024 / 1e6
