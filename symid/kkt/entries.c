@@ -22,6 +22,24 @@ static void find_touched(Tree *t, const int *front_at, int64_t nz, const int *ir
     free(touched);
 }
 
+/* Turn places in the matrix's values, by front, into steps from front to front: those of a chain are all the same. */
+static int find_steps(Tree *t, const int *source) {
+    for (int f = 0; f <= t->fronts; f++) {
+        int64_t count = t->front[f + 1].entry_at - t->front[f].entry_at;
+        if (count > t->widest) t->widest = (int)count;
+    }
+    size_t bytes = sizeof(int) * (size_t)(t->widest + 1);
+    int *last = malloc(bytes);
+    for (int f = 0; f <= t->fronts && last; f++) {
+        const Front *v = &t->front[f];
+        if (f == t->fronts || f == t->plan[v->task].first) memset(last, 0, bytes);
+        for (int64_t k = v->entry_at, i = 0; k < v[1].entry_at; k++, i++)
+            t->place[k].step = source[k] - last[i], last[i] = source[k];
+    }
+    free(last);
+    return last != NULL;
+}
+
 /* Keep every list of places once, in front of all; fronts find theirs by a table of those before them. */
 static int share_places(Tree *t) {
     int64_t end = 0, room = 16;
@@ -35,7 +53,7 @@ static int share_places(Tree *t) {
         int64_t count = v[1].entry_at - v->entry_at, i = 0;
         uint64_t hash = 1469598103934665603u;
         for (int64_t k = 0; k < count; k++)
-            hash = (hash ^ ((uint64_t)own[k].row << 16 | own[k].column)) * 1099511628211u;
+            hash = (hash ^ ((uint64_t)own[k].step << 32 | own[k].row << 16 | own[k].column)) * 1099511628211u;
         for (i = (int64_t)(hash >> 20) & (room - 1); table[i] >= 0; i = (i + 1) & (room - 1)) {
             const Front *w = &t->front[table[i]];
             if (w[1].entry_at - w->entry_at == count
@@ -53,7 +71,7 @@ static int share_places(Tree *t) {
     return 1;
 }
 
-/* Fills `t->source` and `t->place`, by front; those of the border alone come last. */
+/* Fills `t->place`, by front; those of the border alone come last. */
 static int place_entries(Tree *t, int64_t nz, const int *irn, const int *jcn) {
     int *front_at = malloc(sizeof(int) * (t->n + 1));
     int *border_place = malloc(sizeof(int) * ((size_t)(t->tasks + 1) * t->border + 1));
@@ -70,8 +88,9 @@ static int place_entries(Tree *t, int64_t nz, const int *irn, const int *jcn) {
     for (int f = 0; f <= t->fronts; f++) at[f + 1] += at[f];
     for (int f = 0; f <= t->fronts; f++) t->front[f].entry_at = at[f];
     t->front[t->fronts + 1].entry_at = nz;
-    t->source = malloc(sizeof(int) * (size_t)(nz + 1)), t->place = malloc(sizeof(Place) * (size_t)(nz + 1));
-    int complete = t->source && t->place;
+    int *source = malloc(sizeof(int) * (size_t)(nz + 1));
+    t->place = malloc(sizeof(Place) * (size_t)(nz + 1));
+    int complete = source && t->place;
     for (int64_t k = 0; k < nz && complete; k++) {
         int a = t->position[irn[k] - 1], b = t->position[jcn[k] - 1];
         int low = a < b ? a : b, high = a < b ? b : a, f = owner_of(t, front_at, low);
@@ -81,9 +100,10 @@ static int place_entries(Tree *t, int64_t nz, const int *irn, const int *jcn) {
             row = high < t->top ? place_in(t, v, high)
                                 : v->own + v->chain + border_place[(size_t)v->task * t->border + row];
         complete = row >= 0 && row < WIDEST_FRONT && column < WIDEST_FRONT;
-        t->source[at[f]] = (int)k, t->place[at[f]++] = (Place){(unsigned short)row, (unsigned short)column};
+        source[at[f]] = (int)k, t->place[at[f]++] = (Place){(unsigned short)row, (unsigned short)column, 0};
     }
-    free(front_at), free(border_place), free(at);
+    complete = complete && find_steps(t, source);
+    free(front_at), free(border_place), free(at), free(source);
     return complete && share_places(t);
 }
 
@@ -101,7 +121,7 @@ static void estimate(Tree *t) {
 static void free_tree(Tree *t) {
     for (int a = 0; t->plan && a <= t->tasks; a++) free(t->plan[a].touched);
     free(t->child), free(t->sibling);
-    free(t->position), free(t->front), free(t->chain), free(t->chain_map), free(t->source), free(t->place), free(t->plan);
+    free(t->position), free(t->front), free(t->chain), free(t->chain_map), free(t->place), free(t->plan);
     *t = (Tree){0};
 }
 

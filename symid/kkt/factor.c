@@ -8,7 +8,6 @@
 #define WEAK 1e-11
 #define MOST_DELAYED 200    /* ... with more than this ANY */
 #define ANY 1e-30
-#define AHEAD 64            /* entries; a front takes about as many */
 
 typedef struct {
     Arena factors, handed; /* handed: what fronts give to their parents, last in first out */
@@ -18,6 +17,7 @@ typedef struct {
     double *border, *left, *right; /* border: (touched, touched); left, right: (BATCH, touched) */
     int batched;
     double *outside;       /* of a solve: sums for positions behind the tasks' */
+    int *source;           /* (widest,) of the entries of the front at hand: places in the matrix's values */
     Counts counts;
     int failed;
 } Work;
@@ -31,7 +31,7 @@ typedef struct {
     int8_t *scale;            /* (n,) exponents of the rows' scales, in the matrix's order */
     int8_t *product;          /* (nz,) exponent of the product of every entry's two scales */
     int scaled;               /* whether there are scales of an earlier factorisation */
-    const double *values;     /* the matrix at hand */
+    const double *values;     /* the matrix at hand, until the first solve with its factors */
     double threshold;
     int rank, negative, threads;
     Counts counts;
@@ -168,14 +168,11 @@ static void mirror(Part *p) {
         for (int i = j + 1; i < p->size; i++) p->panel[(size_t)i * p->stride + j] = p->panel[(size_t)j * p->stride + i];
 }
 
-/* Entries lie in the order of Ipopt's triplets: what the front takes some entries later is fetched meanwhile. */
-static inline void fetch(const Factor *s, int64_t k, int64_t end) {
-    int later = s->tree.source[k + AHEAD < end ? k + AHEAD : end - 1];
-    __builtin_prefetch(s->values + later), __builtin_prefetch(s->product + later);
-}
-
-static inline double scaled(const Factor *s, int source) {
-    return s->values[source] * power_of_two(s->product[source]);
+/* The scaled value of the front's entry number i. What the next front takes, most likely as far on, is fetched. */
+static inline double scaled(const Factor *s, Work *w, int i, const Place *e) {
+    int64_t k = w->source[i] += e->step;
+    __builtin_prefetch(s->values + k + e->step), __builtin_prefetch(s->product + k + e->step);
+    return s->values[k] * power_of_two(s->product[k]);
 }
 
 static int factorise_front(Factor *s, Work *w, int f) {
@@ -187,11 +184,8 @@ static int factorise_front(Factor *s, Work *w, int f) {
     if (!open_front(w, p, size, v->chain, outer)) return 0;
     for (int i = 0; i < v->own; i++) p->rows[i] = v->first + i;
     const Place *e = t->place + v->place_at;
-    for (int64_t k = v->entry_at; k < v[1].entry_at; k++, e++) {
-        fetch(s, k, t->front[t->fronts + 1].entry_at);
-        p->panel[e->column * p->stride + (e->row < v->own ? e->row : e->row - v->own + p->base)] +=
-            scaled(s, t->source[k]);
-    }
+    for (int i = 0, count = (int)(v[1].entry_at - v->entry_at); i < count; i++, e++)
+        p->panel[e->column * p->stride + (e->row < v->own ? e->row : e->row - v->own + p->base)] += scaled(s, w, i, e);
     Target target = {p->panel, w->square, size, p->base, p->stride, padded(outer)};
     int delayed = v->own, first = t->child[f];
     for (int c = first; c >= 0; c = t->sibling[c]) {
@@ -218,6 +212,7 @@ static void factorise_task(Factor *s, int a) {
     w->counts = (Counts){.smallest = INFINITY};
     w->batched = w->failed = 0;
     memset(w->border, 0, sizeof(double) * padded(plan->border) * (size_t)plan->border);
+    memset(w->source, 0, sizeof(int) * s->tree.widest);
     for (int f = plan->first; f < plan->end && !w->failed; f++) w->failed = !factorise_front(s, w, f);
     subtract_batch(w, plan->border);
 }
@@ -236,8 +231,9 @@ static int factorise_border(Factor *s) {
     for (int i = 0; i < t->border; i++) p->rows[i] = t->top + i;
     const Front *v = &t->front[t->fronts];
     const Place *e = t->place + v->place_at;
-    for (int64_t k = v->entry_at; k < v[1].entry_at; k++, e++)
-        *place(&target, e->row, e->column) += scaled(s, t->source[k]);
+    memset(w->source, 0, sizeof(int) * t->widest);
+    for (int i = 0, count = (int)(v[1].entry_at - v->entry_at); i < count; i++, e++)
+        *place(&target, e->row, e->column) += scaled(s, w, i, e);
     for (int b = 0; b <= t->tasks; b++) {
         const TaskPlan *plan = &t->plan[b];
         for (int j = 0; j < plan->border; j++)

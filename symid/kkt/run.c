@@ -75,7 +75,8 @@ static void free_factor(Factor *s) {
     for (int a = 0; s->work && a < s->tree.tasks + 2; a++) {
         Work *w = &s->work[a];
         free_arena(&w->factors), free_arena(&w->handed);
-        free(w->panel), free(w->square), free(w->columns), free(w->border), free(w->left), free(w->right), free(w->outside);
+        free(w->panel), free(w->square), free(w->columns), free(w->border), free(w->left), free(w->right);
+        free(w->outside), free(w->source);
     }
     free(s->part), free(s->mark), free(s->work), free(s->x), free(s->scale), free(s->product);
     free_tree(&s->tree);
@@ -109,6 +110,7 @@ static int make_factor(Factor *s, int n, int64_t nz, const int *irn, const int *
         w->border = zeros(square, sizeof(double));
         w->left = zeros(batch + LANES, sizeof(double)), w->right = zeros(batch + LANES, sizeof(double));
         w->outside = zeros(n - t->inner, sizeof(double));
+        w->source = zeros(t->widest, sizeof(int));
     }
     return 1;
 }

@@ -16,6 +16,7 @@ typedef struct {
 
 typedef struct {
     unsigned short row, column; /* row: own, then chain, then border */
+    int step; /* in the matrix's values, from what stood at this turn in the task's front before */
 } Place;
 
 typedef struct {
@@ -31,8 +32,8 @@ typedef struct {
     int *child, *sibling;         /* (fronts + 1,) first child, next sibling, -1; the border's front is last */
     Front *front;                 /* children before parents */
     int *chain, *chain_map;       /* positions, and places in the parent: own unknowns, then its chain */
-    int *source;                  /* (nz,) of the fronts' entries in turn: place in the matrix's values */
-    Place *place;                 /* of entries in their fronts; fronts alike, as those of a chain are, share theirs */
+    Place *place;                 /* of the fronts' entries in turn; fronts alike, as a chain's are, share theirs */
+    int widest;                   /* most entries of a front */
     TaskPlan *plan;               /* (tasks + 1,) */
     double flops, factor;         /* multiplications and numbers of a factorisation without delays */
 } Tree;
