@@ -119,10 +119,15 @@ void ma27bd_(const int *n, const int *nz, const int *irn, const int *jcn, double
 
 void ma27cd_(const int *n, const double *a, const int *la, int *iw, const int *liw, double *w, const int *maxfrt,
              double *rhs, int *iw1, const int *nsteps, const int *icntl, const double *cntl) {
-    (void)a, (void)la, (void)liw, (void)w, (void)maxfrt, (void)iw1, (void)nsteps, (void)icntl, (void)cntl;
+    (void)la, (void)liw, (void)w, (void)maxfrt, (void)iw1, (void)nsteps, (void)icntl, (void)cntl;
     double began = seconds();
     Slot *s = &slots[iw[0]];
-    if (s->generation != iw[1] || !solve(&s->factor, rhs))
+    int known = s->generation == iw[1];
+    if (known && s->factor.values) { /* once: Ipopt writes them anew before it factorises again */
+        forget(a, sizeof *a * (size_t)s->nz);
+        s->factor.values = NULL;
+    }
+    if (!known || !solve(&s->factor, rhs))
         for (int i = 0; i < *n; i++) rhs[i] = NAN;
     report.solves++, report.seconds_solve += seconds() - began;
 }

@@ -4,8 +4,13 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __linux__
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
 
 #define SHARE 16 /* part of what is expected that is added where it does not suffice */
+#define WORTH_FORGETTING (1 << 26) /* bytes; less is not worth the time in which pages are taken and cleared anew */
 #define LANES 8 /* doubles in a vector; columns of fronts are padded to it */
 
 typedef struct Chunk {
@@ -38,6 +43,17 @@ static Chunk *new_chunk(size_t size) {
     }
     *c = (Chunk){NULL, size, 0, data};
     return c;
+}
+
+/* Memory whose content nobody needs any more: its pages go back to the system until it is written again. */
+static void forget(const void *at, size_t bytes) {
+#ifdef __linux__ /* elsewhere the advice means other things */
+    uintptr_t page = (uintptr_t)sysconf(_SC_PAGESIZE), first = ((uintptr_t)at + page - 1) / page * page;
+    uintptr_t end = ((uintptr_t)at + bytes) / page * page;
+    if (bytes >= WORTH_FORGETTING) madvise((void *)first, end - first, MADV_DONTNEED);
+#else
+    (void)at, (void)bytes;
+#endif
 }
 
 /* `count` doubles, aligned to a vector, or NULL where memory is out. */
