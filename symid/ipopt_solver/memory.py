@@ -2,6 +2,9 @@
 
 import ctypes
 import functools
+import mmap
+
+import numpy as np
 
 
 @functools.cache
@@ -24,6 +27,12 @@ def keep_freed_memory(largest: int) -> None:
     if not mallopt(m_mmap_threshold, largest):
         mallopt(m_mmap_threshold, most_of_older)
     mallopt(m_trim_threshold, largest)
+
+
+def unwritten_zeros(size: int) -> np.ndarray:
+    """Zeros that take no memory until they are written: of a result, which Ipopt writes at its end."""
+    private = {"flags": mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS} if hasattr(mmap, "MAP_ANONYMOUS") else {}
+    return np.frombuffer(mmap.mmap(-1, max(8 * size, 1), **private), count=size)
 
 
 def give_back_freed_memory() -> None:

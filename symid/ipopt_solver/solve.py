@@ -15,6 +15,7 @@ from symid.ipopt_solver import through_cyipopt
 from symid.ipopt_solver.bounded import run_bounded
 from symid.ipopt_solver.evaluation import Evaluation, Iteration
 from symid.ipopt_solver.linear import LinearSolver, run_with
+from symid.ipopt_solver.memory import unwritten_zeros
 from symid.ipopt_solver.result import SolverResult, WorstConstraint, make_result
 from symid.ipopt_solver.status import SOLVED, STOPPED, STOPPED_BY_LIMIT, WALL_TIME, explain
 from symid.nlp import NonlinearProgram, with_unit_objective
@@ -153,21 +154,19 @@ def _last_point(nlp: NonlinearProgram, evaluation: Evaluation, begin: dict[str, 
 
 
 def _starting_point(nlp, start, warm_start) -> dict[str, np.ndarray]:
-    point = {
-        "z": warm_start.z if warm_start else nlp.start,
-        "constraints": np.zeros(nlp.m),
-        "objective": np.zeros(1),
-        "multipliers": warm_start.multipliers if warm_start else np.zeros(nlp.m),
-        "lower": warm_start.bound_multipliers_lower if warm_start else np.zeros(nlp.n),
-        "upper": warm_start.bound_multipliers_upper if warm_start else np.zeros(nlp.n),
-    }
+    given = {"z": nlp.start}
+    if warm_start:
+        lower, upper = warm_start.bound_multipliers_lower, warm_start.bound_multipliers_upper
+        given = {"z": warm_start.z, "multipliers": warm_start.multipliers, "lower": lower, "upper": upper}
     if start is not None:
-        point["z"] = start
-    point = {name: np.array(value, dtype=float) for name, value in point.items()}
-    for name in ("multipliers", "lower", "upper"):
-        point[name] /= nlp.objective_scale
-    sizes = {"z": nlp.n, "multipliers": nlp.m, "lower": nlp.n, "upper": nlp.n}
+        given["z"] = start
+    point = {name: np.array(value, dtype=float) for name, value in given.items()}
+    sizes = {"z": nlp.n, "multipliers": nlp.m, "lower": nlp.n, "upper": nlp.n, "constraints": nlp.m, "objective": 1}
     for name, size in sizes.items():
+        if name not in point:
+            point[name] = unwritten_zeros(size)
+        elif name != "z":
+            point[name] /= nlp.objective_scale
         if point[name].shape != (size,):
             raise SolveError(
                 f"The start does not fit the program: {name} has shape {point[name].shape}, "
