@@ -13,6 +13,7 @@ from dataclasses import replace
 from math import inf, log
 
 from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
 from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of
@@ -44,7 +45,7 @@ def with_error_model(
     data, base = with_memory(search.base, search.data) if most < inf else (search.data, search.base)
     if _gain(data, base, search.data, search.base) > most:
         progress(f"the noise remembers {data.memory} samples; looking again")
-        search = searched(base, data)
+        search = searched(unheld(base, data, search.unstated), data)
     found, ranking = search.run()
     if holds_of(found.fit, search.base) != holds_of(search.base, search.base):
         progress("inputs are likelier to do something else between their samples; looking again")
@@ -60,7 +61,7 @@ def with_error_model(
     if data is search.data or found.evidence(1.0) + more < search.flexible().evidence(1.0):
         return search, found, ranking
     progress(f"the noise remembers {data.memory} samples; looking again")
-    return _again(search, found, data, explained, searched)
+    return _again(search, found, data, unheld(explained, data, search.unstated), searched)
 
 
 def _again(

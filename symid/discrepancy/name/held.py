@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
+from symid.estimation.between_samples import with_likeliest_curves
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.signals.data import Data
 from symid.mechanics import LIBRARY
@@ -49,6 +50,20 @@ def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
     """The fit of a model as given, or that with inputs held where this is likelier."""
     nothing = Hypothesis((), fit, fit, data)
     return held(nothing, data, unstated, lambda *two: max(two, key=lambda h: h.evidence(1.0))).fit
+
+
+def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
+    """The fit, or that with inputs on straight lines or curves where these are likelier than held ones after all.
+
+    Noise with a memory that was taken for white makes half a sample more or less look likely.
+    """
+    for name in (k for k in unstated if fit.model.inputs[k].hold == "zero"):
+        try:
+            free = Fitter(fit.model.with_holds(**{name: "either"}), data, near=fit).again(fit)
+        except SymidError:
+            continue  # what cannot be followed is not likelier
+        fit = max(fit, with_likeliest_curves(free, data), key=lambda f: f.loglik2)
+    return fit
 
 
 def _likelier(
