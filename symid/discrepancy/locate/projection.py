@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -23,10 +23,18 @@ class Projection:
     Parameters
     ----------
     known : parameters that keep their values and explain nothing.
+
+    Attributes
+    ----------
+    bases : orthonormal bases (N m, q) of what each suspect that was tried adds.
+    scans : of suspects whose moment or frequency was looked for: the largest gain of twice the log-likelihood that any
+        of them is forecast to have in what is left, (N m,).
     """
 
     def __init__(self, fit: Fit, data: Data, known: Sequence[str] = ()):
-        self.fit, self.data, self.bases = fit, data, []
+        self.fit, self.data = fit, data
+        self.bases: list[np.ndarray] = []
+        self.scans: list[Callable[[np.ndarray], float]] = []
         fitter = Fitter.of(fit, data, known)
         self.substeps = fitter.substeps
         runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.kalman_gain, sensitivities=True)

@@ -65,27 +65,36 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
     A loop that is nearly linear and does not change answers alike at all times; what this picks
     is scored exactly afterwards.
     """
-    (t0, t1), found = projection.data.span, []
+    (t0, t1), kernels, found = projection.data.span, [], []
     step, pace = projection.data.segments[0].step, projection.data.pace
-    rest = projection.rest.reshape(-1, projection.outputs)
     for values in suspect.shapes():
         middle = 0.5 * (t0 + t1)
         column = projection.response(suspect, sim, values | {suspect.scanned.key: middle})
         if column is None:
             continue
         first = int((middle - t0) / step) - 1
-        kernel = column.reshape(rest.shape)[first : first + int(10 * pace / step)]
-        score = sum(fftconvolve(rest[:, o], kernel[::-1, o])[len(kernel) - 1 :] for o in range(rest.shape[1]))
-        gain = score**2 / (kernel**2).sum()
+        kernels.append((values, column.reshape(-1, projection.outputs)[first : first + int(10 * pace / step)]))
+
+    def gains(rest: np.ndarray) -> list[np.ndarray]:
+        return [_slid(rest.reshape(-1, projection.outputs), kernel) for _, kernel in kernels]
+
+    projection.scans.append(lambda rest: max((float(gain.max()) for gain in gains(rest)), default=0.0))
+    for (values, _), gain in zip(kernels, gains(projection.rest), strict=True):
         for k in _peaks(gain, int(0.5 * pace / step), keep):
             found.append((gain[k], values | {suspect.scanned.key: float(t0 + (k + 1) * step)}))
     return [v for _, v in sorted(found, key=lambda f: -f[0])[: 2 * keep]]
 
 
+def _slid(rest: np.ndarray, kernel: np.ndarray) -> np.ndarray:
+    """Gain of twice the log-likelihood that is forecast for a response (k, m) which begins at each sample of (N, m)."""
+    score = sum(fftconvolve(rest[:, o], kernel[::-1, o])[len(kernel) - 1 :] for o in range(rest.shape[1]))
+    return score**2 / (kernel**2).sum()
+
+
 def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 6) -> list[dict[str, float]]:
     """The best frequencies: the response is known from a few and interpolated, innovations by FFT."""
-    rest = projection.rest.reshape(-1, projection.outputs)
-    n, step, pace = len(rest), projection.data.segments[0].step, projection.data.pace
+    outputs, step, pace = projection.outputs, projection.data.segments[0].step, projection.data.pace
+    n = len(projection.rest) // outputs
     time = np.arange(n) * step
     known = np.geomspace(0.05, HIGHEST_FREQUENCY, 24) / pace
     answers = []
@@ -98,21 +107,27 @@ def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
         late = slice(n // 5, None)
         clock = 2 * np.pi * f * time
         basis = np.column_stack([np.cos(clock), np.sin(clock), np.ones(n), time])[late]
-        c, *_ = np.linalg.lstsq(basis, column.reshape(rest.shape)[late], rcond=None)
+        c, *_ = np.linalg.lstsq(basis, column.reshape(n, outputs)[late], rcond=None)
         answers.append(c[0] - 1j * c[1])
     size = 4 * n
     f = np.fft.rfftfreq(size, step)
     use = (f > 1.0 / time[-1]) & (f < HIGHEST_FREQUENCY / pace)
-    spectrum = np.fft.rfft(rest, size, axis=0)[use]
     G = np.column_stack(
         [
             np.interp(f[use], known, [a[o].real for a in answers])
             + 1j * np.interp(f[use], known, [a[o].imag for a in answers])
-            for o in range(rest.shape[1])
+            for o in range(outputs)
         ]
     )
-    gain = 2 * np.abs((G.conj() * spectrum).sum(1)) ** 2 / (n * (np.abs(G) ** 2).sum(1) + 1e-300)
-    return [suspect.starts()[0] | {suspect.scanned.key: float(f[use][k])} for k in _peaks(gain, 6, keep)]
+
+    def gains(rest: np.ndarray) -> np.ndarray:
+        spectrum = np.fft.rfft(rest.reshape(n, outputs), size, axis=0)[use]
+        return 2 * np.abs((G.conj() * spectrum).sum(1)) ** 2 / (n * (np.abs(G) ** 2).sum(1) + 1e-300)
+
+    projection.scans.append(lambda rest: float(gains(rest).max()))
+    return [
+        suspect.starts()[0] | {suspect.scanned.key: float(f[use][k])} for k in _peaks(gains(projection.rest), 6, keep)
+    ]
 
 
 def _peaks(values: np.ndarray, apart: int, keep: int) -> list[int]:

@@ -32,10 +32,15 @@ def null_maxima(projection: Projection, fit: Fit) -> np.ndarray:
 
 
 def largest(projection: Projection, rest: np.ndarray) -> np.ndarray:
-    """(k,) the largest log-likelihood ratio that is forecast for any suspect, for columns (N m, k) of what is left."""
+    """(k,) the largest log-likelihood ratio that is forecast for any suspect, for columns (N m, k) of what is left.
+
+    What was looked for over moments or frequencies is looked for in each column: noise has its best moments, too.
+    """
     best = np.zeros(rest.shape[1])
     for basis in projection.bases:
         best = np.maximum(best, ((basis.T @ rest) ** 2).sum(0))
+    for scanned in projection.scans:
+        best = np.maximum(best, [scanned(column) for column in rest.T])
     return best
 
 
