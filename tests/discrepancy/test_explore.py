@@ -8,6 +8,9 @@ from symid.discrepancy.locate.projection import Projection
 import symid.discrepancy.name.explore as steps
 import symid.discrepancy.name.starts as begins
 from symid.discrepancy.name.explore import explore
+from symid.discrepancy.model.suspects import suspects
+from symid.discrepancy.name.scan import scan
+from symid.discrepancy.prove.nulls import false_alarm_probability, largest, null_maxima
 from symid.estimation.fitting.cold_start import fit_model
 from symid.mechanics import LIBRARY
 
@@ -31,3 +34,16 @@ def test_a_delay_that_no_value_of_a_wrong_model_survives_begins_from_nothing(mon
     assert [s.afresh for s in starts] == [False, True]
     begun = steps._refit(fit, data, starts[1], 6)
     assert begun.fit.values[late.term.parameter_name("delay_s")] == pytest.approx(0.06, abs=0.005)
+
+
+@pytest.mark.parametrize("name", ["periodic_torque", "external_push"])
+def test_the_best_moment_or_frequency_in_noise_is_no_rare_one(name):
+    suspect, found = next(s for s in suspects(cart()) if s.term.name == name), []
+    for seed in range(4):
+        data = data_of(recorded(seed))
+        fit = fit_model(cart(), data)
+        projection = Projection(fit, data)
+        scan(projection, suspect, fit.model.with_term(suspect.term))
+        best = float(largest(projection, projection.rest[:, None])[0])
+        found.append(false_alarm_probability(best, null_maxima(projection, fit)))
+    assert min(found) > 0.01 and max(found) > 0.1

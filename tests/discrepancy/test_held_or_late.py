@@ -82,3 +82,15 @@ def test_a_delay_by_part_of_a_sample_is_compared_with_a_held_input_whatever_that
     chosen = held_or_late.held(found, data, ["u"], lambda *two: max(two, key=lambda h: h.evidence(1.0)))
     assert chosen.suspects == ()
     assert chosen.fit.model.inputs["u"].hold == "zero"
+
+
+@pytest.mark.parametrize("hold", [True, False])
+def test_what_was_taken_for_held_is_asked_again(hold):
+    model = si.mechanics.places.with_places(lag())
+    pieces = segments_of(model, recorded(0, hold=hold, delay_s=0.0), (0, 16), None)
+    data = Data(pieces, np.array([0.005]), False)
+    taken = fit_model(model.with_holds(u="zero"), data)
+    again = held_or_late.unheld(taken, data, ["u"])
+    assert (again.model.inputs["u"].hold == "zero") is hold
+    assert again is taken or again.loglik2 > taken.loglik2
+    assert held_or_late.unheld(taken, data, []) is taken  # who says that it is held knows
