@@ -119,6 +119,17 @@ def test_the_least_certain_effect_counts_in_the_samples_of_its_errors():
     assert certain.weakest(two_frictions(), share=0.001) == pytest.approx(1000.0)
 
 
+def test_a_push_is_as_certain_as_what_is_lost_without_it(monkeypatch):
+    push = next(s for s in suspects(cart()) if s.term.name == "external_push")
+    fit = SimpleNamespace(values={}, errors={}, loglik2=200.0)
+    alone = Hypothesis((push,), fit, SimpleNamespace(loglik2=0.0), data=None)
+    assert certain.weakest(alone) == pytest.approx(200.0)
+    friction = two_frictions()
+    both = Hypothesis((push, *friction.suspects), friction.fit, friction.base, data=None)
+    monkeypatch.setattr(certain, "hypothesis", lambda rest, *_: SimpleNamespace(log_ratio=996.0))
+    assert certain.weakest(both) == pytest.approx(4.0)
+
+
 def test_effects_that_cannot_be_left_out_stay(monkeypatch):
     found, chance_makes_more = two_frictions(), np.linspace(400.0, 500.0, POLICY.nulls)
     monkeypatch.setattr(certain, "hypothesis", lambda *arguments: None)

@@ -94,11 +94,24 @@ def _without(kept: Sequence[Suspect], found: Hypothesis, white: bool) -> Hypothe
 
 
 def weakest(found: Hypothesis, share: float = 1.0) -> float:
-    """Log-likelihood ratio of the least certain effect to nothing, by its standard errors; of all if none can be 0.
+    """Log-likelihood ratio of the least certain effect to nothing; of all where no value of an effect means nothing.
 
     share : of the samples for which the standard errors count.
     """
-    return min((min(_certainty(s, found.fit) ** 2 / share, found.log_ratio) for s in found.suspects), default=0.0)
+    return min((min(_ratio(s, found, share), found.log_ratio) for s in found.suspects), default=0.0)
+
+
+def _ratio(suspect: Suspect, found: Hypothesis, share: float) -> float:
+    """Log-likelihood ratio of one effect to nothing, by its standard errors.
+
+    For a moment or a frequency it is what is lost without the effect: a short push with a high peak and a longer one
+    with a lower peak are alike, so that its peak is uncertain where the push is certain.
+    """
+    if suspect.scanned is None:
+        return _certainty(suspect, found.fit) ** 2 / share
+    rest = [s for s in found.suspects if s is not suspect]
+    less = hypothesis(rest, found.fit, found.base, found.data) if rest else None
+    return found.log_ratio - (less.log_ratio if less else 0.0)
 
 
 def _certainty(suspect: Suspect, fit: Fit) -> float:
