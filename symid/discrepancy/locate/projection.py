@@ -27,14 +27,14 @@ class Projection:
     Attributes
     ----------
     bases : orthonormal bases (N m, q) of what each suspect that was tried adds.
-    scans : of suspects whose moment or frequency was looked for: the largest gain of twice the log-likelihood that any
-        of them is forecast to have in what is left, (N m,).
+    scans : of each suspect whose moment or frequency was looked for: (k,) the gain of twice the log-likelihood that
+        it is forecast to have at its best one, of (N m, k) that are left.
     """
 
     def __init__(self, fit: Fit, data: Data, known: Sequence[str] = ()):
         self.fit, self.data = fit, data
         self.bases: list[np.ndarray] = []
-        self.scans: list[Callable[[np.ndarray], float]] = []
+        self.scans: list[Callable[[np.ndarray], np.ndarray]] = []
         fitter = Fitter.of(fit, data, known)
         self.substeps = fitter.substeps
         runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.kalman_gain, sensitivities=True)

@@ -48,13 +48,18 @@ def comb(
     middle = np.repeat(np.repeat(middles, [len(e.time) for e in segments])[rows], outputs)
     take = (rows[:, None] * outputs + np.arange(outputs)).reshape(-1)
     own, _ = np.linalg.qr(projection.own[take])
-    rest = projection.rest[take] - own @ (own.T @ projection.rest[take])
-    gain = np.concatenate(
-        [
-            _gains(_between(known, np.array(answers), f) * np.exp(2j * np.pi * np.outer(f, middle)), own, rest)
-            for f in np.array_split(fine, len(fine) // CHUNK + 1)
-        ]
-    )
+
+    def gains(rest: np.ndarray) -> np.ndarray:
+        left = rest[take] - own @ (own.T @ rest[take])
+        return np.concatenate(
+            [
+                _gains(_between(known, np.array(answers), f) * np.exp(2j * np.pi * np.outer(f, middle)), own, left)
+                for f in np.array_split(fine, len(fine) // CHUNK + 1)
+            ]
+        )
+
+    projection.scans.append(lambda rest: gains(rest).max(axis=0))
+    gain = gains(projection.rest[:, None])[:, 0]
     peaks, _ = find_peaks(np.pad(gain, 1), distance=3)
     best = sorted(peaks - 1, key=lambda k: -gain[k])[:keep]
     return [suspect.starts()[0] | {q.key: float(fine[k])} for k in best]
@@ -73,9 +78,9 @@ def _between(known: np.ndarray, answers: np.ndarray, f: np.ndarray) -> np.ndarra
 
 
 def _gains(turned: np.ndarray, own: np.ndarray, rest: np.ndarray) -> np.ndarray:
-    """Gain of twice the log-likelihood forecast for sine and cosine together, per frequency."""
+    """(f, k) gain of twice the log-likelihood forecast for sine and cosine together, of (rows, k) that are left."""
     parts = [part - (part @ own) @ own.T for part in (turned.real, turned.imag)]
     along = np.stack([part @ rest for part in parts], axis=1)
     square = np.array([[np.einsum("fr,fr->f", a, b) for a in parts] for b in parts]).transpose(2, 0, 1)
     square += 1e-9 * np.trace(square, axis1=1, axis2=2)[:, None, None] * np.eye(2) + 1e-300 * np.eye(2)
-    return np.einsum("fi,fi->f", along, np.linalg.solve(square, along[:, :, None])[:, :, 0])
+    return np.einsum("fik,fik->fk", along, np.linalg.solve(square, along))

@@ -78,7 +78,8 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
     def gains(rest: np.ndarray) -> list[np.ndarray]:
         return [_slid(rest.reshape(-1, projection.outputs), kernel) for _, kernel in kernels]
 
-    projection.scans.append(lambda rest: max((float(gain.max()) for gain in gains(rest)), default=0.0))
+    if kernels:
+        projection.scans.append(lambda rest: np.array([max(gain.max() for gain in gains(one)) for one in rest.T]))
     for (values, _), gain in zip(kernels, gains(projection.rest), strict=True):
         for k in _peaks(gain, int(0.5 * pace / step), keep):
             found.append((gain[k], values | {suspect.scanned.key: float(t0 + (k + 1) * step)}))
@@ -124,7 +125,7 @@ def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
         spectrum = np.fft.rfft(rest.reshape(n, outputs), size, axis=0)[use]
         return 2 * np.abs((G.conj() * spectrum).sum(1)) ** 2 / (n * (np.abs(G) ** 2).sum(1) + 1e-300)
 
-    projection.scans.append(lambda rest: float(gains(rest).max()))
+    projection.scans.append(lambda rest: np.array([gains(one).max() for one in rest.T]))
     return [
         suspect.starts()[0] | {suspect.scanned.key: float(f[use][k])} for k in _peaks(gains(projection.rest), 6, keep)
     ]

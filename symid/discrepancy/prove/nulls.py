@@ -40,7 +40,7 @@ def largest(projection: Projection, rest: np.ndarray) -> np.ndarray:
     for basis in projection.bases:
         best = np.maximum(best, ((basis.T @ rest) ** 2).sum(0))
     for scanned in projection.scans:
-        best = np.maximum(best, [scanned(column) for column in rest.T])
+        best = np.maximum(best, scanned(rest))
     return best
 
 
