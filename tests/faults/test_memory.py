@@ -11,6 +11,7 @@ from study_problems import study
 
 from symid.bench.growth import HOUR_MB, measure_hour
 from symid.cli import main
+from symid.ipopt_solver.memory import unwritten_zeros
 from symid.threads import BLAS_BYTES, room_for
 
 linux = pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
@@ -51,6 +52,15 @@ def test_room_is_asked_for_without_being_taken():
     before = taken()
     assert room_for(2**28) and not room_for(2**62)
     assert taken() - before < 2**27
+
+
+@linux
+def test_zeros_take_no_memory_before_they_are_written():
+    before = taken(1)
+    zeros = unwritten_zeros(2**23)
+    assert zeros.sum() == 0 and taken(1) - before < 2**24
+    zeros[:] = 1
+    assert taken(1) - before > 2**25
 
 
 def taken(field: int = 0) -> int:
