@@ -19,7 +19,7 @@ from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.signals.pieces import free_pieces
 from symid.estimation.sensors.smoothing import Smoothing
 from symid.estimation.sensors.sensor_noise import noise_before
-from symid.estimation.sensors.whitening import remembered, whitening_of
+from symid.estimation.sensors.whitening import longest_memory, remembered, whitening_of
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.model import Model
 from symid.recording import Recording
@@ -134,17 +134,30 @@ def has_settled(fit: Fit, data: Data) -> bool:
 def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
     """The data with noise that remembers as much as leaves white innovations, and the fit to them.
 
-    The same data and fit where the innovations are white already, or move too smoothly for noise.
+    The same data and fit where the innovations are white already, or move too smoothly for noise. How many samples are
+    remembered is told by innovations, and then by fits with one more each, as long as BIC (Schwarz 1978) asks for it.
     """
-    memory = remembered(fit.innovations)
-    if memory <= data.memory or fit.kalman_gain is None and not _is_broad(fit, memory):
-        return data, fit
+    given = data
+    while (memory := remembered(fit.innovations)) > data.memory:
+        if fit.kalman_gain is None and not _is_broad(fit, memory):
+            break
+        data, fit = _remembering(fit, data, memory)
+    while data is not given and data.memory < longest_memory(fit.innovations):
+        more, better = _remembering(fit, data, data.memory + 1)
+        if better.loglik2 - fit.loglik2 <= len(data.sensor_noise) ** 2 * log(data.samples):
+            break
+        data, fit = more, better
+    return data, fit
+
+
+def _remembering(fit: Fit, data: Data, memory: int) -> tuple[Data, Fit]:
+    """The data with noise that remembers so many samples, and the fit to them."""
     fitter = Fitter.of(fit, data)
     more = replace(data.sharpened(fitter.sharpness(fit.process)), sensor_noise=fitter.sensors(fit.process))
     more = more.remembering(memory)
     # The fit that took its innovations for white leaves the model something to correct, and then more to remember.
     process = fit.process[: fitter.noises] * (1.0 if data.memory else QUIETER)
-    return with_memory(Fitter.of(fit, more).fit(fit.values, fit.initial, process), more)
+    return more, Fitter.of(fit, more).fit(fit.values, fit.initial, process)
 
 
 def _is_broad(fit: Fit, memory: int) -> bool:

@@ -8,6 +8,7 @@ import pytest
 from driven_cart import SENSOR, TRUE, cart, data_of, few, finding, recorded
 from scipy.signal import butter, filtfilt, lfilter
 
+from symid.estimation import measurement
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.sensors.cutoff import estimated_filter
 from symid.estimation.measurement import _is_broad, fits_of, with_memory
@@ -220,6 +221,20 @@ def test_memory_of_the_sensors_widens_errors_to_what_repeats_scatter():
         assert coloured.memory > 0 and remembered(fit.remaining) == 0
         z += [(fit.values[k] - TRUE[k]) / fit.errors[k] for k in TRUE]
     assert np.abs(z).max() < 4 and np.std(z) < 1.7
+
+
+def test_fits_tell_how_much_is_remembered_where_innovations_tell_too_little(monkeypatch):
+    recording, rng = recorded(0, gust=0.02), np.random.default_rng(0)
+    wave = lfilter([1.0], [1.0, -1.2, 0.6], rng.standard_normal(len(recording)))
+    data = data_of(
+        replace(recording, channels=dict(recording.channels) | {"position": recording["position"] + 2e-3 * wave})
+    )
+    white = fit_model(cart(), data)
+    monkeypatch.setattr(measurement, "remembered", lambda innovations: 1)
+    coloured, fit = with_memory(white, data)
+    assert coloured.memory >= 2 and remembered(fit.remaining) == 0
+    monkeypatch.setattr(measurement, "remembered", lambda innovations: 0)
+    assert with_memory(white, data) == (data, white)
 
 
 def test_nothing_is_found_in_a_filtered_recording_that_lacks_nothing():

@@ -68,16 +68,20 @@ def whitening_of(innovations: Sequence[np.ndarray], memory: int) -> Whitening:
 def remembered(innovations: Sequence[np.ndarray]) -> int:
     """How many samples the innovations remember: the order of the autoregression with the best BIC (Schwarz 1978)."""
     m, samples = innovations[0].shape[1], sum(len(s) for s in innovations)
-    longest = min(LONGEST, min(len(s) for s in innovations) // SHORTEST)
 
     def bic(memory: int) -> float:
         return samples * np.linalg.slogdet(whitening_of(innovations, memory).covariance)[1] + memory * m**2 * np.log(
             samples
         )
 
-    scores = [bic(k) for k in range(longest + 1)]
+    scores = [bic(k) for k in range(longest_memory(innovations) + 1)]
     best = int(np.argmin(scores))
     return best if scores[best] < scores[0] - CLEARLY else 0
+
+
+def longest_memory(innovations: Sequence[np.ndarray]) -> int:
+    """Samples that segments of these lengths can tell noise to remember."""
+    return min(LONGEST, min(len(s) for s in innovations) // SHORTEST)
 
 
 def _past(s: np.ndarray, memory: int) -> np.ndarray:
