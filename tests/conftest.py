@@ -13,6 +13,8 @@ from symid.recording import Recording
 TESTS = Path(__file__).resolve().parent
 ROOT = TESTS.parent
 SHARED = ROOT.parent / "shared"
+SIMULATED = ("discrepancy", "estimation")
+"""Folders whose tests fit by simulations. In Python these are some hundred times slower than compiled: hours."""
 if SHARED.is_dir():  # for the notebooks, too, which run in processes of their own
     os.environ.setdefault("SYMID_STANDING", str(SHARED / "recordings" / "standing_subject05"))
 
@@ -114,6 +116,25 @@ def solved(monkeypatch) -> list[str]:
     original = dispatch.solve_here
     monkeypatch.setattr(dispatch, "solve_here", note)
     return done
+
+
+def pytest_collection_modifyitems(items) -> None:
+    """Without a C compiler what fits by thousands of simulations is left out, but for what runs on every machine."""
+    simulated = [i for i in items if i.path.parent.name in SIMULATED and not i.get_closest_marker("elsewhere")]
+    if simulated and not _has_compiler():
+        for item in simulated:
+            item.add_marker(pytest.mark.skip(reason="no C compiler: this takes minutes in Python"))
+
+
+def _has_compiler() -> bool:
+    from symid.codegen.build import compiled
+    from symid.errors import CodegenError
+
+    try:
+        compiled("int one(void) { return 1; }")
+    except CodegenError:
+        return False
+    return True
 
 
 def pytest_terminal_summary(terminalreporter) -> None:
