@@ -89,7 +89,7 @@ def slide(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 
 def _slid(rest: np.ndarray, kernel: np.ndarray) -> np.ndarray:
     """Gain of twice the log-likelihood that is forecast for a response (k, m) which begins at each sample of (N, m)."""
     score = sum(fftconvolve(rest[:, o], kernel[::-1, o])[len(kernel) - 1 :] for o in range(rest.shape[1]))
-    return score**2 / (kernel**2).sum()
+    return score**2 / ((kernel**2).sum() + 1e-300)
 
 
 def sweep(projection: Projection, suspect: Suspect, sim: Simulator, keep: int = 6) -> list[dict[str, float]]:
