@@ -1,6 +1,7 @@
 """What several tests share: small models, and the folder of reference material beside the checkout."""
 
 import os
+import signal
 from pathlib import Path
 
 import numpy as np
@@ -116,6 +117,12 @@ def solved(monkeypatch) -> list[str]:
     original = dispatch.solve_here
     monkeypatch.setattr(dispatch, "solve_here", note)
     return done
+
+
+def pytest_configure() -> None:
+    """Interrupts are tested, here and in programs that are started; a shell's background has them ignored."""
+    if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def pytest_collection_modifyitems(items) -> None:

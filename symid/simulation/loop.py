@@ -28,6 +28,7 @@ class PythonLoop:
             "w": len(s.noises),
             "xd": len(s.states),
         }
+        self.rows = {"slopes": len(s.states), "observe_slopes": len(s.outputs), "lag_slopes": len(s.late)}
 
     def simulate(self, run: Run) -> int:
         """Fill the results of `run`; the number of samples reached."""
@@ -54,15 +55,10 @@ class PythonLoop:
 
     def slopes(self, name: str, call: tuple) -> dict[str, np.ndarray]:
         """Dense derivatives of a group of rows by group of symbols."""
-        rows = {
-            "slopes": len(self.source.states),
-            "observe_slopes": len(self.source.outputs),
-            "lag_slopes": len(self.source.late),
-        }[name]
         dense = {}
         for array, values in zip(self.source.functions[name], self.functions[name](*call), strict=True):
             group = array[1:]
-            dense[group] = np.zeros((rows, self.sizes[group]))
+            dense[group] = np.zeros((self.rows[name], self.sizes[group]))
             dense[group][self.source.entries[f"{name}_{group}"]] = values
         return dense
 
@@ -75,7 +71,7 @@ class _Simulation:
         self.functions, source = loop.functions, loop.source
         self.x, self.S = run.x0.copy(), np.zeros((len(run.x0), run.nq))
         self.S[run.qx, run.nqp + np.arange(run.nqx)] = 1
-        zero = np.zeros(max(loop.sizes["x"], 1))
+        self.still, zero = np.zeros(len(run.x0)), np.zeros(max(loop.sizes["x"], 1))
         call = (zero, self.x, zero, zero, zero, run.p, run.c, 0.0)
         late = len(source.late)
         lag, dlag = self.functions["lags"](*call)[0], np.zeros((late, run.nq))
@@ -131,7 +127,7 @@ class _Simulation:
         u, _ = self.past.inputs_at(t, k)
         late, lS = self.past.late_at(t, k, x, S)
         given = (late, u, run.w[k], run.p, run.c, t)
-        M, force = self.functions["mass"](np.zeros(n), x, *given)
+        M, force = self.functions["mass"](self.still, x, *given)
         try:
             M = M.reshape(n, n)
             xd = np.linalg.solve(M, -force)

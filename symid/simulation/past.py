@@ -42,7 +42,9 @@ class Past:
         between = np.zeros(run.u.shape[1], dtype=int)
         between[: len(source.input_between)] = source.input_between
         self.held, self.cubic = (between == BETWEEN.index(k) for k in ("zero", "cubic"))
-        self.slopes = slopes(run.t, run.u)
+        self.any_held, self.any_cubic = bool(self.held.any()), bool(self.cubic.any())
+        self.slopes, self.lines, self.flat = slopes(run.t, run.u), np.zeros_like(run.u), np.zeros(run.u.shape[1])
+        self.lines[:-1] = np.diff(run.u, axis=0) / np.diff(run.t)[:, None]
         self.steps: list[Step] = []
         self.begins: list[float] = []
         n, zero = len(run.x0), np.zeros((len(run.x0), run.nq))
@@ -80,13 +82,12 @@ class Past:
             k += 1
         h = t[k + 1] - t[k]
         f = (time - t[k]) / h
-        slope = (u[k + 1] - u[k]) / h if 0 <= f <= 1 else np.zeros_like(u[k])
+        slope = self.lines[k] if 0 <= f <= 1 else self.flat
         value = u[k] + min(max(f, 0.0), 1.0) * (u[k + 1] - u[k])
-        if self.cubic.any() and 0 <= f <= 1:
-            line = (u[k + 1] - u[k]) / h
-            more, steeper = bend(f, h, self.slopes[k] - line, self.slopes[k + 1] - line)
+        if self.any_cubic and 0 <= f <= 1:
+            more, steeper = bend(f, h, self.slopes[k] - slope, self.slopes[k + 1] - slope)
             value, slope = value + self.cubic * more, slope + self.cubic * steeper
-        if self.held.any():
+        if self.any_held:
             at_end = present == k - 1 and time - t[k] < 1e-9 * h
             held = present if at_end else len(t) - 1 if present > k and f >= 1 else k
             value, slope = np.where(self.held, u[held], value), np.where(self.held, 0.0, slope)
@@ -94,6 +95,8 @@ class Past:
 
     def late_at(self, time: float, k: int, x: np.ndarray, S: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """(L,) late signals and their (L, nq) sensitivities; x and S are the present ones, for a lag of zero."""
+        if not len(self.lag):
+            return self.lag, self.dlag
         late, lS = np.zeros(len(self.lag)), np.zeros_like(self.dlag)
         for j, (kind, i) in enumerate(zip(self.source.late_kind, self.source.late_index, strict=True)):
             if kind:
