@@ -128,7 +128,6 @@ def test_a_program_stopped_at_any_moment(finished, tmp_path, seed, how):
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         start_new_session=True,
-        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),  # ignored in a shell's background
     ) as process:
         time.sleep(random.Random(seed).uniform(1, 12))
         process.send_signal(how)

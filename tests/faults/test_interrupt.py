@@ -11,14 +11,6 @@ from symid.interrupt import held_back
 from symid.units import si
 
 
-@pytest.fixture(autouse=True)
-def _interruptible():
-    """Shells start what runs in the background with Ctrl-C ignored."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
 def test_ctrl_c_waits_for_the_end_of_the_block():
     reached = []
     with pytest.raises(KeyboardInterrupt):
