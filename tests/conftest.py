@@ -14,8 +14,8 @@ from symid.recording import Recording
 TESTS = Path(__file__).resolve().parent
 ROOT = TESTS.parent
 SHARED = ROOT.parent / "shared"
-SIMULATED = ("discrepancy", "estimation")
-"""Folders whose tests fit by simulations. In Python these are some hundred times slower than compiled: hours."""
+COMPILED = ("codegen", "discrepancy", "estimation")
+"""Folders whose tests compare C with NumPy, or fit by thousands of simulations: in Python these take hours."""
 if SHARED.is_dir():  # for the notebooks, too, which run in processes of their own
     os.environ.setdefault("SYMID_STANDING", str(SHARED / "recordings" / "standing_subject05"))
 
@@ -126,11 +126,16 @@ def pytest_configure() -> None:
 
 
 def pytest_collection_modifyitems(items) -> None:
-    """Without a C compiler what fits by thousands of simulations is left out, but for what runs on every machine."""
-    simulated = [i for i in items if i.path.parent.name in SIMULATED and not i.get_closest_marker("elsewhere")]
-    if simulated and not _has_compiler():
-        for item in simulated:
-            item.add_marker(pytest.mark.skip(reason="no C compiler: this takes minutes in Python"))
+    """Without a C compiler what asks for C by name is left out, and what would take hours without it."""
+    compiled = [item for item in items if item.path.parent.name in COMPILED or _asks_for_c(item)]
+    if compiled and not _has_compiler():
+        for item in compiled:
+            item.add_marker(pytest.mark.skip(reason="no C compiler"))
+
+
+def _asks_for_c(item) -> bool:
+    parameters = item.callspec.params.values() if hasattr(item, "callspec") else ()
+    return item.get_closest_marker("compiled") is not None or any(isinstance(v, str) and v == "c" for v in parameters)
 
 
 def _has_compiler() -> bool:

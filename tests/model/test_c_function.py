@@ -26,6 +26,7 @@ def by_sympy(v, h):
     return sm.sin(v) * sm.exp(-h)
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize("backend", ["c", "numpy"])
 def test_value_and_derivatives_are_those_of_the_same_formula(backend):
     a, b, p = sm.symbols("a b p", real=True)
@@ -53,6 +54,7 @@ def fan_cart(fan):
     return m
 
 
+@pytest.mark.compiled
 def test_simulation_and_exported_c_agree(tmp_path):
     given, formula = (
         fan_cart(si.c_function("fan", SOURCE, arguments=2)),
@@ -90,6 +92,7 @@ def test_what_is_wrong_is_said(make, said):
         make()
 
 
+@pytest.mark.compiled
 def test_what_the_compiler_refuses_is_told():
     a = sm.Symbol("a", real=True)
     wrong = si.c_function("g", "double g(double x) { retrun x; } double g_0(double x) {} double g_00(double x) {}")

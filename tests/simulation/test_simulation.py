@@ -70,6 +70,7 @@ def test_order_of_accuracy(method, order, lag):
     assert np.log2(errors[0] / errors[1]) > order - (0.2 if lag is None else 0.8)
 
 
+@pytest.mark.compiled
 @pytest.mark.elsewhere
 @pytest.mark.parametrize("method", ["rk4", "euler"])
 @pytest.mark.parametrize("lag", [None, 0.13, 0.0])
