@@ -72,6 +72,7 @@ def standing(shared, law) -> si.Identification:
     return si.Identification(model, recording, window=(160, 260))
 
 
+@pytest.mark.compiled
 @pytest.mark.elsewhere
 def test_backends_give_the_same_solution():
     c, numpy = (

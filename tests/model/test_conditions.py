@@ -48,6 +48,7 @@ def test_derivatives_of_all_kinds_of_parts_agree_with_central_differences(name, 
     assert len(words) == t.layout.size + t.program.rows
 
 
+@pytest.mark.compiled
 def test_both_backends_find_the_same_plan():
     plans = [si.Optimization(everything(), duration=si.Free(1, 3), nodes=21, backend=b).solve() for b in ("c", "numpy")]
     assert plans[0].solved and plans[0].objective == pytest.approx(plans[1].objective, rel=1e-9)
