@@ -13,7 +13,6 @@ import symid as si
 from symid.errors import ModelError, SymidError, TranscriptionError
 from symid.mechanics.chain import Chain
 from symid.mechanics.link import ChainLink
-from symid.model.quantity import sympified
 from symid.recording import differentiate, lowpass, resample, smooth_states, unwrap
 
 RECORDING = pendulum_recording(duration=1)
@@ -293,9 +292,3 @@ def test_a_misspelt_option_of_a_solve_is_refused():
     with pytest.raises(SymidError, match="no option 'tolerance'"):
         si.Identification(pendulum(), RECORDING).solve(tolerance=3)
     assert not hasattr(cart(), "absent")
-
-
-def test_a_constant_power_that_is_no_number_is_left_to_the_check():
-    """SymPy compares no NaN: found by fuzzing."""
-    for power in (sm.Pow(sm.zoo, sm.I, evaluate=False), sm.exp(sm.oo, evaluate=False), sm.exp(sm.nan, evaluate=False)):
-        assert sympified(power) == power

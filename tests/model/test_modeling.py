@@ -6,6 +6,7 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.errors import ModelError
+from symid.model.quantity import sympified
 
 
 def test_a_freed_constant_is_identified_from_its_value_as_a_guess():
@@ -107,3 +108,9 @@ def test_what_gives_no_number_is_refused(make, words):
         m.extra = si.Equation(make(m.angle.symbol))
     with pytest.raises(ModelError, match=words):
         m.redefine("measured", make(m.angle.symbol))
+
+
+def test_a_constant_power_that_is_no_number_is_left_to_the_check():
+    """SymPy compares no NaN: found by fuzzing."""
+    for power in (sm.Pow(sm.zoo, sm.I, evaluate=False), sm.exp(sm.oo, evaluate=False), sm.exp(sm.nan, evaluate=False)):
+        assert sympified(power) == power
