@@ -177,7 +177,8 @@ def test_every_function_is_the_same_in_both_backends_also_at_kinks_and_outside_o
     ):
         a, b = of(c), of(n)
         assert np.array_equal(np.isnan(a), np.isnan(b))
-        assert np.allclose(a, b, rtol=1e-12, atol=0, equal_nan=True)
+        # The slope of tanh is the difference of two numbers near one, whose last digits depend on the processor.
+        assert np.allclose(a, b, rtol=1e-12, atol=1e-15, equal_nan=True)
 
 
 @pytest.mark.parametrize("backend", BACKENDS)
