@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from symid.deadline import TimeUp
 from symid.errors import OptionError, SolveError
 from symid.identification.starts.further import drawn_starts, far, further_starts, led_starts
-from symid.ipopt_solver import Iteration, SolverResult
+from symid.ipopt_solver import GAUSS_NEWTON_FIRST, Iteration, SolverResult
 from symid.ipopt_solver.aside import set_aside
 from symid.transcription import BackwardEuler
 
@@ -23,6 +23,11 @@ LOST, TRACE = 1.2, 1e-9
 that part of the objective's scale is the recorded motion itself."""
 FEW, MANY = 40, 200
 """Iterations in which a start by simulation leads to the optimum that it is close to, or to none; and a further one."""
+
+
+def gauss_newton_first(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of a solve from a start that may be far from every optimum: Gauss-Newton first, if none says else."""
+    return {"hessian": GAUSS_NEWTON_FIRST, **options}
 
 
 class Attempts:
@@ -39,7 +44,7 @@ class Attempts:
 
     def run(self, z: np.ndarray, most: float = float("inf"), near: bool = False) -> None:
         """Solve from `z` in at most so many iterations."""
-        given = dict(self.options)
+        given = dict(self.options) if near else gauss_newton_first(self.options)
         if most < float("inf"):
             given["max_iterations"] = min(most, given.get("max_iterations", most))
         given_back, self.best = None if self.best is None else set_aside(self.best), None

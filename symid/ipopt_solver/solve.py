@@ -13,7 +13,7 @@ from symid.errors import OptionError, SolveError
 from symid.ipopt_solver import library as ipopt_library
 from symid.ipopt_solver import through_cyipopt
 from symid.ipopt_solver.bounded import run_bounded
-from symid.ipopt_solver.evaluation import Evaluation, Iteration
+from symid.ipopt_solver.evaluation import MOST_FAR, Evaluation, Iteration
 from symid.ipopt_solver.linear import LinearSolver, run_with
 from symid.ipopt_solver.memory import unwritten_zeros
 from symid.ipopt_solver.result import SolverResult, WorstConstraint, make_result
@@ -41,6 +41,8 @@ WARM_START: dict[str, str | float] = {
     "mu_strategy": "monotone",
     "mu_init": 1e-6,
 }
+EXACT, GAUSS_NEWTON_FIRST, LIMITED_MEMORY = "exact", "gauss-newton first", "limited-memory"
+HESSIANS = (EXACT, GAUSS_NEWTON_FIRST, LIMITED_MEMORY)
 C_INT = 2**31 - 1
 """The largest whole number of C's `int`: what is larger would come to Ipopt as another number."""
 
@@ -54,7 +56,7 @@ def solve_nlp(
     on_iteration: Callable[[Iteration], bool | None] | None = None,
     max_iterations: int = 3000,
     time_limit_s: float | None = None,
-    hessian: str = "exact",
+    hessian: str = EXACT,
     linear_solver: str = "auto",
     interface: str = "auto",
 ) -> SolverResult:
@@ -73,8 +75,9 @@ def solve_nlp(
     max_iterations : int
     time_limit_s : float, optional
         Wall time [s]. Where a factorisation goes on beyond it, the result is the last iterate.
-    hessian : {"exact", "limited-memory"}
-        Which second derivatives Ipopt uses.
+    hessian : {"exact", "gauss-newton first", "limited-memory"}
+        Which second derivatives Ipopt uses. "gauss-newton first": while the point is far from an optimum, those of the
+        objective alone; then the exact ones. For sums of squares from starts far away.
     linear_solver : {"auto", "chain", "mumps"} or Ipopt's name of another
         "chain" is symid's own, for collocation (`symid.kkt`); "auto" takes it where the problem is a
         chain and a C compiler is there, else MUMPS. `options` may name one as well.
@@ -101,7 +104,8 @@ def solve_nlp(
     given, nlp = nlp, with_unit_objective(nlp)
     chosen = _options(nlp, options, warm_start, max_iterations, hessian)
     way, run = _runner(interface)
-    evaluation = Evaluation(nlp, on_iteration, given.objective_scale)
+    far = MOST_FAR if hessian == GAUSS_NEWTON_FIRST else 0
+    evaluation = Evaluation(nlp, on_iteration, given.objective_scale, far)
     wanted = chosen.pop("linear_solver", linear_solver)
     begun = False
 
@@ -190,14 +194,15 @@ def _check_inside(nlp: NonlinearProgram, z: np.ndarray) -> None:
 
 
 def _options(nlp, options, warm_start, max_iterations, hessian) -> dict:
-    if hessian not in ("exact", "limited-memory"):
-        raise SolveError(f"hessian={hessian!r} is unknown: choose 'exact' or 'limited-memory'.")
-    if hessian == "exact" and nlp.hessian is None:
+    if hessian not in HESSIANS:
+        raise SolveError(f"hessian={hessian!r} is unknown: choose {', '.join(map(repr, HESSIANS))}.")
+    exact = hessian != LIMITED_MEMORY
+    if exact and nlp.hessian is None:
         raise SolveError(
-            "The program has no exact Hessian: give NonlinearProgram.hessian or solve with hessian='limited-memory'."
+            f"The program has no exact Hessian: give NonlinearProgram.hessian or solve with hessian={LIMITED_MEMORY!r}."
         )
     chosen = DEFAULTS | {
-        "hessian_approximation": hessian,
+        "hessian_approximation": "exact" if exact else LIMITED_MEMORY,
         "max_iter": checked.whole(max_iterations, "max_iterations", SolveError),
     }
     if nlp.variable_scale is not None or nlp.constraint_scale is not None:

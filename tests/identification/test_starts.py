@@ -191,6 +191,24 @@ def test_a_random_start_whose_multipliers_run_away_goes_on_from_softened_equatio
     assert bool(softened) == (beyond >= OFTEN) and (softened or bound > 1)
 
 
+def test_a_random_start_that_does_not_end_begins_anew_from_softened_equations(monkeypatch):
+    """Before, such starts wandered about for a minute; a limit of the user's is kept."""
+    begun = []
+
+    def noted(*arguments):
+        begun.append(len(seen))
+        return relaxed(*arguments)
+
+    monkeypatch.setattr("symid.identification.softened.LONG", 4)
+    monkeypatch.setattr("symid.identification.softened.relaxed", noted)
+    problem, seen = small_systems.mass_spring_damper(np.random.default_rng([0, 7])).problem(), []
+    row = solve_here(Solve(problem, "random"), seen.append).row
+    assert begun == [5] and row.solved
+    seen.clear()
+    row = solve_here(Solve(problem, "random", options={"max_iterations": 3}), seen.append).row
+    assert begun == [5] and not row.solved and row.status == "Maximum_Iterations_Exceeded"
+
+
 def test_multipliers_that_run_away_twice_are_an_honest_refusal(monkeypatch):
     system = small_systems.mass_spring_damper(np.random.default_rng([0, 7]))
     for name, value in {"RAN_AWAY": -1.0, "OFTEN": 1}.items():

@@ -12,6 +12,7 @@ from symid.deadline import TimeUp, deadline, remaining
 from symid.errors import SolveError
 from symid.ipopt_solver import bounded, solve_nlp, through_cyipopt
 from symid.ipopt_solver import solve as ipopt_solver
+from symid.ipopt_solver.evaluation import FAR, Evaluation
 from symid.nlp import check_optimality
 
 pytest.importorskip("cyipopt", reason="cyipopt is absent: run `python -m symid.setup_ipopt`")
@@ -36,7 +37,7 @@ def test_hs071_has_its_published_solution(either_way):
     assert "Solve_Succeeded" in repr(result)
 
 
-@pytest.mark.parametrize("hessian", ["exact", "limited-memory"])
+@pytest.mark.parametrize("hessian", ["exact", "gauss-newton first", "limited-memory"])
 @pytest.mark.parametrize("scaled", [False, True])
 def test_tracking_finds_the_friction_and_satisfies_the_first_order_conditions(either_way, hessian, scaled):
     nlp = tracking()
@@ -52,6 +53,21 @@ def test_tracking_finds_the_friction_and_satisfies_the_first_order_conditions(ei
         nlp, result.z, result.multipliers, result.bound_multipliers_lower, result.bound_multipliers_upper
     )
     assert report.ok, str(report)
+
+
+def test_gauss_newton_is_used_far_from_an_optimum_and_not_for_ever():
+    exact, right = [], tracking().hessian
+
+    def hessian(z, multipliers, factor):
+        exact.append(bool(multipliers.any()))
+        return right(z, multipliers, factor)
+
+    nlp = tracking(hessian=hessian)
+    evaluation = Evaluation(nlp, None, far=2)
+    for dual in (10 * FAR, 0.1 * FAR, 10 * FAR, 10 * FAR):
+        evaluation.iteration(0, 1.0, 0.0, dual, 0.1)
+        evaluation.hessian(nlp.start, np.ones(nlp.m), 1.0, np.zeros(nlp.hessian_rows.size))
+    assert exact == [False, True, False, True]
 
 
 def test_both_ways_to_ipopt_take_the_same_steps():
