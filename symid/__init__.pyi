@@ -27,7 +27,6 @@ from .errors import (
     TranscriptionError as TranscriptionError,
     WriteError as WriteError,
 )
-from .identification.export import export as export
 from .identification import (
     Cluster as Cluster,
     Identification as Identification,
@@ -36,6 +35,7 @@ from .identification import (
     Solve as Solve,
     Study as Study,
 )
+from .identification.files.export import export as export
 from .model import (
     Algebraic as Algebraic,
     Boundary as Boundary,

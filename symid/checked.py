@@ -11,7 +11,6 @@ import numpy as np
 
 from symid.errors import SymidError
 
-
 LONGEST_NAME, LONGEST_PATH = 255, 4000
 """Letters of a file's name and of all folders before it that Linux and macOS take (4096 with what follows)."""
 

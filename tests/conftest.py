@@ -106,7 +106,7 @@ def undisturbed(pool):
 @pytest.fixture
 def solved(monkeypatch) -> list[str]:
     """Grows by the key of every solve of a study that is done in this process."""
-    from symid.identification import dispatch
+    from symid.identification.studies import dispatch
 
     done = []
 

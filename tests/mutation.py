@@ -28,7 +28,7 @@ PARTS = {
     "transcription": ("symid/transcription", "transcription model/test_conditions.py"),
     "estimation": ("symid/estimation", "estimation discrepancy/test_audit.py discrepancy/test_discrepancy_bounded.py"),
     "covariance": (
-        "symid/identification/covariance.py",
+        "symid/identification/uncertainty/covariance.py",
         "identification/test_covariance.py identification/test_determined_effects.py "
         "identification/test_undetermined.py identification/test_disturbances.py",
     ),
@@ -164,7 +164,8 @@ def main() -> int:
     given = parser.parse_args()
     os.chdir(ROOT)
     sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
-    import hypothesis, numpy, pandas, pytest, scipy.optimize, scipy.signal, sympy  # noqa: E401, F401 - loaded once
+    for name in ("hypothesis", "numpy", "pandas", "pytest", "scipy.optimize", "scipy.signal", "sympy"):
+        importlib.import_module(name)  # here, once, and not in each child
 
     survivors = 0
     shared = tempfile.TemporaryDirectory()

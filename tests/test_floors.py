@@ -111,7 +111,7 @@ def test_imports_only_from_lower_floors(module, path):
         ("symid.mechanics.body", "def f():\n    import symid.codegen.kernel", "floor 2"),
         ("symid.analysis", "import symid", "floor 8"),
         ("symid.analysis", "from symid import cellar", "without a floor"),
-        ("symid.identification.study", "import cyipopt", "imports cyipopt"),
+        ("symid.identification.studies.study", "import cyipopt", "imports cyipopt"),
         ("symid.transcription.grid", "from sympy.core import Symbol", "imports sympy"),
         ("symid.codegen.kernel", "import pandas as pd", "imports pandas"),
         ("symid.report.html", "import matplotlib.pyplot as plt", "imports matplotlib"),

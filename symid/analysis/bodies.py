@@ -10,13 +10,13 @@ from math import inf
 import numpy as np
 
 from symid.errors import DiagnosisError
+from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.normal_equations import covariance_of, normal_equations
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import swing
 from symid.estimation.signals.windows import segments_of
-from symid.estimation.fitting.fit import Fit, Fitter
-from symid.estimation.fitting.normal_equations import covariance_of, normal_equations
 from symid.mechanics import rig_model
-from symid.mechanics.combined import combined_of
+from symid.mechanics.chains.combined import combined_of
 from symid.model import Model
 from symid.recording import Recording
 from symid.units import STANDARD_GRAVITY, quantity

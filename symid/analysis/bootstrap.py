@@ -14,10 +14,10 @@ import pandas as pd
 from symid import checked
 from symid.errors import ModelError
 from symid.identification import Identification, Solution, Solve, Study
-from symid.identification.covariance import ParameterErrors
 from symid.identification.noise import Errors
 from symid.identification.noise.hac import bandwidth
-from symid.identification.study import Finished, tell
+from symid.identification.studies.study import Finished, tell
+from symid.identification.uncertainty.covariance import ParameterErrors
 from symid.recording import Recording
 
 MOST_DRAWS = 100_000

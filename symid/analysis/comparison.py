@@ -11,8 +11,7 @@ import scipy
 from symid import checked
 from symid.errors import ModelError
 from symid.identification import Solution
-from symid.identification.sensitivity import outputs_and_targets
-
+from symid.identification.uncertainty.sensitivity import outputs_and_targets
 
 ALIKE, REFUTED = 2.0, 10.0
 """Distances in AIC up to which a model has as good as the same support as the best, and from which it has none."""

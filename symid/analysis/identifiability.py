@@ -11,7 +11,7 @@ import numpy as np
 from symid import checked
 from symid.analysis.eigenvalues import slopes_at
 from symid.errors import ModelError
-from symid.identification.combinations import combinations, involved
+from symid.identification.uncertainty.combinations import combinations, involved
 from symid.model import Model
 from symid.model.symmetry import unchanged
 from symid.simulation import Trajectory, simulator

@@ -12,7 +12,7 @@ from symid import checked
 from symid.checked import nearest
 from symid.errors import ModelError
 from symid.identification import Solution
-from symid.identification.covariance import ParameterErrors
+from symid.identification.uncertainty.covariance import ParameterErrors
 from symid.ipopt_solver import SolverResult
 
 LIMIT = 3.841458820694124

@@ -11,7 +11,7 @@ from symid import checked
 from symid.checked import nearest
 from symid.errors import ModelError
 from symid.identification import Solution
-from symid.identification.covariance import ParameterErrors
+from symid.identification.uncertainty.covariance import ParameterErrors
 
 LIMIT = 5.991464547107979
 """95 % point of chi-squared with two degrees of freedom (Wilks 1938)."""

@@ -12,8 +12,8 @@ import pandas as pd
 from symid import checked
 from symid.errors import ModelError
 from symid.identification import Solution
-from symid.identification.covariance import ParameterErrors
 from symid.identification.noise import CHOICES
+from symid.identification.uncertainty.covariance import ParameterErrors
 from symid.units import with_error
 
 ALIKE = 0.95

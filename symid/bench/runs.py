@@ -6,7 +6,8 @@ import json
 import os
 import subprocess
 import sys
-from dataclasses import asdict
+import tempfile
+from dataclasses import asdict, replace
 from importlib import import_module
 from pathlib import Path
 
@@ -40,12 +41,13 @@ def run_fresh(
     SymidError : the process ended without a result.
     """
     environment = os.environ | ONE_THREAD | {"OMP_NUM_THREADS": str(threads)}
-    environment |= {"SYMID_CACHE_DIR": str(cache)} if cache else {}
+    environment |= {"SYMID_CACHE_DIR": str(Path(cache).absolute())} if cache else {}
+    task = replace(task, **{name: str(Path(getattr(task, name)).absolute()) for name in ("recording", "body")})
     command = [sys.executable, "-m", "symid.bench.runs", call, json.dumps(asdict(task)), *arguments]
+    said = {"capture_output": True, "text": True, "errors": "replace"}
     try:
-        ended = subprocess.run(
-            command, env=environment, capture_output=True, text=True, errors="replace", timeout=limit_s
-        )
+        with tempfile.TemporaryDirectory() as folder:  # a peer that is stopped leaves what it compiled
+            ended = subprocess.run(command, cwd=folder, env=environment, timeout=limit_s, **said)
     except subprocess.TimeoutExpired:
         return {"total": limit_s, "status": STOPPED}
     results = [line for line in ended.stdout.splitlines() if line.startswith(MARK)]

@@ -34,7 +34,7 @@ class _Watch:
 def case(task: Task, starts: str) -> dict:
     """Random starts of `task`, one after the other in a fresh process: a row each, and the most memory that it held."""
     from symid.identification import Solve
-    from symid.identification.worker import solve_here
+    from symid.identification.studies.worker import solve_here
 
     problem, rows, memory = task.identification(), [], 0.0
     for number in range(int(starts)):

@@ -31,7 +31,7 @@ def first_use(task: Task) -> dict:
     """Seconds until a model that nobody compiled before can be evaluated: the task's, with dry friction."""
     from symid.codegen import compile_program
     from symid.codegen.interval import interval_program
-    from symid.mechanics.terms import LIBRARY
+    from symid.mechanics.missing.terms import LIBRARY
     from symid.transcription import Midpoint
 
     model = task.identification().model
@@ -53,7 +53,7 @@ def identification(task: Task, start: str) -> dict:
 
     import symid.mechanics  # noqa: F401
     from symid.identification import Solve
-    from symid.identification.worker import solve_here
+    from symid.identification.studies.worker import solve_here
 
     imported = processor_seconds()
     problem = task.identification()

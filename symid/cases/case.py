@@ -12,17 +12,17 @@ from typing import Any
 import numpy as np
 
 from symid import checked
+from symid.analysis.bodies import bodies_words, determined, rig_with_unknown_bodies, unknown_bodies
 from symid.cases.schema import refuse_violations
 from symid.discrepancy.diagnose import diagnose
 from symid.discrepancy.say.diagnosis import Diagnosis
-from symid.analysis.bodies import bodies_words, determined, rig_with_unknown_bodies, unknown_bodies
 from symid.errors import DiagnosisError, RecordingError, SymidError
+from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.swings import piece_length
 from symid.estimation.signals.windows import segments_of
-from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.files import read_json
 from symid.mechanics import model_of
-from symid.mechanics.rig import BASES
+from symid.mechanics.chains.rig import BASES
 from symid.model import Model
 from symid.recording import Recording, read_recording, smooth_states
 

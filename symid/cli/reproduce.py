@@ -45,7 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
     from symid import mechanics
     from symid.fetch import standing
     from symid.files import write_atomically
-    from symid.identification.study import tell
+    from symid.identification.studies.study import tell
     from symid.plots.article import plot_stable_share, plot_starts_spread
     from symid.recording import read_recording
     from symid.reproduce import CASES, comparison, late_feedback, late_feedback_text, reproduce, text

@@ -19,7 +19,6 @@ from symid.codegen.numpyprint import NUMPY_PATTERNS
 from symid.errors import CodegenError
 from symid.model import TIME, Model, c_texts, explicit
 
-
 C_WORDS = frozenset(
     "auto break case char const continue default do double else enum extern float for goto if inline int long register "
     "restrict return short signed sizeof static struct switch typedef union unsigned void volatile while".split()

@@ -11,7 +11,7 @@ from symid.discrepancy.say.diagnosis import Diagnosis, finding
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.say.story import Story
 from symid.discrepancy.say.words import words
-from symid.discrepancy.task import Part, listed_suspects, check_options, task_of
+from symid.discrepancy.task import Part, check_options, listed_suspects, task_of
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.model import Model

@@ -14,8 +14,7 @@ from symid.discrepancy.locate.given import fitted_as_given
 from symid.discrepancy.model.dry import with_friction_speeds
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.sizes import sizes_of
-from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.model.suspects import suspects as suspects_of
+from symid.discrepancy.model.suspects import Suspect, suspects as suspects_of
 from symid.discrepancy.name.error_model import with_error_model
 from symid.discrepancy.name.held import held_as_given
 from symid.discrepancy.name.jump import with_likeliest_jumps
@@ -23,14 +22,14 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.certain import unsteady
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError
-from symid.estimation.signals.data import Data
-from symid.estimation.signals.segment import Segment
-from symid.estimation.signals.windows import segments_of
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import free_run
 from symid.estimation.measurement import fits_of, settled, sharpened_filter
-from symid.estimation.signals.pieces import free_pieces, joined
 from symid.estimation.sensors.zero_phase import ZeroPhase
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.pieces import free_pieces, joined
+from symid.estimation.signals.segment import Segment
+from symid.estimation.signals.windows import segments_of
 
 CLEARER = 0.7
 """No filter was there where a free run of what explains the recording without one leaves less than this part of the

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from symid import checked
-from symid.errors import DiagnosisError
 from symid.discrepancy.model.suspects import Suspect
-from symid.estimation.signals.missing import without_missing
+from symid.errors import DiagnosisError
 from symid.estimation.sensors.zero_phase import ZeroPhase
+from symid.estimation.signals.missing import without_missing
 from symid.identification import Solution
 from symid.mechanics.accelerations import with_accelerations
 from symid.mechanics.places import with_places

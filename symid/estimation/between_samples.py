@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter, seen
+from symid.estimation.signals.data import Data
 
 
 def with_likeliest_curves(fit: Fit, data: Data) -> Fit:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data, observed_state
 from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.signals.data import Data, observed_state
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,15 +12,15 @@ import numpy as np
 from symid.errors import DiagnosisError
 from symid.estimation.between_samples import with_likeliest_curves
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.signals.data import Data
-from symid.estimation.signals.segment import FEWEST, Segment
-from symid.estimation.signals.windows import segments_of
 from symid.estimation.fitting.fit import Fit, Fitter
-from symid.estimation.signals.pieces import free_pieces
-from symid.estimation.sensors.smoothing import Smoothing
 from symid.estimation.sensors.sensor_noise import noise_before
+from symid.estimation.sensors.smoothing import Smoothing
 from symid.estimation.sensors.whitening import longest_memory, remembered, whitening_of
 from symid.estimation.sensors.zero_phase import ZeroPhase
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.pieces import free_pieces
+from symid.estimation.signals.segment import FEWEST, Segment
+from symid.estimation.signals.windows import segments_of
 from symid.model import Model
 from symid.recording import Recording
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.free_run import first_states
 from symid.estimation.signals.data import Data
-from symid.estimation.fitting.fit import Fit, Fitter
 
 FORGOTTEN = 1.0
 """Seconds at the pace of a second that are left out, which fitting the state with which a segment begins has met."""

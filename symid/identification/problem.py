@@ -22,15 +22,15 @@ from symid.identification.arguments import (
     shared_samples,
 )
 from symid.identification.identity import problem_identity
-from symid.identification.marginal import to_marginal
-from symid.identification.process_size import to_sized, unsized
+from symid.identification.likelihood.marginal import to_marginal
+from symid.identification.likelihood.process_size import to_sized, unsized
+from symid.identification.likelihood.weighting import to_likelihood
 from symid.identification.program import TRACE, off_its_bounds, program_of, transcription_of
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution
-from symid.identification.start_row import StartRow
 from symid.identification.starts.kinds import start_of
-from symid.identification.study import Solve, Study, start_kinds
-from symid.identification.weighting import to_likelihood
+from symid.identification.studies.start_row import StartRow
+from symid.identification.studies.study import Solve, Study, start_kinds
 from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model, parts_of, same_parts
 from symid.nlp import NonlinearProgram
@@ -186,7 +186,7 @@ class Identification:
         ----------
         path : of the file that was written.
         """
-        from symid.identification.saved import load
+        from symid.identification.files.saved import load
 
         return load(path, self)
 

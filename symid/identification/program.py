@@ -11,7 +11,7 @@ import numpy as np
 
 from symid.checked import nearest
 from symid.errors import TranscriptionError
-from symid.identification.weighting import by_noise, information_of, weights_of
+from symid.identification.likelihood.weighting import by_noise, information_of, weights_of
 from symid.nlp import NonlinearProgram, with_ridge, with_tilt
 from symid.transcription import Transcription, measure, transcribe
 

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symid.identification.elsewhere import excess_note
+from symid.identification.checks.elsewhere import excess_note
 from symid.identification.fit import common_unit, fit_text, rms_text
+from symid.identification.likelihood.weighting import by_noise
 from symid.identification.noise import UNFIT
-from symid.identification.weighting import by_noise
 from symid.model.show import MEANING_EM
 from symid.units import rough, unit_symbol, with_error
 

@@ -13,12 +13,12 @@ import numpy as np
 
 from symid import checked
 from symid.errors import SolveError
-from symid.identification.covariance import ParameterErrors, bound_active, parameter_errors
+from symid.identification.files.record import provenance, record
 from symid.identification.fit import fit_measures
-from symid.identification.record import provenance, record
-from symid.identification.sensitivity import outputs_and_targets
-from symid.identification.start_row import StartRow
-from symid.identification.weighting import noise_levels
+from symid.identification.likelihood.weighting import noise_levels
+from symid.identification.studies.start_row import StartRow
+from symid.identification.uncertainty.covariance import ParameterErrors, bound_active, parameter_errors
+from symid.identification.uncertainty.sensitivity import outputs_and_targets
 from symid.ipopt_solver import SolverResult
 from symid.model import Model
 from symid.recording import Recording
@@ -27,7 +27,7 @@ from symid.transcription import Transcription
 if TYPE_CHECKING:
     import pandas as pd
 
-    from symid.identification.verify import Verification
+    from symid.identification.checks.verify import Verification
     from symid.identification.problem import Identification
 
 
@@ -178,7 +178,7 @@ class Solution:
     @cached_property
     def verification(self) -> Verification:
         """What a finer mesh, an integrator and the optimality conditions say of it, see `identification.verify`."""
-        from symid.identification.verify import verify
+        from symid.identification.checks.verify import verify
 
         return verify(self)
 
@@ -187,7 +187,7 @@ class Solution:
         of a standard error of the mesh's error, at most 16, at least 2.
         """
         if factor is None:
-            from symid.identification.verify import FINE
+            from symid.identification.checks.verify import FINE
 
             mesh = self.verification.mesh
             worst = 0.0 if mesh is None else mesh["std_errors"].abs().max()
@@ -267,7 +267,7 @@ class Solution:
 
     def save(self, path: str | Path) -> None:
         """Write the result to the directory `path`, see `identification.saved`; `Identification.load` reads it."""
-        from symid.identification.saved import save
+        from symid.identification.files.saved import save
 
         save(self, path)
 

@@ -15,7 +15,6 @@ from symid.errors import SolveError
 from symid.ipopt_solver.memory import give_back_freed_memory
 from symid.nlp import Filling, NonlinearProgram
 
-
 MANY_UNKNOWNS = 10**6
 """A program of so many gives back what lies free after each iteration and each search direction: an hour at 100 Hz
 0.2 GB of 3, in a twentieth of an iteration's time. Soon afterwards the matrices of two iterations are there."""

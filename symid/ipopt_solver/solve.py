@@ -10,8 +10,7 @@ import numpy as np
 from symid import checked
 from symid.deadline import check, remaining
 from symid.errors import OptionError, SolveError
-from symid.ipopt_solver import library as ipopt_library
-from symid.ipopt_solver import through_cyipopt
+from symid.ipopt_solver import library as ipopt_library, through_cyipopt
 from symid.ipopt_solver.bounded import run_bounded
 from symid.ipopt_solver.evaluation import MOST_FAR, Evaluation, Iteration
 from symid.ipopt_solver.linear import LinearSolver, run_with

@@ -15,7 +15,7 @@ import numpy as np
 import sympy as sm
 
 from symid.errors import ModelError
-from symid.mechanics.link import subscripts
+from symid.mechanics.chains.link import subscripts
 from symid.model import Equation, Expression, Model, Parameter, State
 from symid.model.declare import Bounds
 

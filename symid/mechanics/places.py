@@ -14,7 +14,7 @@ import sympy as sm
 from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.bodies import bodies
-from symid.mechanics.stated import stated
+from symid.mechanics.missing.stated import stated
 from symid.model import Input, Model, Output, Port, State
 from symid.model.dimensions import unit_of
 from symid.units import dimension

@@ -1,8 +1,8 @@
 """What we believe about a system: named parts, implicit residuals, conditions, and terms to add to them."""
 
 from symid.model.c_function import CFunction, c_function, c_texts
-from symid.model.conditions import Boundary, Constraint, Objective, Row
 from symid.model.component import Component
+from symid.model.conditions import Boundary, Constraint, Objective, Row
 from symid.model.declare import (
     Algebraic,
     Constant,

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 import sympy as sm
 
 from symid.errors import ModelError
-from symid.model.conditions import Constraint, Objective
 from symid.model.component import Component
+from symid.model.conditions import Constraint, Objective
 from symid.model.declare import Constant, Equation, Expression, Input, Output, Port
 from symid.model.letters import why_no_letters
 from symid.model.quantity import AlongTime, refuse_calculus, sympified

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, cast
 
 import sympy as sm
 
-from symid.errors import ModelError
 from symid import checked
+from symid.errors import ModelError
 from symid.model import variants
 from symid.model.component import Component
 from symid.model.declare import Bounds, Equation, Expression, Output, Port

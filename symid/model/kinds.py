@@ -6,8 +6,8 @@ from collections.abc import Callable
 from functools import wraps
 from typing import Any, TypeVar, cast
 
-from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.component import Component
+from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
     Algebraic,
     Constant,

@@ -6,7 +6,6 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, NoReturn
 
 import sympy as sm
-
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 

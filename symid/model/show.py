@@ -12,7 +12,6 @@ from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.model import TIME, Model
 from symid.model.quantity import initial, symbol, terminal
 
-
 LINE = 90
 """Characters of one line of an equation that are seen, about a notebook's width."""
 

@@ -12,7 +12,7 @@ from symid.model import Model, as_shown, shown_states
 from symid.plausibility.body import is_a_person
 from symid.plausibility.equations import Change
 from symid.plausibility.evidence import Witness
-from symid.plausibility.motion import Motion, foretold, thirds_of, motion_of
+from symid.plausibility.motion import Motion, foretold, motion_of, thirds_of
 from symid.recording import Recording
 from symid.units import STANDARD_GRAVITY
 

@@ -11,7 +11,7 @@ from symid.plausibility.body import PERSON, body_remarks
 from symid.plausibility.channels import channel_remarks
 from symid.plausibility.mistakes import model_remarks
 from symid.recording import Recording
-from symid.recording.smooth import left_by_smoother
+from symid.recording.signals.smooth import left_by_smoother
 from symid.threads import one_blas_thread
 
 OUTSIDE, NOISE = 0.01, 4.0

@@ -25,7 +25,6 @@ from symid.plots.style import (
 )
 from symid.units import unit_for, unit_symbol, with_error
 
-
 SAME = 1.0
 """Percent: starts that end nearer to each other are drawn as ending at one place."""
 

@@ -12,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
 from symid.files import write_atomically
-from symid.mechanics.skeleton import skeleton
+from symid.mechanics.chains.skeleton import skeleton
 from symid.plots.style import INK, MODEL, RECORDED, Picture
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from symid.identification.fit import common_unit
-from symid.identification.study_result import StudyResult
+from symid.identification.studies.study_result import StudyResult
 from symid.plots.style import MODEL, WARN, Picture, opened
 from symid.units import unit_for
 

@@ -12,7 +12,7 @@ import numpy as np
 from symid import checked
 from symid.errors import RecordingError
 from symid.recording.recording import Recording
-from symid.recording.timing import MOST_SAMPLES
+from symid.recording.signals.timing import MOST_SAMPLES
 from symid.units import FloatArray
 
 _PASSBAND = 0.8  # of the new Nyquist frequency is kept when downsampling

@@ -12,14 +12,14 @@ import numpy as np
 
 from symid import checked
 from symid.errors import RecordingError, RecordingWarning
-from symid.recording.cells import NO_WEIGHT, read_table
 from symid.files import a_file
-from symid.recording.header import faults_of_text, file_rows, is_dated, is_of_sections, read_header, require_file
-from symid.recording.names import CELSIUS, Column
 from symid.recording.recording import Recording
 from symid.recording.remarks import remarks_on
-from symid.recording.rows import LABELS, Table, with_missing, without_repeats
-from symid.recording.timing import on_grid, time_fault
+from symid.recording.signals.timing import on_grid, time_fault
+from symid.recording.table.cells import NO_WEIGHT, read_table
+from symid.recording.table.header import faults_of_text, file_rows, is_dated, is_of_sections, read_header, require_file
+from symid.recording.table.names import CELSIUS, Column
+from symid.recording.table.rows import LABELS, Table, with_missing, without_repeats
 from symid.units import FloatArray, IntArray, rough
 
 PLAIN = (".csv", ".txt", "")
@@ -100,8 +100,8 @@ def _has_reader(path: Path) -> bool:
 
 def _read_other(path: Path, mapping: Any, allow_gaps: bool) -> tuple[list[Column], dict[str, np.ndarray], list[str]]:
     """Columns and values of a file with names of its own, or in a format of its own; and notes on its names."""
-    from symid.recording.columns import load_columns, mapped, own_names
     from symid.recording.readers import READERS
+    from symid.recording.table.columns import load_columns, mapped, own_names
 
     chosen = None if mapping is None else load_columns(mapping)
     reader = READERS.get(path.suffix.lower())

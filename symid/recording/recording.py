@@ -15,7 +15,7 @@ from symid.errors import RecordingError
 from symid.files import write_atomically
 from symid.recording.fields import frozen, no_channel, refuse_faults
 from symid.recording.show import as_frame, as_html, as_text
-from symid.recording.timing import runs_of, sampling_interval_of, window_rows
+from symid.recording.signals.timing import runs_of, sampling_interval_of, window_rows
 from symid.units import FloatArray, IntArray, known_unit
 
 if TYPE_CHECKING:

@@ -3,11 +3,10 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-
-from symid.recording.names import CELSIUS, Column
 from symid.recording.recording import Recording
-from symid.recording.spikes import find_dropouts, find_spikes
-from symid.recording.turns import find_wraps
+from symid.recording.signals.spikes import find_dropouts, find_spikes
+from symid.recording.signals.turns import find_wraps
+from symid.recording.table.names import CELSIUS, Column
 from symid.units import FloatArray, IntArray, KnownUnit
 
 MOST_PLACES = 5

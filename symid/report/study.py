@@ -8,7 +8,7 @@ import numpy as np
 
 from symid.files import write_atomically
 from symid.identification.fit import common_unit, rms_text
-from symid.identification.study_result import StudyResult
+from symid.identification.studies.study_result import StudyResult
 from symid.plots import plot_study
 from symid.plots.study import by_problem
 from symid.report.origin import CITATION, origin, written

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.codegen.ode import BETWEEN, OdeSource
-from symid.recording.between import bend, slopes
+from symid.recording.signals.between import bend, slopes
 from symid.simulation.run import Run
 
 

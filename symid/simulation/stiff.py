@@ -13,7 +13,7 @@ from symid.codegen.ode import BETWEEN, ode_source
 from symid.deadline import check
 from symid.errors import SymidError
 from symid.model import Model
-from symid.recording.between import bend, slopes
+from symid.recording.signals.between import bend, slopes
 from symid.threads import one_blas_thread
 
 MOST = 100_000

@@ -11,8 +11,8 @@ from symid.checked import nearest
 from symid.errors import TranscriptionError
 from symid.model import Model
 from symid.recording import Recording
-from symid.recording.between import cubic
-from symid.recording.smooth import beside_inputs, left_by_smoother, smooth_curves
+from symid.recording.signals.between import cubic
+from symid.recording.signals.smooth import beside_inputs, left_by_smoother, smooth_curves
 from symid.transcription.inverse import seen_together
 from symid.units import same_dimension
 

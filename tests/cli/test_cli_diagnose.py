@@ -191,9 +191,9 @@ def test_a_hidden_torque_is_located_in_time_place_size_and_sign():
         "standing", [("external_push", "ankle", {"peak_Nm": 40.0, "start_s": 20.0, "duration_s": 0.6})], (8, 0)
     )
     from symid.estimation.fitting.cold_start import fit_model
+    from symid.estimation.free_run import free_run
     from symid.estimation.signals.data import Data
     from symid.estimation.signals.windows import segments_between
-    from symid.estimation.free_run import free_run
 
     s = case.setup
     segments = segments_between(s.model, case.recording.time, dict(case.recording.channels), s.windows[0])

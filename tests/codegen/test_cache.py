@@ -14,9 +14,7 @@ import sympy as sm
 from conftest import pendulum
 from kernels import BACKENDS, NO_COMPILER, D, P, Q, X, Y, arguments, program
 
-from symid.codegen import CodegenWarning, build, compile_program, load_library
-from symid.codegen import cache as kept
-from symid.codegen import kept as kept_module
+from symid.codegen import CodegenWarning, build, cache as kept, compile_program, kept as kept_module, load_library
 from symid.codegen.kept import kept_source
 from symid.codegen.ode import ode_source
 from symid.errors import CodegenError

@@ -4,8 +4,7 @@ import os
 
 import pytest
 
-from symid.codegen import CodegenWarning, build
-from symid.codegen import cache as kept
+from symid.codegen import CodegenWarning, build, cache as kept
 
 
 def source(k: int) -> str:

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 import sympy as sm
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 from kernels import (
     BACKENDS,
     C,

@@ -9,7 +9,6 @@ from conftest import pendulum
 from scipy.signal import butter, filtfilt
 
 from symid.discrepancy.locate.audit import audit
-from symid.estimation.sensors.sensor_noise import white_noise
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.prove.halves import Half, HalfVerdict, _reason, survivals, verdicts
 from symid.discrepancy.say.diagnosis import Effect
@@ -17,9 +16,10 @@ from symid.discrepancy.say.names import law_name, place_name, sentence
 from symid.discrepancy.say.proof import verdicts_of_halves
 from symid.discrepancy.say.words import _finding
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.fitting.robust_errors import with_robust_errors
+from symid.estimation.sensors.sensor_noise import white_noise
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
-from symid.estimation.fitting.robust_errors import with_robust_errors
 from symid.mechanics import LIBRARY, rig_model
 from symid.recording import Recording
 from symid.simulation import simulator

@@ -15,7 +15,7 @@ from symid.discrepancy.prove.nameless import nameless
 from symid.discrepancy.say.rest import formula
 from symid.estimation.fitting.cold_start import fit_model
 from symid.mechanics import rig_model
-from symid.mechanics.dictionary import Shape, closed_law, shapes_of, unit_quotient
+from symid.mechanics.missing.dictionary import Shape, closed_law, shapes_of, unit_quotient
 
 X, V = sm.symbols("position speed", real=True)
 

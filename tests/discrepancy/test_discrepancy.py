@@ -18,8 +18,8 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.certain import sure
 from symid.errors import DiagnosisError
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.signals.windows import segments_between
 from symid.estimation.fitting.kalman import HOLD, kalman_gain
+from symid.estimation.signals.windows import segments_between
 from symid.mechanics import LIBRARY
 from symid.model import Equation, Input, Law, LawParameter, Model, Output, Parameter, State
 from symid.recording import Recording

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from driven_cart import SENSOR, TRUE, cart, data_of, recorded
 
-from symid.estimation.signals.data import Data
-from symid.estimation.signals.segment import Segment
 from symid.estimation.fitting.fit import Fitter
 from symid.estimation.fitting.growth import growth, growth_normal, runs_away
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
 
 
 def values(fitter, **changed):

@@ -11,8 +11,8 @@ import symid.discrepancy.explained as steps
 from symid.discrepancy.locate.audit import Audit, audit
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError
-from symid.estimation.signals.windows import segments_of
 from symid.estimation.sensors.smoothing import Smoothing
+from symid.estimation.signals.windows import segments_of
 
 
 def swing() -> si.Model:

@@ -12,11 +12,11 @@ from rigs import ROD, law_of
 
 from symid.cli import main
 from symid.discrepancy import Suspect
-from symid.discrepancy.model.hypothesis import hypothesis
-from symid.discrepancy.policy import POLICY
 from symid.discrepancy.design.changes import DRIVEN, FREE
 from symid.discrepancy.design.experiment import experiments, likelihood_ratio
 from symid.discrepancy.design.plan import plan_of
+from symid.discrepancy.model.hypothesis import hypothesis
+from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between, segments_of

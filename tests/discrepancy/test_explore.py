@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 from driven_cart import cart, data_of, few, recorded
 
-from symid.discrepancy.locate.projection import Projection
 import symid.discrepancy.name.explore as steps
 import symid.discrepancy.name.starts as begins
-from symid.discrepancy.name.explore import explore
+from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import suspects
+from symid.discrepancy.name.explore import explore
 from symid.discrepancy.name.scan import scan
 from symid.discrepancy.prove.nulls import false_alarm_probability, largest, null_maxima
 from symid.estimation.fitting.cold_start import fit_model

@@ -14,12 +14,12 @@ from symid.discrepancy.locate.rest import rest_of
 from symid.discrepancy.say.rest import rest_words
 from symid.discrepancy.say.words import left_beside_noise
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.free_run import free_run
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between
-from symid.estimation.free_run import free_run
 from symid.mechanics import LIBRARY, rig_model
+from symid.mechanics.missing.spline_law import Block, knots_of, spline_law
 from symid.mechanics.places import other_signals, places, with_places
-from symid.mechanics.spline_law import Block, knots_of, spline_law
 from symid.plots import plot_rest
 from symid.simulation import simulator, synthetic_recording
 

@@ -12,9 +12,9 @@ from rigs import DOUBLE, ROD, law_of
 from symid.discrepancy.locate.flexible_law import flexible_law
 from symid.discrepancy.name.closed_form import closed_form
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.free_run import free_run
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between
-from symid.estimation.free_run import free_run
 from symid.mechanics import rig_model
 from symid.simulation import synthetic_recording
 

@@ -30,7 +30,7 @@ for room, names in {
         "smooth_states",
         "unwrap",
     ),
-    "recording.columns": ("load_columns",),
+    "recording.table.columns": ("load_columns",),
     "report": ("write_diagnosis_report", "write_report", "write_study_report"),
     "plots": tuple(name for name in plots.__all__ if name != "Picture"),  # matplotlib gives it methods of its own
     "conceal": symid.conceal.__all__,

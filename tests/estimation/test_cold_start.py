@@ -11,9 +11,9 @@ from scipy.ndimage import gaussian_filter1d
 
 import symid as si
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.fitting.sensitive import followed, growth
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
-from symid.estimation.fitting.sensitive import followed, growth
 from symid.simulation import simulator
 
 NOISE = 2e-3

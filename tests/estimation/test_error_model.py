@@ -10,10 +10,10 @@ from scipy.signal import butter, filtfilt, lfilter
 
 from symid.estimation import measurement
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.sensors.cutoff import estimated_filter
 from symid.estimation.measurement import _is_broad, fits_of, with_memory
-from symid.estimation.sensors.whitening import remembered, whitening_of
+from symid.estimation.sensors.cutoff import estimated_filter
 from symid.estimation.sensors.sensor_noise import noise_before
+from symid.estimation.sensors.whitening import remembered, whitening_of
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.simulation import simulator
 

@@ -3,16 +3,15 @@
 import numpy as np
 import pytest
 from conftest import pendulum
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 import symid as si
 from symid.discrepancy.model.dry import PARTS, with_friction_speeds
 from symid.errors import DiagnosisError
 from symid.estimation.fitting.fit import Fitter
 from symid.estimation.signals.data import Data
-from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.pieces import FEW, MANY, free_pieces
+from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.windows import segments_between, segments_of
 from symid.mechanics import LIBRARY
 

@@ -9,8 +9,8 @@ from scipy.stats import norm
 from symid.discrepancy.prove.held_out import Proof, compare_predictions
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fit import Fitter
-from symid.estimation.prediction import FORGOTTEN, Predictions, predictions
 from symid.estimation.measurement import of_window
+from symid.estimation.prediction import FORGOTTEN, Predictions, predictions
 
 
 def test_the_density_is_that_of_a_kalman_filter_written_here():

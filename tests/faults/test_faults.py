@@ -23,7 +23,7 @@ from symid import files
 from symid.codegen import build, cache
 from symid.codegen.cache import CodegenWarning
 from symid.errors import SolveError
-from symid.identification.store import StudyDirectory
+from symid.identification.studies.store import StudyDirectory
 
 pytestmark = [pytest.mark.slow, pytest.mark.fault]
 STARTS = 2

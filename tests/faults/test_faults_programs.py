@@ -19,7 +19,7 @@ from conftest import TESTS
 from fault_programs import OUTPUTS, prepare
 from study_problems import numbers, study
 
-from symid.identification.store import StudyDirectory
+from symid.identification.studies.store import StudyDirectory
 
 pytestmark = [pytest.mark.slow, pytest.mark.fault]
 KINDS = tuple(OUTPUTS)

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from conftest import ROOT, pendulum, pendulum_recording
 from fuzz import few, odd, of_json, spoiled, told
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 import symid as si
 from symid import fetch

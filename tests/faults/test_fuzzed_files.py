@@ -8,12 +8,11 @@ import numpy as np
 import pytest
 from conftest import ROOT
 from fuzz import few, spoiled, told
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from symid.cases import read_case
-from symid.errors import RecordingError, SymidError
 from symid.cli import main
+from symid.errors import RecordingError, SymidError
 from symid.mechanics import LIBRARY, DoubleLinkPendulum, rig_model
 from symid.recording import Recording, fill_gaps, read_recording, resample
 

@@ -4,8 +4,7 @@ import numpy as np
 import sympy as sm
 from conftest import pendulum, pendulum_recording
 from fuzz import few, odd, told
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 import symid as si
 

@@ -12,12 +12,11 @@ import numpy as np
 import pandas as pd
 import pytest
 from fuzz import few, of_json, told
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from symid.errors import RecordingWarning
 from symid.recording import read_recording
-from symid.recording.columns import load_columns
+from symid.recording.table.columns import load_columns
 
 TIME = 0.01 * np.arange(40)
 FRAME = pd.DataFrame({"time_s": TIME, "ankle_angle_deg": 5 * np.sin(9 * TIME), "hip_angle_deg": 8 * np.cos(7 * TIME)})

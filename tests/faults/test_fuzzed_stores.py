@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 import sympy as sm
 from fuzz import few, of_json, spoiled, told
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from test_stored import problem, study
 
 import symid as si
 from symid.discrepancy import read_answer
-from symid.identification.store import _sha256, _text
+from symid.identification.studies.store import _sha256, _text
 
 STORED = Path(__file__).parent / "stored" / "format_2_with_keys"
 PROBLEM = problem(STORED)

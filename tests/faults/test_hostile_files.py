@@ -17,7 +17,7 @@ from conftest import pendulum_recording
 import symid as si
 from symid.errors import RecordingError, SymidError
 from symid.files import read_arrays, read_json
-from symid.identification.store import StudyDirectory
+from symid.identification.studies.store import StudyDirectory
 from symid.recording import read_recording
 from symid.recording.readers import apart, limits
 

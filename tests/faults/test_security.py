@@ -19,7 +19,7 @@ from symid.codegen import Program
 from symid.codegen.source import generate
 from symid.errors import ModelError, RecordingError, SolveError
 from symid.files import read_json
-from symid.identification.store import StudyDirectory
+from symid.identification.studies.store import StudyDirectory
 from symid.model.show import latex_lines
 from symid.plots import plot_residual_spectra
 from symid.report import report_html, write_report
@@ -169,7 +169,7 @@ def test_a_register_of_solves_that_is_none(tmp_path, content):
 
 def test_a_pickle_in_a_store_is_not_opened(tmp_path):
     """Its sums are right: an attacker can compute them."""
-    from symid.identification.store import FORMAT, _sha256, _text
+    from symid.identification.studies.store import FORMAT, _sha256, _text
 
     class Touch:
         def __reduce__(self):

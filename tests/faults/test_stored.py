@@ -43,7 +43,7 @@ def test_a_solution_is_read(stored):
 
 def test_a_study_is_read_and_nothing_is_solved_again(stored, monkeypatch):
     truth = json.loads((stored / "truth.json").read_text())
-    monkeypatch.setattr("symid.identification.worker.solve_here", lambda *_: pytest.fail("solved again"))
+    monkeypatch.setattr("symid.identification.studies.worker.solve_here", lambda *_: pytest.fail("solved again"))
     result = study(stored, stored / "study").run_here(on_finished=None)
     assert result.complete and {k: row.parameters for k, row in result.rows.items()} == truth["study"]
     assert result.best().values["damping"] == pytest.approx(0.4, abs=0.02)

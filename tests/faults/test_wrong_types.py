@@ -11,8 +11,8 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.errors import ModelError, SymidError, TranscriptionError
-from symid.mechanics.chain import Chain
-from symid.mechanics.link import ChainLink
+from symid.mechanics.chains.chain import Chain
+from symid.mechanics.chains.link import ChainLink
 from symid.recording import differentiate, lowpass, resample, smooth_states, unwrap
 
 RECORDING = pendulum_recording(duration=1)

@@ -17,7 +17,7 @@ from unseen_systems import UNSEEN
 
 from symid.bench.task import Task
 from symid.identification import Identification, Solve
-from symid.identification.worker import solve_here
+from symid.identification.studies.worker import solve_here
 from symid.ipopt_solver import GAUSS_NEWTON_FIRST, evaluation, solve
 
 CHOICES = {"exact": None, **{f"{far:g}, {most}": (far, most) for far in (0.1, 1.0, 10.0) for most in (30, 100)}}

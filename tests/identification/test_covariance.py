@@ -11,8 +11,8 @@ from regressions import TRUTH, recording, regression, slopes_of, weights_of, wit
 
 import symid as si
 from symid.identification.noise import choose
-from symid.identification.covariance import ParameterErrors, _orthonormal, bound_active, parameter_errors
-from symid.identification.sensitivity import Reduced, outputs_and_targets
+from symid.identification.uncertainty.covariance import ParameterErrors, _orthonormal, bound_active, parameter_errors
+from symid.identification.uncertainty.sensitivity import Reduced, outputs_and_targets
 
 
 @pytest.mark.parametrize(

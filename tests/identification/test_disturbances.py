@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import symid as si
-from symid.identification.covariance import _errors, _told, bound_active, determined
-from symid.identification.disturbances import Disturbances
-from symid.identification.sensitivity import Sensitivity
+from symid.identification.uncertainty.covariance import _errors, _told, bound_active, determined
+from symid.identification.uncertainty.disturbances import Disturbances
+from symid.identification.uncertainty.sensitivity import Sensitivity
 
 STEP, COUNT, NOISE, RATE, FITTING = 0.05, 121, 0.01, 1.0, 0.05 * 0.01**2
 """Penalty of squared rates that fits: of a unit of time and a disturbance of size one, STEP * NOISE^2."""

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import symid as si
-from symid.identification.held import said_of_inputs
-from symid.identification.verify import integrated
+from symid.identification.checks.held import said_of_inputs
+from symid.identification.checks.verify import integrated
 from symid.model.declare import HOLDS
 from symid.simulation import simulator
 

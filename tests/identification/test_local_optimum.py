@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 from error_systems import oscillator, spring
-from unseen_systems import lorenz
-from test_verify import swing
 from small_systems import van_der_pol
+from test_verify import swing
+from unseen_systems import lorenz
 
 import symid as si
 from symid.identification.starts.shooting import Shooting
 from symid.mechanics import PD, FullStatePD
-from symid.recording.smooth import beside_inputs, left_by_smoother
+from symid.recording.signals.smooth import beside_inputs, left_by_smoother
 from symid.synthetic import BODY, GAINS, standing_recording
 
 CRY = "local optimum"

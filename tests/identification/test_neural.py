@@ -115,7 +115,7 @@ def test_default_start_of_several_episodes_is_searched_where_no_simulation_follo
 
 
 def test_many_starts_of_several_episodes_are_searched_for(problem):
-    from symid.identification.study import start_kinds
+    from symid.identification.studies.study import start_kinds
 
     assert start_kinds(problem, 3) == ["search"] * 3
     assert start_kinds(replace(problem, episodes=Episodes()), 2) == ["random"] * 2

@@ -9,18 +9,18 @@ import small_systems
 from conftest import pendulum, pendulum_recording
 from drawn_systems import system
 from more_systems import OTHERS
-from unseen_systems import UNSEEN, lotka_volterra
 from small_systems import PRACTISED
 from ugly_noise import measured
 from unfamiliar_systems import UNFAMILIAR, flexible_joint
+from unseen_systems import UNSEEN, lotka_volterra
 
 import symid as si
 from symid.identification import Solve
-from symid.identification.softened import OFTEN, RAN_AWAY
 from symid.identification.starts.led import shoot
 from symid.identification.starts.search import relaxed
 from symid.identification.starts.shooting import Shooting
-from symid.identification.worker import solve_here
+from symid.identification.starts.softened import OFTEN, RAN_AWAY
+from symid.identification.studies.worker import solve_here
 
 DRAWS = range(*map(int, os.environ.get("SYMID_DRAWS", "0:200").split(":")))
 """Of the slow study below; SYMID_DRAWS=1000:1200 takes others."""
@@ -173,11 +173,11 @@ def test_a_random_start_whose_multipliers_run_away_goes_on_from_softened_equatio
 
     def noted(*arguments):
         softened.append(len(seen))
-        monkeypatch.setattr("symid.identification.softened.RAN_AWAY", RAN_AWAY)
+        monkeypatch.setattr("symid.identification.starts.softened.RAN_AWAY", RAN_AWAY)
         return relaxed(*arguments)
 
-    monkeypatch.setattr("symid.identification.softened.RAN_AWAY", bound)
-    monkeypatch.setattr("symid.identification.softened.relaxed", noted)
+    monkeypatch.setattr("symid.identification.starts.softened.RAN_AWAY", bound)
+    monkeypatch.setattr("symid.identification.starts.softened.relaxed", noted)
     body = si.mechanics.DoubleLinkPendulum.from_json(DATA / "body.json")
     problem = si.Identification(
         body.with_feedback(si.mechanics.FullStatePD()),
@@ -199,8 +199,8 @@ def test_a_random_start_that_does_not_end_begins_anew_from_softened_equations(mo
         begun.append(len(seen))
         return relaxed(*arguments)
 
-    monkeypatch.setattr("symid.identification.softened.LONG", 4)
-    monkeypatch.setattr("symid.identification.softened.relaxed", noted)
+    monkeypatch.setattr("symid.identification.starts.softened.LONG", 4)
+    monkeypatch.setattr("symid.identification.starts.softened.relaxed", noted)
     problem, seen = small_systems.mass_spring_damper(np.random.default_rng([0, 7])).problem(), []
     row = solve_here(Solve(problem, "random"), seen.append).row
     assert begun == [5] and row.solved
@@ -212,6 +212,6 @@ def test_a_random_start_that_does_not_end_begins_anew_from_softened_equations(mo
 def test_multipliers_that_run_away_twice_are_an_honest_refusal(monkeypatch):
     system = small_systems.mass_spring_damper(np.random.default_rng([0, 7]))
     for name, value in {"RAN_AWAY": -1.0, "OFTEN": 1}.items():
-        monkeypatch.setattr(f"symid.identification.softened.{name}", value)
+        monkeypatch.setattr(f"symid.identification.starts.softened.{name}", value)
     row = solve_here(Solve(system.problem(), "random")).row
     assert not row.solved and row.status == "Multipliers_Ran_Away" and "narrower bounds" in row.message

@@ -15,7 +15,7 @@ import pytest
 from ugly_noise import NOISES, measured
 from unfamiliar_systems import UNFAMILIAR
 
-from symid.identification.verify import COARSE, mesh_error
+from symid.identification.checks.verify import COARSE, mesh_error
 
 NORMAL = 1.96
 

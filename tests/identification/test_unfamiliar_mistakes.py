@@ -5,16 +5,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import sympy as sm
-from more_systems import declared, quarter_car
-from unseen_systems import duffing
 from drawn_systems import System, log_uniform, smooth, system
+from more_systems import declared, quarter_car
 from small_systems import cart_pole, mass_spring_damper
 from ugly_noise import measured
 from unfamiliar_systems import food_chain
+from unseen_systems import duffing
 
 import symid as si
-from symid.plausibility import remarks
 from symid.model import as_shown
+from symid.plausibility import remarks
 
 
 def test_equations_that_explain_the_motion_from_other_first_values_are_not_questioned():

@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 import sympy as sm
 from conftest import pendulum, pendulum_recording
+from more_systems import lateral_car
 from scipy.integrate import solve_ivp
 from small_systems import any_pendulum, dc_motor, three_links
 from ugly_noise import measured
 from unfamiliar_systems import bicycle, stiff_oscillator, stiff_pair
+from unseen_systems import lotka_volterra
 
 import symid as si
-from more_systems import lateral_car
-from unseen_systems import lotka_volterra
 from symid.recording import Recording
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 import sympy as sm
-from more_systems import declared
 from drawn_systems import System, log_uniform, smooth, system
+from more_systems import declared
 
 import symid as si
 

@@ -5,8 +5,7 @@ from string import Formatter
 import numpy as np
 import pytest
 import sympy as sm
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 from term_models import MODELS, RIG, STANDING, effort
 
 import symid.model as si

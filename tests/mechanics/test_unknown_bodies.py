@@ -14,7 +14,7 @@ from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
 from symid.mechanics import LIBRARY, rig_model
-from symid.mechanics.combined import combined_of
+from symid.mechanics.chains.combined import combined_of
 from symid.simulation import synthetic_recording
 
 JITTER = 5e-4

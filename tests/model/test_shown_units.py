@@ -5,14 +5,13 @@ import re
 import numpy as np
 import pytest
 import sympy as sm
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 import symid.model as si
 from symid.errors import ModelError
 from symid.identification import Identification
 from symid.identification.fit import common_unit, fit_text, rms_text
-from symid.mechanics.terms import LIBRARY
+from symid.mechanics.missing.terms import LIBRARY
 from symid.recording import Recording
 from symid.units import quantity, rough, shown_unit, unit_symbol, with_error
 

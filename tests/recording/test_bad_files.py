@@ -4,8 +4,7 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from waves import csv_text, even_rows, written
 
 from symid.errors import RecordingError, RecordingWarning

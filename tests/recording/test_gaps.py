@@ -5,8 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import pendulum, pendulum_recording
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 
 import symid as si
 from symid.errors import RecordingError, TranscriptionError

@@ -17,8 +17,7 @@ from symid.recording import (
     resample,
     smooth_states,
 )
-
-from symid.recording.smooth import _spline
+from symid.recording.signals.smooth import _spline
 
 # -- preparing --------------------------------------------------------------------------------
 

@@ -5,8 +5,7 @@ import warnings
 import numpy as np
 import pytest
 from conftest import SHARED
-from hypothesis import HealthCheck, given, settings
-from hypothesis import strategies as st
+from hypothesis import HealthCheck, given, settings, strategies as st
 from waves import DEGREE, csv_text, written
 
 from symid.errors import RecordingError, RecordingWarning
@@ -152,7 +151,7 @@ def test_no_case_raises_a_false_warning(path):
 
 
 def test_every_pandas_is_told_to_read_to_the_last_digit():
-    from symid.recording.cells import every_digit
+    from symid.recording.table.cells import every_digit
 
     assert every_digit("2.1.4") == every_digit("3.0.0") == {"float_precision": "round_trip"}
     assert every_digit("3.1.1") == {} == every_digit("4.0.0rc1")

@@ -7,7 +7,7 @@ import pytest
 from conftest import ROOT, pendulum, pendulum_recording
 
 import symid as si
-from symid.mechanics.unknown_laws import unknown_sensor
+from symid.mechanics.missing.unknown_laws import unknown_sensor
 from symid.model import show
 from symid.plots.style import banded, bridged
 from symid.report import page, report_html

@@ -15,10 +15,8 @@ from PIL import Image
 
 import symid as si
 from symid import plots
-from symid.plots import solution as solution_figures
-from symid.plots import style
-from symid.report import report_html, write_report, write_study_report
-from symid.report import solution as solution_report
+from symid.plots import solution as solution_figures, style
+from symid.report import report_html, solution as solution_report, write_report, write_study_report
 from symid.units import with_error
 
 

@@ -9,9 +9,9 @@ from PIL import Image
 
 import symid as si
 from symid.mechanics import Chain, FullStatePD, rig_model, skeleton
-from symid.plots.style import NOTEBOOK
 from symid.plots import animate, plot_poses
 from symid.plots.live import LivePlot
+from symid.plots.style import NOTEBOOK
 from symid.report import report_html
 from symid.simulation import Simulator
 

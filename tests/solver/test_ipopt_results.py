@@ -12,9 +12,7 @@ import pytest
 from nlp_problems import hs071, one_variable, tracking
 
 from symid.errors import MachineError, SolveError
-from symid.ipopt_solver import aside
-from symid.ipopt_solver import solve as ipopt_solver
-from symid.ipopt_solver import solve_nlp, through_cyipopt
+from symid.ipopt_solver import aside, solve as ipopt_solver, solve_nlp, through_cyipopt
 from symid.ipopt_solver.kept import put_together, taken_apart
 from symid.ipopt_solver.status import STATUS, explain
 

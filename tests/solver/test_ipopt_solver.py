@@ -10,8 +10,7 @@ from nlp_problems import HS071_OBJECTIVE, HS071_SOLUTION, hs071, one_variable, t
 
 from symid.deadline import TimeUp, deadline, remaining
 from symid.errors import SolveError
-from symid.ipopt_solver import bounded, solve_nlp, through_cyipopt
-from symid.ipopt_solver import solve as ipopt_solver
+from symid.ipopt_solver import bounded, solve as ipopt_solver, solve_nlp, through_cyipopt
 from symid.ipopt_solver.evaluation import FAR, Evaluation
 from symid.nlp import check_optimality
 

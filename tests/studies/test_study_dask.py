@@ -15,7 +15,7 @@ import pytest
 from conftest import TESTS
 from study_problems import STARTS, kept, numbers, problem, study
 
-import symid.identification.store as store_module
+import symid.identification.studies.store as store_module
 from symid import files
 from symid.errors import SolveError
 from symid.identification import Cluster

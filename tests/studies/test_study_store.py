@@ -13,8 +13,8 @@ from study_problems import kept, numbers, numbers_of, problem, study
 from symid.deadline import START_LIMIT_S
 from symid.errors import MachineError, SolveError
 from symid.identification import Identification, Solve, Study
-from symid.identification import store as store_module
-from symid.identification.store import StudyDirectory
+from symid.identification.studies import store as store_module
+from symid.identification.studies.store import StudyDirectory
 from symid.recording import Recording
 from symid.transcription import Episodes
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from conftest import pendulum, pendulum_recording
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 

@@ -12,8 +12,8 @@ from symid.discrepancy.design.simulated import as_recording, course, is_free, si
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.signals.data import Data
 from symid.recording import Recording
 
 DRAWS = 3

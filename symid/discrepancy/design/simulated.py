@@ -11,10 +11,10 @@ import numpy as np
 from symid.discrepancy.design.changes import Design
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.kalman import held
 from symid.estimation.fitting.path import fitted_path
+from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.model import Model
 from symid.recording import Recording

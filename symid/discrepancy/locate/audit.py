@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from symid.estimation.sensors.cutoff import estimated_filter
-from symid.estimation.signals.segment import Segment
-from symid.estimation.signals.swings import pace_of
 from symid.estimation.sensors.sensor_noise import noise_before, white_noise
 from symid.estimation.sensors.smoothing import Smoothing
 from symid.estimation.sensors.spectrum import DIFFERENCES, power_spectrum
 from symid.estimation.sensors.zero_phase import ZeroPhase
+from symid.estimation.signals.segment import Segment
+from symid.estimation.signals.swings import pace_of
 from symid.model import Model
 from symid.recording import Recording
 

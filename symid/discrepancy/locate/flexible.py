@@ -9,11 +9,11 @@ import numpy as np
 from symid.discrepancy.model.hypothesis import Hypothesis, extended
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.fitting.path import fitted_path
+from symid.estimation.signals.data import Data
+from symid.mechanics.missing.unknown_laws import unknown_force, unknown_input, unknown_sensor
 from symid.mechanics.places import ROLES
-from symid.mechanics.unknown_laws import unknown_force, unknown_input, unknown_sensor
 from symid.model import Model, Port, Term
 from symid.threads import in_threads
 

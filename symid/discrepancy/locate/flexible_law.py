@@ -13,11 +13,11 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.spline_parts import candidate_blocks, chosen_blocks, names_of, numbers
 from symid.discrepancy.model.hypothesis import extended
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.sensors.independence import independent_share
+from symid.estimation.signals.data import Data
+from symid.mechanics.missing.spline_law import Block, spline_law
 from symid.mechanics.places import places
-from symid.mechanics.spline_law import Block, spline_law
 from symid.model import Model, Port, Term
 from symid.threads import in_threads
 

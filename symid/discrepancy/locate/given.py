@@ -11,10 +11,10 @@ import numpy as np
 from symid.discrepancy.model.hypothesis import is_met
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.signals.pieces import cut
 from symid.estimation.fitting.sensitive import SHORTEST, followed, lost
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.pieces import cut
 from symid.identification import Identification
 from symid.identification.starts.default import default_start
 

@@ -14,8 +14,8 @@ import numpy as np
 from scipy.linalg import expm
 
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.free_run import FreeRun
 from symid.estimation.fitting.kalman import linearised_along
+from symid.estimation.free_run import FreeRun
 from symid.model import Model, Noise
 
 WANDERS = (0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)

@@ -14,8 +14,8 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.hypothesis import extended, padded
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.signals.data import Data
 from symid.model import Term
 from symid.simulation import Simulator, simulator
 

@@ -10,12 +10,12 @@ import numpy as np
 from symid.discrepancy.locate.flexible import along
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.sensors.independence import independent_share
 from symid.estimation.fitting.path import fitted_path
+from symid.estimation.sensors.independence import independent_share
+from symid.estimation.signals.data import Data
+from symid.mechanics.missing.spline_law import Block, knots_of
 from symid.mechanics.places import other_signals
-from symid.mechanics.spline_law import Block, knots_of
 from symid.model import Model, Port, Term
 
 KNOTS = 7

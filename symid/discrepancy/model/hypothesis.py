@@ -12,10 +12,10 @@ import numpy as np
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data
-from symid.estimation.signals.swings import swing
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.sensors.independence import independent_share
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.swings import swing
 from symid.simulation import Simulator
 
 

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.discrepancy.model.dry import weights_of
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.path import fitted_path
+from symid.estimation.signals.data import Data
 from symid.mechanics.feedback import torques_along
 
 REACHES, REACH = (0.003, 3.0), 0.1

@@ -14,11 +14,10 @@ from symid.discrepancy.model.sizes import Sizes
 from symid.errors import ModelError
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
-from symid.mechanics import CANONICAL
-from symid.mechanics import suspects as terms_of
+from symid.mechanics import CANONICAL, suspects as terms_of
+from symid.mechanics.missing.stated import STATED_LAWS
+from symid.mechanics.missing.world_laws import GEOMETRY_LAWS
 from symid.mechanics.places import with_places
-from symid.mechanics.stated import STATED_LAWS
-from symid.mechanics.world_laws import GEOMETRY_LAWS
 from symid.model import Law, LawParameter, Model, Term
 
 SCANNED = ("frequency", "start", "moment")

@@ -11,16 +11,16 @@ from scipy.optimize import minimize
 
 from symid.discrepancy.locate.flexible import along
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
-from symid.discrepancy.locate.spline_parts import names_of
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.locate.spline_parts import names_of
 from symid.discrepancy.model.hypothesis import extended
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
-from symid.estimation.sensors.independence import independent_share
 from symid.estimation.fitting.path import fitted_path
-from symid.mechanics.dictionary import Shape, closed_expression, closed_law, shapes_of
+from symid.estimation.sensors.independence import independent_share
+from symid.mechanics.missing.dictionary import Shape, closed_expression, closed_law, shapes_of
 from symid.model import Law, Model, Port, Term
 from symid.threads import in_threads
 

@@ -17,11 +17,10 @@ from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
 from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.measurement import has_settled, with_memory
+from symid.estimation.signals.data import Data
 from symid.threads import in_threads
-
 
 FEW = 3
 """So many suspects tell which of two ways to undo a filter is right: these differ by far less than models do."""

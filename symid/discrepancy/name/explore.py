@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+
 import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
@@ -13,8 +14,8 @@ from symid.discrepancy.name.starts import Start, starts_of
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
 FIRST_ITERATIONS, CONVERGING_ITERATIONS = 6, 20

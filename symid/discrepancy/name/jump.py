@@ -15,9 +15,9 @@ from symid.discrepancy.model.dry import PARTS, WIDER, widths
 from symid.discrepancy.model.hypothesis import Hypothesis, polished, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
-from symid.mechanics.terms import LIBRARY
+from symid.estimation.signals.data import Data
+from symid.mechanics.missing.terms import LIBRARY
 from symid.model import Constant, Model
 from symid.simulation import simulator
 

@@ -17,8 +17,8 @@ from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_of
 from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
 

@@ -9,9 +9,9 @@ import numpy as np
 from symid.discrepancy.locate.remainder import Test, located, remainder
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.free_run import FreeRun, with_states_of
+from symid.estimation.signals.data import Data
 
 ITERATIONS = 40
 """Of the fit to the held-out data, as of any complete refit."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis, is_met
 from symid.discrepancy.name.search import Search
@@ -13,18 +12,18 @@ from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.certain import beyond_chance, honest
 from symid.discrepancy.prove.elsewhere import elsewhere
 from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
-from symid.discrepancy.prove.nameless import Nameless, improved, nameless
 from symid.discrepancy.prove.held_out import Proof, compare, compare_predictions
+from symid.discrepancy.prove.nameless import Nameless, improved, nameless
 from symid.discrepancy.prove.nulls import largest, null_maxima
 from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_values
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.free_run import FreeRun
+from symid.estimation.measurement import away_from_ends, of_window, restored
+from symid.estimation.prediction import predictions
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
-from symid.estimation.fitting.fit import Fit
-from symid.estimation.prediction import predictions
-from symid.estimation.measurement import away_from_ends, of_window, restored
-from symid.estimation.free_run import FreeRun
 from symid.threads import in_threads
 
 

@@ -14,8 +14,8 @@ import numpy as np
 from scipy.special import stdtr, stdtrit
 
 from symid.discrepancy.policy import POLICY
-from symid.estimation.prediction import Predictions
 from symid.estimation.free_run import FreeRun, moves
+from symid.estimation.prediction import Predictions
 
 
 @dataclass(frozen=True)

@@ -14,10 +14,10 @@ from symid.discrepancy.model.hypothesis import Hypothesis, refit
 from symid.discrepancy.name.closed_form import Proposal, closed_form
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.held_out import compare
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import free_run
 from symid.estimation.sensors.independence import independent_share
+from symid.estimation.signals.data import Data
 
 WORSE = 1.1
 """A closed form does as well as the flexible law if its held-out error is at most so many times that of the law."""

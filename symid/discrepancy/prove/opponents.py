@@ -9,10 +9,10 @@ import numpy as np
 from scipy.special import fdtrc
 
 from symid.errors import SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.free_run import FreeRun, free_run, moves
 from symid.estimation.sensors.independence import independent_share
+from symid.estimation.signals.data import Data
 
 MOST_ITERATIONS = 30
 REFUTED = 0.01

@@ -9,9 +9,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-
 from symid.analysis.bodies import Determined
-from symid.errors import DiagnosisError
 from symid.discrepancy.design.experiment import Experiment, experiments
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
@@ -21,16 +19,17 @@ from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.closed_form import Proposal
 from symid.discrepancy.prove.evidence import Evidence
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
-from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.prove.held_out import Proof
+from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.say.answer import answer_of
 from symid.discrepancy.say.html import html_of
-from symid.estimation.signals.data import Data
+from symid.errors import DiagnosisError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import FreeRun
+from symid.estimation.signals.data import Data
 from symid.files import write_atomically
 from symid.identification.fit import common_unit
-from symid.mechanics.laws import parameter_name
+from symid.mechanics.missing.laws import parameter_name
 from symid.model import Model
 from symid.units import column_name
 

@@ -18,8 +18,8 @@ from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.evidence import Evidence, near_noise
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import sentence
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.signals.data import Data
 
 
 def judge(evidence: Evidence, search: Search, audit: Audit):

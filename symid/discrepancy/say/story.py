@@ -14,10 +14,10 @@ from symid.discrepancy.prove.evidence import Evidence
 from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.diagnosis import Effect
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import FreeRun
 from symid.estimation.sensors.zero_phase import ZeroPhase
+from symid.estimation.signals.data import Data
 from symid.identification.fit import common_unit, rms_text
 from symid.model import Model
 from symid.units import quantity

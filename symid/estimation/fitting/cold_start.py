@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.signals.data import Data, observed_state
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.fitting.kalman import linearised_along
+from symid.estimation.signals.data import Data, observed_state
 from symid.estimation.signals.segment import FEWEST
 from symid.model import Model
 from symid.simulation import simulator

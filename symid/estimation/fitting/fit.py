@@ -11,12 +11,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.growth import growth, runs_away
 from symid.estimation.fitting.normal_equations import covariance_of, normal_equations
 from symid.estimation.fitting.predictor import Predictor
 from symid.estimation.fitting.step import damped_step
 from symid.estimation.sensors.whitening import Whitening
+from symid.estimation.signals.data import Data
 from symid.model import Model
 from symid.simulation import Simulator, simulator
 

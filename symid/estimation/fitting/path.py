@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.signals.data import Data
 
 
 def fitted_path(fit: Fit, data: Data) -> np.ndarray:

@@ -13,10 +13,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.kalman import kalman_gain, linearised_along
-from symid.estimation.signals.segment import Segment
 from symid.estimation.sensors.whitening import Whitening, whitening_of
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
 from symid.model import Model
 from symid.simulation import simulator
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from symid.estimation.signals.data import Data
 from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.signals.data import Data
 
 BLOCK = 3.0
 """Seconds of a block of one long segment at the pace of a second: longer than errors remember in all recordings at

@@ -8,10 +8,10 @@ import numpy as np
 
 from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model, fit_states
-from symid.estimation.signals.data import Data
-from symid.estimation.signals.segment import FEWEST, Segment
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.signals.data import Data
 from symid.estimation.signals.pieces import cut
+from symid.estimation.signals.segment import FEWEST, Segment
 from symid.model import Model
 
 GROWTH = 30.0

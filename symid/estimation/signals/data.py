@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.swings import pace_of, swing
-from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.model import Model
 
 MOST_SAMPLES = 8000

@@ -11,10 +11,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from symid.identification.starts.bounds import guesses
+from symid.identification.starts.default import equation_error
 from symid.identification.starts.led import along, around, free, tracked
 from symid.identification.starts.shooting import Shooting, can_shoot, hides, with_hidden
-from symid.identification.sensitivity import outputs_and_targets
-from symid.identification.starts.default import equation_error
+from symid.identification.uncertainty.sensitivity import outputs_and_targets
 from symid.threads import one_blas_thread
 from symid.transcription import Transcription
 

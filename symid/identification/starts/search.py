@@ -30,8 +30,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symid.identification.identity import digest
-from symid.identification.starts.loop import Loop
 from symid.identification.starts.default import equation_error, random_start
+from symid.identification.starts.loop import Loop
 from symid.ipopt_solver import Iteration, solve_nlp
 from symid.nlp import soften
 from symid.threads import one_blas_thread

@@ -10,17 +10,17 @@ from typing import Any
 import numpy as np
 
 from symid.errors import RecordingError
-from symid.recording.dialect import MISSING, Dialect, are_units, bare, best_header, dialect_of
-from symid.recording.dates import seconds_of
-from symid.recording.header import faults_of_text, is_of_sections
-from symid.recording.names import LABELS
 from symid.recording.readers.limits import refuse_huge, refuse_huge_zip
 from symid.recording.readers.nexus import read_sections
 from symid.recording.readers.raw import RawColumn, cannot_be_read, library
+from symid.recording.table.dates import seconds_of
+from symid.recording.table.dialect import MISSING, Dialect, are_units, bare, best_header, dialect_of
+from symid.recording.table.header import faults_of_text, is_of_sections
+from symid.recording.table.names import LABELS
 
 
 def read_delimited(path: Path) -> list[RawColumn]:
-    """Text, its cells parted by whatever makes them numbers: see `symid.recording.dialect`."""
+    """Text, its cells parted by whatever makes them numbers: see `symid.recording.table.dialect`."""
     if is_of_sections(path):
         return read_sections(path)
     with faults_of_text(path):

@@ -1,0 +1,1 @@
+"""What speaks against a solution: asked of others than its solver."""

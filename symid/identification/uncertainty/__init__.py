@@ -1,0 +1,1 @@
+"""How certain the identified parameters are: sensitivities, covariance, and which combinations are determined."""

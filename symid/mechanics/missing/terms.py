@@ -1,0 +1,55 @@
+"""The library of laws that a model may have left out, and all places where they could act."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from symid import checked
+from symid.errors import ModelError
+from symid.mechanics.bodies import BODY_LAWS
+from symid.mechanics.missing.drive_laws import DRIVE_LAWS
+from symid.mechanics.missing.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
+from symid.mechanics.missing.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
+from symid.mechanics.missing.stated import STATED_LAWS
+from symid.mechanics.missing.world_laws import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
+from symid.model import Law, Model, Term
+
+CANONICAL: tuple[str, ...] = tuple(law.name for law in (*FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS))
+"""Names of the laws that answer files know."""
+
+LIBRARY: dict[str, Law] = {
+    law.name: law
+    for law in (
+        *FEEDBACK_LAWS,
+        *JOINT_LAWS,
+        *LINK_LAWS,
+        *WORLD_LAWS,
+        *GEOMETRY_LAWS,
+        *FURTHER_FEEDBACK_LAWS,
+        *FURTHER_JOINT_LAWS,
+        *FURTHER_LINK_LAWS,
+        *FURTHER_WORLD_LAWS,
+        *DRIVE_LAWS,
+        *BODY_LAWS,
+        *STATED_LAWS,
+    )
+}
+"""Every law by name: the canonical ones first, then what else the field knows."""
+
+
+def suspects(model: Model, laws: Mapping[str, Law] | None = None) -> list[Term]:
+    """Every law at every place of `model` where it could act.
+
+    Parameters
+    ----------
+    laws : by name; the whole `LIBRARY` where not given. A user's own law is one more entry.
+
+    Examples
+    --------
+    >>> "viscous_friction@joint1" in {str(term) for term in suspects(Chain.uniform(1).plant())}
+    True
+    """
+    checked.kind(model, Model, "suspects", ModelError)
+    known = checked.kind(LIBRARY if laws is None else laws, Mapping, "suspects: laws", ModelError).values()
+    found = [checked.kind(law, Law, "suspects: one of the laws", ModelError) for law in known]
+    return [law.at(place) for law in found for place in law.places(model)]
