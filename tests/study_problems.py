@@ -2,6 +2,7 @@
 
 import signal
 import sys
+import time
 from pathlib import Path
 
 from conftest import pendulum, pendulum_recording
@@ -9,6 +10,8 @@ from conftest import pendulum, pendulum_recording
 from symid.identification import Cluster, Identification, LocalPool, Solve, Study
 
 STARTS = 8
+PAUSE = 0.05
+"""After each solve of the program [s]: it is still at work where a busy machine is late to kill it."""
 
 
 def problem(damping: float = 0.4, **changes) -> Identification:
@@ -61,4 +64,4 @@ def numbers_of(undisturbed, starts):
 if __name__ == "__main__":
     place = sys.argv[2]
     with LocalPool(int(place)) if place.isdigit() else Cluster(place) as executor:
-        study(sys.argv[1]).run(executor)
+        study(sys.argv[1]).run(executor, on_finished=lambda _: time.sleep(PAUSE))
