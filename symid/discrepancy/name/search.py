@@ -57,6 +57,11 @@ class Search:
         """Of the model as given, with the responses of all suspects that were tried on it."""
         return Projection(self.base, self.data)
 
+    @property
+    def nothing(self) -> Hypothesis:
+        """That no suspect is missing."""
+        return Hypothesis((), self.base, self.base, self.data)
+
     @cached_property
     def states_alone(self) -> list[Hypothesis]:
         """Each suspect that follows no clock, alone."""
@@ -64,12 +69,12 @@ class Search:
 
     def alone(self, suspects: Sequence[Suspect]) -> list[Hypothesis]:
         """Each of these suspects alone, best first."""
-        return self._explored(Hypothesis((), self.base, self.base, self.data), suspects)
+        return self._explored(self.nothing, suspects)
 
     @cached_property
     def single(self) -> list[Hypothesis]:
         """Each suspect alone, best first."""
-        found = self._added(Hypothesis((), self.base, self.base, self.data))
+        found = self._added(self.nothing)
         self.starts.clear()  # nothing asks for them again, and they hold many fits
         return found
 
@@ -79,7 +84,7 @@ class Search:
         It ends early where with what was found, or instead of it, the inputs are likelier to do something else between
         their samples, as they then do in the model of its fit: all else hangs on that.
         """
-        best, single = Hypothesis((), self.base, self.base, self.data), self.single
+        best, single = self.nothing, self.single
         while len(best.suspects) < POLICY.most_effects:
             more = self._steady(best, self._added(best) if best.suspects else single)
             if more is None and not best.suspects and not self.explained(best):
@@ -115,7 +120,7 @@ class Search:
 
     def most_of_one(self) -> float:
         """Evidence for the one suspect or flexible law that explains most; infinite where one explains everything."""
-        nothing = Hypothesis((), self.base, self.base, self.data)
+        nothing = self.nothing
         if self.explained(self._preferred(nothing, self.single) or nothing):
             return inf
         return max(h.evidence(1.0) for h in [nothing, self.flexible(), *self.single])
@@ -254,14 +259,9 @@ class Search:
         """
         rivals = [h for h in single if h.established and h.suspect.kind != "clock"]
         if alone:
-            nothing = Hypothesis((), self.base, self.base, self.data)
-            rivals = [
-                h
-                for h in rivals
-                if h.suspect not in best.suspects
-                and h.score > POLICY.beam_share * best.score
-                and self._worth(h, nothing)
-            ]
+            enough = POLICY.beam_share * best.score
+            rivals = [h for h in rivals if h.suspect not in best.suspects and h.score > enough]
+            rivals = [h for h in rivals if self._worth(h, self.nothing)]
         pairs = []
         for h in rivals[: POLICY.beam]:
             self.progress(f"looking for what would complete {h.suspect.term}")
