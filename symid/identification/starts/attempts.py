@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from symid.deadline import TimeUp
 from symid.errors import OptionError, SolveError
@@ -25,11 +25,6 @@ FEW, MANY = 40, 200
 """Iterations in which a start by simulation leads to the optimum that it is close to, or to none; and a further one."""
 
 
-def gauss_newton_first(options: Mapping[str, Any]) -> dict[str, Any]:
-    """Options of a solve from a start that may be far from every optimum: Gauss-Newton first, if none says else."""
-    return {"hessian": GAUSS_NEWTON_FIRST, **options}
-
-
 class Attempts:
     """Solves of one problem, of which the best end is kept, or what the first one that was refused said.
 
@@ -44,7 +39,7 @@ class Attempts:
 
     def run(self, z: np.ndarray, most: float = float("inf"), near: bool = False) -> None:
         """Solve from `z` in at most so many iterations."""
-        given = dict(self.options) if near else gauss_newton_first(self.options)
+        given = dict(self.options) if near else {"hessian": GAUSS_NEWTON_FIRST, **self.options}
         if most < float("inf"):
             given["max_iterations"] = min(most, given.get("max_iterations", most))
         given_back, self.best = None if self.best is None else set_aside(self.best), None
