@@ -12,10 +12,21 @@ from conftest import ROOT
 from symid.cli.main import build_parser, command_names, main
 
 PAGES = ROOT / "docs" / "pages"
-WITH_CODE = sorted(p for p in PAGES.rglob("*.md") if "```python" in p.read_text(encoding="utf-8"))
 
 
-@pytest.mark.parametrize("page", WITH_CODE, ids=lambda p: p.stem)
+def example(thing, name: str, text: str):
+    """A parameter of a test that runs `text`, which takes half an hour in Python where it is a diagnosis."""
+    return pytest.param(thing, id=name, marks=[pytest.mark.compiled] if "diagnose" in text else [])
+
+
+WITH_CODE = [
+    example(p, p.stem, text)
+    for p in sorted(PAGES.rglob("*.md"))
+    if "```python" in (text := p.read_text(encoding="utf-8"))
+]
+
+
+@pytest.mark.parametrize("page", WITH_CODE)
 def test_the_examples_of_a_page_run_one_after_the_other(page, tmp_path):
     blocks = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.S)
     (tmp_path / "data").symlink_to(ROOT / "data")
@@ -57,7 +68,7 @@ def test_every_command_that_is_shown_is_one(command, capsys):
         build_parser().parse_args([{"T0": "0", "T1": "1", "K": "2"}.get(w, w) for w in words])
 
 
-@pytest.mark.parametrize("command", [c for c in COMMANDS if " data/" in c])
+@pytest.mark.parametrize("command", [example(c, c, c) for c in COMMANDS if " data/" in c])
 def test_a_command_on_files_that_ship_runs(command, tmp_path, monkeypatch, capsys):
     (tmp_path / "data").symlink_to(ROOT / "data")
     monkeypatch.chdir(tmp_path)
