@@ -26,7 +26,7 @@ objective that is one where nothing of the motion is explained, for scaled unkno
 article's problem (PD and full-state PD with two to four episodes) those that ended by themselves in the best optimum
 were beyond it in 11 iterations at most; of the eight others, one in a poor optimum and seven not within 30 s, the
 least was 32. `symid bench starts` counts the ends."""
-LONG = 100
+LONG = 80
 """Iterations after which it is begun anew as well, with exact second derivatives first: of 80 random starts of that
 problem, Gauss-Newton first, 73 ended by themselves within 77, and two of those that went on in poor optima or in none,
 after half a minute; with exact derivatives these two end in the best one, in 33 and 44 iterations."""
