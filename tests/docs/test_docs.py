@@ -15,7 +15,7 @@ PAGES = ROOT / "docs" / "pages"
 
 
 def example(thing, name: str, text: str):
-    """A parameter of a test that runs `text`, which takes half an hour in Python where it is a diagnosis."""
+    """A parameter of a test that runs `text`, which takes more than ten minutes in Python where it is a diagnosis."""
     return pytest.param(thing, id=name, marks=[pytest.mark.compiled] if "diagnose" in text else [])
 
 

@@ -42,7 +42,7 @@ def test_the_default_start_leads_to_the_noise(name):
     assert failures(SYSTEMS[name], range(2)) == {}
 
 
-@pytest.mark.compiled  # many simulations: half an hour in Python
+@pytest.mark.compiled  # many simulations: more than ten minutes in Python
 @pytest.mark.parametrize(
     ("name", "drawn"),
     [

@@ -1,4 +1,4 @@
-"""The solve from a random start: as usual, and where it leads nowhere, from softened equations.
+"""The solve from a random start: Gauss-Newton first, and where it leads nowhere, from softened equations.
 
 Where the parameters of a start make a loop that no motion can follow, the Newton steps towards the equations grow
 like the unstable motion, and the multipliers with them: each step is more work than all before, and leads nowhere.
