@@ -9,6 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache, wraps
+from inspect import isgeneratorfunction
 from pathlib import Path
 from typing import TypeVar, cast
 
@@ -47,15 +48,22 @@ def in_threads(function: Callable[[Item], Result], items: Iterable[Item]) -> lis
 
 
 def one_blas_thread(function: Function) -> Function:
-    """Decorator: the call keeps to one thread, whose memory for BLAS is there."""
-    limited = threadpool_limits.wrap(limits=1, user_api="blas")(function)
+    """Decorator: the call keeps to one thread, whose memory for BLAS is there; so does each step of a generator."""
 
     @wraps(function)
     def call(*arguments, **options):
         hold_blas_memory(1)
-        return limited(*arguments, **options)
+        with threadpool_limits(limits=1, user_api="blas"):
+            return function(*arguments, **options)
 
-    return cast("Function", call)
+    @wraps(function)
+    def steps(*arguments, **options):
+        made, end = function(*arguments, **options), object()
+        take = one_blas_thread(lambda: next(made, end))
+        while (item := take()) is not end:
+            yield item
+
+    return cast("Function", steps if isgeneratorfunction(function) else call)
 
 
 @cache

@@ -3,8 +3,9 @@
 import threading
 
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
-from symid.threads import in_threads, threads_of
+from symid.threads import in_threads, one_blas_thread, threads_of
 
 
 def test_results_come_in_the_order_of_the_items_for_any_number_of_threads():
@@ -37,3 +38,20 @@ def test_what_one_item_raises_is_raised():
     with threads_of(2), pytest.raises(ValueError, match="later"):
         raise ValueError("later")
     assert in_threads(lambda _: threading.current_thread(), [0]) == [threading.current_thread()]
+
+
+def blas_threads() -> set[int]:
+    return {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"}
+
+
+def test_a_call_and_each_step_of_a_generator_keep_to_one_blas_thread():
+    @one_blas_thread
+    def steps():
+        yield blas_threads()
+        yield blas_threads()
+
+    with threadpool_limits(limits=2, user_api="blas"):
+        assert one_blas_thread(blas_threads)() == {1}
+        for within in steps():
+            assert within == {1}
+            assert blas_threads() == {2}  # the caller's own work between the steps is not held back
