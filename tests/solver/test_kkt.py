@@ -12,6 +12,7 @@ from symid.errors import SolveError
 from symid.ipopt_solver import solve_nlp
 
 pytest.importorskip("cyipopt", reason="cyipopt is absent: run `python -m symid.setup_ipopt`")
+pytestmark = pytest.mark.compiled
 
 
 def check(matrix: np.ndarray, threads: int = 1, tolerance: float = 1e-9) -> np.ndarray:
