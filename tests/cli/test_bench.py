@@ -41,6 +41,7 @@ def run_here(monkeypatch):
     monkeypatch.setattr("symid.bench.measure.run_fresh", run)
 
 
+@pytest.mark.compiled
 def test_the_command_prints_ratios_and_targets(tiny, tmp_path, capsys, run_here):
     arguments = ["bench", "--quick", "--recording", tiny.recording, "--body", tiny.body, "--window", "0", "4"]
     assert main([*arguments, "--json", str(tmp_path / "bench.json")]) == 0
@@ -139,6 +140,7 @@ PARTS = {
 }
 
 
+@pytest.mark.compiled
 def test_parts_are_measured_by_name(tiny, monkeypatch, tmp_path, capsys):
     def here(call, task, *arguments, cache=None, threads=1, limit_s=None):
         module, function = call.split(".")

@@ -40,6 +40,7 @@ def test_completion_is_a_script_that_bash_reads(capsys):
     assert subprocess.run(["bash", "-n"], input=script, text=True).returncode == 0
 
 
+@pytest.mark.compiled
 def test_the_doctor_finds_a_working_installation(capsys):
     assert main(["doctor"]) == 0
     lines = capsys.readouterr().out.splitlines()

@@ -14,7 +14,12 @@ def code_cells(notebook):
     return [cell for cell in notebook.cells if cell.cell_type == "code"]
 
 
-@pytest.mark.parametrize("path", NOTEBOOKS)
+def run(path: Path):
+    """A diagnosis takes more than ten minutes in Python."""
+    return pytest.param(path, id=path.stem, marks=[pytest.mark.compiled] if "diagnose" in path.read_text() else [])
+
+
+@pytest.mark.parametrize("path", [run(*notebook.values) for notebook in NOTEBOOKS])
 def test_runs_from_a_clean_kernel(path, monkeypatch):
     from nbclient import NotebookClient
 

@@ -68,8 +68,13 @@ def process_noise(law) -> si.Identification:
 
 @pytest.mark.parametrize(
     "problem",
-    [coloured(0), process_noise(FullStatePD()), process_noise(PD())],
-    ids=["coloured", "process noise", "process noise, another law"],
+    [
+        pytest.param(coloured(0), id="coloured"),
+        *(
+            pytest.param(process_noise(law), id=name, marks=pytest.mark.compiled)  # minutes each in Python
+            for name, law in (("process noise", FullStatePD()), ("process noise, another law", PD()))
+        ),
+    ],
 )
 def test_what_is_no_local_optimum_is_not_called_one(problem):
     solution = problem.solve(check=False)

@@ -92,6 +92,7 @@ def test_stable_start_survives_follows_and_is_solved(problem):
     assert result.solved and survives(t, t.layout.parameters(result.z), 1.0)
 
 
+@pytest.mark.compiled
 def test_stable_start_is_the_same_for_a_seed(problem):
     first = problem.start("stable", 3, 2)
     assert np.array_equal(first, problem.start("stable", 3, 2))
@@ -115,6 +116,7 @@ def test_of_the_loops_that_survive_the_one_that_follows_best_is_kept(problem, mo
     assert t.layout.parameters(stable_start(problem, 0, 0))[0] == pytest.approx(1.0)
 
 
+@pytest.mark.compiled
 def test_a_search_that_stops_simulating_what_is_worse_finds_the_same_loops(problem):
     class Patient(DisplacedRuns):
         def distance(self, z, most=np.inf):
@@ -132,6 +134,7 @@ def test_a_search_that_stops_simulating_what_is_worse_finds_the_same_loops(probl
     assert runs.count(loops[0]) < runs.count(loops[1])
 
 
+@pytest.mark.compiled
 def test_starts_of_other_numbers_of_episodes_share_their_first_step(problem, monkeypatch):
     fewer = replace(problem, episodes=Episodes(2, amplitude=0.3, seed=5))
     alone = stable_start(fewer, 4, 1)

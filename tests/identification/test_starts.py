@@ -164,6 +164,7 @@ def test_a_channel_of_little_noise_is_followed_beside_one_of_much_whatever_its_m
     assert all(abs(table.value[k] - v) < 4 * table.std_error[k] for k, v in drawn.truth.items())
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize(("number", "bound"), [(0, 1.0), (4, RAN_AWAY), (5, RAN_AWAY)])
 def test_a_random_start_whose_multipliers_run_away_goes_on_from_softened_equations(number, bound, monkeypatch):
     """Full-state feedback, three noisy episodes: all end in the one optimum, whether they run away or not.
