@@ -185,6 +185,7 @@ def test_a_number_of_the_finding_is_the_same_wherever_the_report_says_it(finding
     assert ">on both halves<" in diagnosis_html(finding) and ">on both halves<" not in html
 
 
+@pytest.mark.compiled
 def test_a_hidden_torque_is_located_in_time_place_size_and_sign():
     """A push at the ankle: there, then, as large, and not at the hip."""
     case = draw_case(

@@ -158,6 +158,7 @@ def test_a_null_is_called_adequate_and_nothing_is_missed():
     )
 
 
+@pytest.mark.compiled
 def test_two_effects_and_a_time_window():
     effects = [("gain_change", "ankle", {"factor": 0.6, "time_s": 30.0}), ("input_gain", "input", {"gain": 1.3})]
     case = draw_case("standing", effects, (2, 0))

@@ -154,6 +154,7 @@ def test_systems_that_nothing_was_tuned_on_reach_their_noise(system, noise):
         assert drawn.failure(drawn.problem().solve(), allowed=1.5) == "", seed
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize(("noise", "seed"), [("remembering", 0), ("heavy", 2)])
 def test_a_channel_of_little_noise_is_followed_beside_one_of_much_whatever_its_memory(noise, seed):
     """Both angles counted alike, and the clear one erred by 8 and 4 times its noise."""
