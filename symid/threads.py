@@ -58,9 +58,9 @@ def one_blas_thread(function: Function) -> Function:
 
     @wraps(function)
     def steps(*arguments, **options):
-        made, end = function(*arguments, **options), object()
-        take = one_blas_thread(lambda: next(made, end))
-        while (item := take()) is not end:
+        generator, end = function(*arguments, **options), object()
+        step = one_blas_thread(lambda: next(generator, end))
+        while (item := step()) is not end:
             yield item
 
     return cast("Function", steps if isgeneratorfunction(function) else call)

@@ -119,6 +119,11 @@ def solved(monkeypatch) -> list[str]:
     return done
 
 
+def example(thing, name: str, text: str):
+    """A parameter of a test that runs `text`, which takes more than ten minutes in Python where it is a diagnosis."""
+    return pytest.param(thing, id=name, marks=[pytest.mark.compiled] if "diagnose" in text else [])
+
+
 def pytest_configure() -> None:
     """Interrupts are tested, here and in programs that are started; a shell's background has them ignored."""
     if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:

@@ -7,16 +7,11 @@ import sys
 from importlib.util import find_spec
 
 import pytest
-from conftest import ROOT
+from conftest import ROOT, example
 
 from symid.cli.main import build_parser, command_names, main
 
 PAGES = ROOT / "docs" / "pages"
-
-
-def example(thing, name: str, text: str):
-    """A parameter of a test that runs `text`, which takes more than ten minutes in Python where it is a diagnosis."""
-    return pytest.param(thing, id=name, marks=[pytest.mark.compiled] if "diagnose" in text else [])
 
 
 WITH_CODE = [

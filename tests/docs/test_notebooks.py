@@ -4,22 +4,21 @@ from pathlib import Path
 
 import nbformat
 import pytest
-from conftest import ROOT, SHARED
+from conftest import ROOT, SHARED, example
 
 FOLDER = ROOT / "notebooks"
-NOTEBOOKS = [pytest.param(path, id=path.stem) for path in sorted(FOLDER.glob("*.ipynb"))]
+NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
 
 
 def code_cells(notebook):
     return [cell for cell in notebook.cells if cell.cell_type == "code"]
 
 
-def run(path: Path):
-    """A diagnosis takes more than ten minutes in Python."""
-    return pytest.param(path, id=path.stem, marks=[pytest.mark.compiled] if "diagnose" in path.read_text() else [])
+def code(path: Path) -> str:
+    return "\n".join(cell.source for cell in code_cells(nbformat.read(path, as_version=4)))
 
 
-@pytest.mark.parametrize("path", [run(*notebook.values) for notebook in NOTEBOOKS])
+@pytest.mark.parametrize("path", [example(p, p.stem, code(p)) for p in NOTEBOOKS])
 def test_runs_from_a_clean_kernel(path, monkeypatch):
     from nbclient import NotebookClient
 
@@ -42,7 +41,7 @@ def test_runs_from_a_clean_kernel(path, monkeypatch):
     assert any("text/html" in data for data in shown)
 
 
-@pytest.mark.parametrize("path", NOTEBOOKS)
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_is_committed_small_with_outputs_and_in_order(path):
     assert path.stat().st_size < 300_000
     notebook = nbformat.read(path, as_version=4)
