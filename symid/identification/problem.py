@@ -36,9 +36,20 @@ from symid.model import Model, parts_of, same_parts
 from symid.nlp import NonlinearProgram
 from symid.transcription import Episodes, Midpoint, Scheme, Transcription
 
-NEAR = {"mu_strategy": "monotone", "mu_init": 1e-11, "bound_push": TRACE, "bound_frac": TRACE}
+NEAR: dict[str, str | float] = {
+    "mu_strategy": "monotone",
+    "mu_init": 1e-11,
+    "bound_push": TRACE,
+    "bound_frac": TRACE,
+    "first_hessian_perturbation": 1e-8,
+}
 """Options of Ipopt for a start close to an optimum: no barrier drives it from bounds that are near, such as a level of
-zero, or into another optimum: of clear data the scaled objective is 1e-5 or less, which the barrier must not exceed."""
+zero, or into another optimum: of clear data the scaled objective is 1e-5 or less, which the barrier must not exceed.
+
+Where nothing shows the initial value of a state, the Hessian is singular, and what is added to it must not hold back
+all other unknowns: with Ipopt's usual 1e-4 steps shrank to a tenth, and a damping ended a twentieth of its standard
+error off.
+"""
 DELAY_OPTIONS = {"mumps_pivot_order": 2}
 """Late signals are tied to a window of nodes: an eighth of the time with MUMPS's ordering AMF."""
 
