@@ -131,6 +131,9 @@ class Shooting:
     ) -> scipy.optimize.OptimizeResult:
         """Least squares from `z`, of simulations that are led back to the recording by `gain`.
 
+        By a dogleg in rectangular trust regions (Voglis & Lagaris 2004): SciPy's reflective method takes half as many
+        steps again here, each with a singular value decomposition.
+
         kept : so many of z, the first ones, stay as they are.
         """
         self.gain = gain
@@ -141,6 +144,7 @@ class Shooting:
                 z[kept:],
                 lambda x: self.jacobian(np.concatenate([z[:kept], x]))[:, kept:],
                 bounds=(self.lower[kept:], self.upper[kept:]),
+                method="dogbox",
                 x_scale="jac",
                 max_nfev=evaluations,
                 ftol=1e-3,
