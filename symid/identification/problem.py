@@ -25,7 +25,7 @@ from symid.identification.identity import problem_identity
 from symid.identification.likelihood.marginal import to_marginal
 from symid.identification.likelihood.process_size import to_sized, unsized
 from symid.identification.likelihood.weighting import to_likelihood
-from symid.identification.program import TRACE, off_its_bounds, program_of, transcription_of
+from symid.identification.program import off_its_bounds, options_of, program_of, transcription_of
 from symid.identification.show import problem_html, problem_text
 from symid.identification.solution import Solution
 from symid.identification.starts.kinds import start_of
@@ -35,23 +35,6 @@ from symid.ipopt_solver import Iteration, SolverResult, solve_nlp
 from symid.model import Model, parts_of, same_parts
 from symid.nlp import NonlinearProgram
 from symid.transcription import Episodes, Midpoint, Scheme, Transcription
-
-NEAR: dict[str, str | float] = {
-    "mu_strategy": "monotone",
-    "mu_init": 1e-11,
-    "bound_push": TRACE,
-    "bound_frac": TRACE,
-    "first_hessian_perturbation": 1e-8,
-}
-"""Options of Ipopt for a start close to an optimum: no barrier drives it from bounds that are near, such as a level of
-zero, or into another optimum: of clear data the scaled objective is 1e-5 or less, which the barrier must not exceed.
-
-Where nothing shows the initial value of a state, the Hessian is singular, and what is added to it must not hold back
-all other unknowns: with Ipopt's usual 1e-4 steps shrank to a tenth, and a damping ended a twentieth of its standard
-error off.
-"""
-DELAY_OPTIONS = {"mumps_pivot_order": 2}
-"""Late signals are tied to a window of nodes: an eighth of the time with MUMPS's ordering AMF."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,8 +213,7 @@ class Identification:
         on_iteration : called after each iteration; where it returns False the solve ends.
         warm_start : result whose multipliers are gone on from.
         """
-        usual = (DELAY_OPTIONS if self.model.delays else {}) | (NEAR if near else {})
-        solver["options"] = usual | (solver.get("options") or {})
+        solver["options"] = options_of(self, near) | (solver.get("options") or {})
 
         def watch(iteration: Iteration) -> bool | None:
             told = None if on_iteration is None else on_iteration(iteration)

@@ -131,8 +131,8 @@ class Shooting:
     ) -> scipy.optimize.OptimizeResult:
         """Least squares from `z`, of simulations that are led back to the recording by `gain`.
 
-        By a dogleg in rectangular trust regions (Voglis & Lagaris 2004): SciPy's reflective method takes half as many
-        steps again here, each with a singular value decomposition.
+        By a dogleg in rectangular trust regions (Voglis & Lagaris 2004). On the article's recording SciPy's reflective
+        trust region takes 13 simulations instead of 9, twice the time, and ends with a larger error.
 
         kept : so many of z, the first ones, stay as they are.
         """
