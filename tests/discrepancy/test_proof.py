@@ -48,6 +48,15 @@ def test_confirmations_of_nothing_are_as_rare_as_said():
     assert np.mean(z) < 0.09
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_phase_that_runs_away_is_a_clear_fall_though_its_blocks_follow_one_another(seed):
+    """The gains of the blocks fall where the wrong phase crosses the right one, and count as two: t said 0.92."""
+    rng, at = np.random.default_rng(seed), np.linspace(-1, 1, 3000)
+    noise = rng.standard_normal(3000)
+    proof = compare(run(4 * at * np.cos(np.arange(3000) * 0.05) + noise), run(noise))
+    assert proof.confirmed and proof.margin > 0.4
+
+
 def test_what_is_too_short_says_how_long_it_would_have_to_be():
     rng = np.random.default_rng(3)
     common = np.repeat(rng.lognormal(0, 1.0, 10), 150)
