@@ -55,7 +55,8 @@ def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
 def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
     """The fit, or that with inputs on straight lines or curves where these are likelier than held ones after all.
 
-    Noise with a memory that was taken for white makes half a sample more or less look likely.
+    Noise with a memory that was taken for white makes half a sample more or less look likely, and so does a lag that
+    the model as given leaves out.
     """
     for name in (k for k in unstated if fit.model.inputs[k].hold == "zero"):
         try:
