@@ -1,12 +1,15 @@
 """An input that a computer holds from sample to sample is not late; a late one is."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import symid as si
-from symid.discrepancy.model.hypothesis import hypothesis
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name import held as held_or_late
+from symid.discrepancy.name.search import Search
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
@@ -94,3 +97,17 @@ def test_what_was_taken_for_held_is_asked_again(hold):
     assert (again.model.inputs["u"].hold == "zero") is hold
     assert again is taken or again.loglik2 > taken.loglik2
     assert held_or_late.unheld(taken, data, []) is taken  # who says that it is held knows
+
+
+@pytest.mark.parametrize("hold", [True, False])
+def test_what_the_model_as_given_took_for_held_is_asked_again_with_what_was_found(hold):
+    """A late feedback made held inputs likelier, and these made the feedback late by the wrong time."""
+    model, recording = si.mechanics.places.with_places(lag()), recorded(0, hold=hold, delay_s=0.0)
+    recording = replace(recording, channels=dict(recording.channels) | {"y": recording["y"] + 0.3})
+    data = Data(segments_of(model, recording, (0, 16), None), np.array([0.005]), False)
+    base = fit_model(model.with_holds(u="zero"), data)
+    offset = next(s for s in si.suspects(lag()) if s.term.name == "sensor_offset")
+    nothing = Hypothesis((), base, base, data)
+    found, _ = Search(base, data, [offset], lambda: nothing, unstated=["u"]).run()
+    assert found.suspects == (offset,)
+    assert (found.fit.model.inputs["u"].hold == "zero") is hold
