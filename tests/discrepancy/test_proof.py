@@ -55,6 +55,7 @@ def test_a_phase_that_runs_away_is_a_clear_fall_though_its_blocks_follow_one_ano
     noise = rng.standard_normal(3000)
     proof = compare(run(4 * at * np.cos(np.arange(3000) * 0.05) + noise), run(noise))
     assert proof.confirmed and proof.margin > 0.4
+    assert compare(run(noise), run(0 * noise)).confirmed
 
 
 def test_what_is_too_short_says_how_long_it_would_have_to_be():

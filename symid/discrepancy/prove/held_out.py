@@ -18,6 +18,9 @@ from symid.estimation.free_run import FreeRun, moves
 from symid.estimation.prediction import Predictions
 from symid.estimation.sensors.independence import independent_share
 
+NONE = 1e-9
+"""Part of an error that counts as none."""
+
 
 @dataclass(frozen=True)
 class Proof:
@@ -68,7 +71,7 @@ def compare(before: FreeRun, after: FreeRun) -> Proof:
     proof = _proof(ratios, 1.0 - after.relative / before.relative, before, cut)
     if not proof.margin > 0 < ratios.mean():
         return proof
-    of_all = float(fdtr(_independent(before), _independent(after), (1.0 - proof.margin) ** -2))
+    of_all = float(fdtr(_independent(before), _independent(after), max(1.0 - proof.margin, NONE) ** -2))
     return replace(proof, probability=max(proof.probability, 2 * of_all - 1))
 
 
