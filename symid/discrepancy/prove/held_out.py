@@ -29,7 +29,7 @@ class Proof:
     Attributes
     ----------
     margin : part by which the rms of the errors falls, negative where it grows.
-    probability : that it falls in the long run, from the scatter of the blocks.
+    probability : that it falls in the long run, from the scatter of the blocks or from how far the whole falls.
     blocks, seconds : how many blocks there are, and how much time they cover.
     needed : seconds of such data that would confirm a fall like this one; None where there is none.
     free_runs : of predictions, what free runs say; None of free runs themselves.
