@@ -36,13 +36,15 @@ class FreeRun:
         """Rms over all outputs, each in units of how much it moves, whatever those are measured in."""
         return float(np.sqrt(np.mean((self.errors / moves(self.recorded)) ** 2)))
 
+    @property
+    def segments(self) -> list[slice]:
+        ends = np.cumsum(self.lengths)
+        return [slice(int(end - n), int(end)) for n, end in zip(self.lengths, ends, strict=True)]
+
     def of_segments(self) -> list[tuple[float, float]]:
         """Start [s] and rms of each segment."""
-        ends = np.cumsum(self.lengths)
-        return [
-            (float(self.time[a]), float(np.sqrt(np.mean((self.simulated - self.recorded)[a:b] ** 2))))
-            for a, b in zip([0, *ends[:-1]], ends, strict=True)
-        ]
+        errors = self.simulated - self.recorded
+        return [(float(self.time[s.start]), float(np.sqrt(np.mean(errors[s] ** 2)))) for s in self.segments]
 
 
 def moves(recorded: np.ndarray) -> np.ndarray:

@@ -272,8 +272,7 @@ class Port(Component):
 
     Parameters
     ----------
-    position, rate : expressions of the states, conjugate to the force; position 0 where the speed alone is a state, as
-        of a shaft behind a tachometer.
+    position, rate : expressions of the states, conjugate to the force; position 0 where the speed alone is a state.
     into : equation name -> coefficient with which a force along +rate enters that residual.
     unit : unit of the force (``"N*m"`` at a joint); where it is left out, that of the first
         equation that the force enters, for which this must have been declared before.

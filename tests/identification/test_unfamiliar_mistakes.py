@@ -9,12 +9,13 @@ from drawn_systems import System, log_uniform, smooth, system
 from more_systems import declared, quarter_car
 from small_systems import cart_pole, mass_spring_damper
 from ugly_noise import measured
-from unfamiliar_systems import flexible_joint, food_chain
+from unfamiliar_systems import UNFAMILIAR, flexible_joint, food_chain
 from unseen_systems import duffing
 
 import symid as si
 from symid.model import as_shown
 from symid.plausibility import remarks
+from symid.plausibility.mistakes import model_remarks
 
 
 def test_equations_that_explain_the_motion_from_other_first_values_are_not_questioned():
@@ -33,6 +34,16 @@ def test_equations_that_explain_half_the_motion_from_first_values_are_asked_from
     for channel in ("base", "bend", "voltage"):
         wrong = replace(recording, channels=dict(recording.channels) | {channel: -recording[channel]})
         assert any(f"{channel} has the opposite sign" in text for text in remarks(drawn.model, wrong)), channel
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("noise", ["white", "proportional", "remembering", "heavy"])
+@pytest.mark.parametrize("system", UNFAMILIAR, ids=lambda f: f.__name__)
+def test_no_right_recording_of_systems_that_nothing_was_tuned_on_is_blamed(system, noise):
+    """The 1440 of `plausibility.mistakes.BETTER`."""
+    for seed in range(40):
+        drawn = measured(system, noise, seed)
+        assert model_remarks(drawn.model, drawn.recordings[0]) == [], seed
 
 
 @pytest.mark.parametrize("seed", range(3))

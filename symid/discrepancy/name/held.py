@@ -9,6 +9,7 @@ likelier than straight lines that may be late, too.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, refit
 from symid.discrepancy.model.suspects import Suspect
@@ -44,6 +45,19 @@ def held(
             rest = tuple(s for s in found.suspects if s not in late)
             found = _likelier(found, rest, name, place, step, data, better)
     return found
+
+
+def asked_again(
+    found: Hypothesis, data: Data, unstated: Sequence[str], better: Callable[[Hypothesis, Hypothesis], Hypothesis]
+) -> Hypothesis:
+    """`found`, or it with inputs held that were not, or else with inputs free that were held, where this is likelier.
+
+    Parameters as of `held`.
+    """
+    if (without := held(found, data, unstated, better)) is not found:
+        return without
+    free = unheld(found.fit, data, unstated)
+    return found if free is found.fit else replace(found, fit=free)
 
 
 def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:

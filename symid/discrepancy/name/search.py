@@ -12,7 +12,7 @@ from symid.discrepancy.locate.remainder import Test, remainder
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
-from symid.discrepancy.name.held import held, unheld
+from symid.discrepancy.name.held import asked_again
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_of
 from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
@@ -98,10 +98,8 @@ class Search:
                 if not self._worth(more, best):
                     break
             best = polished(more)
-            if (without := held(best, self.data, self.unstated, self.better)) is not best:
-                return without, single
-            if (free := unheld(best.fit, self.data, self.unstated)) is not best.fit:
-                return replace(best, fit=free), single
+            if (otherwise := asked_again(best, self.data, self.unstated, self.better)) is not best:
+                return otherwise, single
             curved = with_likeliest_curves(best.fit, self.data)
             if curved is not best.fit:
                 best = replace(best, fit=curved)

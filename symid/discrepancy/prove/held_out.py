@@ -18,8 +18,8 @@ from symid.estimation.free_run import FreeRun, moves
 from symid.estimation.prediction import Predictions
 from symid.estimation.sensors.independence import independent_share
 
-NONE = 1e-9
-"""Part of an error that counts as none."""
+NO_ERROR = 1e-9
+"""Part of an error that counts as none at all."""
 
 
 @dataclass(frozen=True)
@@ -71,14 +71,13 @@ def compare(before: FreeRun, after: FreeRun) -> Proof:
     proof = _proof(ratios, 1.0 - after.relative / before.relative, before, cut)
     if not proof.margin > 0 < ratios.mean():
         return proof
-    of_all = float(fdtr(_independent(before), _independent(after), max(1.0 - proof.margin, NONE) ** -2))
+    of_all = float(fdtr(_independent(before), _independent(after), max(1.0 - proof.margin, NO_ERROR) ** -2))
     return replace(proof, probability=max(proof.probability, 2 * of_all - 1))
 
 
 def _independent(run: FreeRun) -> float:
     """Independent parts of the errors of a free run (Bartlett 1946)."""
-    ends = np.cumsum(run.lengths)
-    errors = [(run.simulated - run.recorded)[a:b] for a, b in zip([0, *ends[:-1]], ends, strict=True)]
+    errors = [(run.simulated - run.recorded)[segment] for segment in run.segments]
     return max(independent_share(errors) * run.recorded.size, 1.0)
 
 
