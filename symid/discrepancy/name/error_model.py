@@ -84,14 +84,16 @@ def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:
 def _likeliest(searches: list[Search]) -> Search:
     """The one whose data the model fits best, with whatever single suspect it lacks.
 
-    Of all suspects those that explain most of the first data are tried on the others.
+    Of all suspects those that explain most of the first data are tried on the others. The model as given may have made
+    inputs look held that are not.
     """
     first, *others = searches
     if not others:
         return first
     best = [h.suspect for h in first.states_alone[:FEW]]
     found = [first.states_alone, *(s.alone(best) for s in others)]
-    most = [max([s.base.loglik2, *(h.fit.loglik2 for h in tried)]) for s, tried in zip(searches, found, strict=True)]
+    best_of = [max((h.fit for h in [s.nothing, *tried]), key=_loglik2) for s, tried in zip(searches, found, strict=True)]
+    most = [unheld(fit, s.data, s.unstated).loglik2 for s, fit in zip(searches, best_of, strict=True)]
     return searches[most.index(max(most))]
 
 
@@ -120,4 +122,8 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
             return None  # without what was found these values need not hold the model together
 
     fits = in_threads(lambda made: made(), [lambda: Fitter(base.model, data).again(base), from_found])
-    return max((fit for fit in fits if fit is not None), key=lambda fit: fit.loglik2)
+    return max((fit for fit in fits if fit is not None), key=_loglik2)
+
+
+def _loglik2(fit: Fit) -> float:
+    return fit.loglik2
