@@ -95,19 +95,24 @@ def settled(
 ) -> tuple[Data, Fit]:
     """The data with a filter undone and the fit of `model` to them, found anew until the cutoff has settled.
 
+    Where it does not, as where a model that lacks much likes a lower one and from there a higher one, it stays where it
+    began: the spectra that it began with do not depend on the model.
+
     Parameters
     ----------
     filter : where the cutoff begins. The others are as for `fits_of`.
     """
-    for rounds_left in reversed(range(MOST_ROUNDS)):
+    found: list[tuple[Data, Fit]] = []
+    while len(found) < MOST_ROUNDS:
         noise = np.where(stated, plain.sensor_noise, _noise(plain, filter))
         own = replace(plain, sensor_noise=noise, ratios_free=not np.any(stated))
         data = _undone(model, recording, part, length, own, filter, inputs=False)
         fit = _fitted(model, data, start)
-        if has_settled(fit, data) or not rounds_left:
-            break
+        found.append((data, fit))
+        if has_settled(fit, data):
+            return found[-1]
         filter, start, model = sharpened_filter(fit, data), fit.values, fit.model
-    return data, fit
+    return found[0]
 
 
 def _fitted(model: Model, data: Data, start: Mapping[str, float]) -> Fit:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from driven_cart import cart
 
+import symid.discrepancy.name.error_model as error_model
 import symid.discrepancy.name.explore as exploring
 import symid.discrepancy.name.scan as scanning
 from symid.discrepancy import Suspect
@@ -84,8 +85,9 @@ def test_a_motion_that_forgets_how_it_began_is_swept_for_frequencies(monkeypatch
     assert looked == ["sweep" if steady else "comb"]
 
 
-@pytest.mark.parametrize(("best", "chosen"), [(9.0, 1), (2.0, 0)])
-def test_the_few_suspects_that_explain_most_tell_which_data_are_likeliest(best, chosen):
+@pytest.mark.parametrize(("best", "free", "chosen"), [(9.0, 0.0, 1), (2.0, 0.0, 0), (9.0, 5.0, 0)])
+def test_the_few_suspects_that_explain_most_tell_which_data_are_likeliest(monkeypatch, best, free, chosen):
+    """The first data may be likelier by `free` where its inputs are not held, as the model as given made them look."""
     asked = []
 
     def explaining(loglik2):
@@ -95,8 +97,14 @@ def test_the_few_suspects_that_explain_most_tell_which_data_are_likeliest(best, 
         asked.append(suspects)
         return [explaining(best) for _ in suspects]
 
-    first = SimpleNamespace(base=SimpleNamespace(loglik2=1.0), states_alone=[explaining(5.0 - k) for k in range(5)])
-    other = SimpleNamespace(base=SimpleNamespace(loglik2=0.0), alone=alone)
+    def unheld(fit, data, unstated):
+        return SimpleNamespace(loglik2=fit.loglik2 + (free if data == "first" else 0.0))
+
+    monkeypatch.setattr(error_model, "unheld", unheld)
+    first = SimpleNamespace(
+        nothing=explaining(1.0), states_alone=[explaining(5.0 - k) for k in range(5)], data="first", unstated=()
+    )
+    other = SimpleNamespace(nothing=explaining(0.0), alone=alone, data="other", unstated=())
     searches = [first, other]
     assert _likeliest(searches) is searches[chosen]
     assert asked == [["explains 5.0", "explains 4.0", "explains 3.0"]]

@@ -92,7 +92,9 @@ def _likeliest(searches: list[Search]) -> Search:
         return first
     best = [h.suspect for h in first.states_alone[:FEW]]
     found = [first.states_alone, *(s.alone(best) for s in others)]
-    best_of = [max((h.fit for h in [s.nothing, *tried]), key=_loglik2) for s, tried in zip(searches, found, strict=True)]
+    best_of = [
+        max((h.fit for h in [s.nothing, *tried]), key=_loglik2) for s, tried in zip(searches, found, strict=True)
+    ]
     most = [unheld(fit, s.data, s.unstated).loglik2 for s, fit in zip(searches, best_of, strict=True)]
     return searches[most.index(max(most))]
 
