@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -17,7 +18,7 @@ class FreeRun:
     """Time, recorded and simulated outputs of a window; errors are those without `settling` seconds.
 
     `lengths` are the samples of each segment, which begins with a state of its own; `errors` (m,) the rms of each
-    output; `pace` that of the motion.
+    output; `pace` that of the motion; `mean_inputs` the mean of each input.
     """
 
     time: np.ndarray
@@ -26,6 +27,7 @@ class FreeRun:
     errors: np.ndarray
     lengths: tuple[int, ...]
     pace: float = 1.0
+    mean_inputs: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def rms(self) -> float:
@@ -70,6 +72,7 @@ def free_run(fit: Fit, data: Data, settling: float = 0.0) -> FreeRun:
         np.sqrt(np.mean((simulated - recorded)[use] ** 2, axis=0)),
         tuple(len(e.time) for e in data.segments),
         data.pace,
+        data.mean_inputs,
     )
 
 

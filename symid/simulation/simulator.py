@@ -142,7 +142,7 @@ class Simulator:
     ) -> Linearised:
         """The model linearised at one `state` [SI array or names], or on average over (P, n) states.
 
-        Rates, noise and `inputs` are zero unless given; delayed states have the state's own value; `parameters` as for
+        Rates, noise and `inputs` are zero unless given; late signals have the signal's own value; `parameters` as for
         `simulate`.
 
         Raises
@@ -159,7 +159,7 @@ class Simulator:
         mean = [np.zeros_like(k) for k in out]
         for point in points:
             x[:] = point
-            at[:] = [point[s.states.index(o)] if o in s.states else 0.0 for o in late_of]
+            at[:] = [point[s.states.index(o)] if o in s.states else u[s.inputs.index(o)] for o in late_of]
             self._loop.linearise((zero, x, at, u, zero, p, self.constants), out)
             for total, part in zip(mean, out, strict=True):
                 total += part / len(points)

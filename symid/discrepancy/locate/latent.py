@@ -48,7 +48,7 @@ def latent_torques(fit: Fit, run: FreeRun) -> tuple[Latent, ...]:
         return ()
     sim = fit.simulator
     step = float(np.median(np.diff(run.time)))
-    linear = linearised_along(sim, fit.values, _states(model, run, step), TURNING)
+    linear = linearised_along(sim, fit.values, _states(model, run, step), run.mean_inputs, TURNING)
     A, G, C = linear.without_delay()
     residual = run.recorded - run.simulated
     size = _moving(A, G, C, residual, run.pace)

@@ -2,13 +2,17 @@
 
 What is missing in a model colours its innovations, too. So a memory of the noise competes with what may be missing: it
 is believed at once where it explains more than any one suspect or flexible law does. Else the search comes first,
-with white innovations; colour that outlasts the best explanation is then taken for the sensors', unless a flexible law
+with white innovations. Colour that outlasts the best explanation is then taken for the sensors', unless a flexible law
 explains more than both, and the search begins anew with noise that remembers as much.
+
+A filter's cutoff hangs on what is missing, too: the suspect that explains most may move it before noise is given a
+memory, under which it keeps its value.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from math import inf, log
 
@@ -40,6 +44,11 @@ def with_error_model(
     searched : makes a search. settle : undoes a filter anew with the cutoff that a fit likes, and refits its model.
     """
     search = _likeliest([searched(base, data) for data, base in possible])
+    if not has_settled(search.of_one.fit, search.data):
+        progress("with one suspect the cutoff of the filter moves; looking again")
+        with suppress(SymidError):  # where the model with it cannot be begun anew the cutoff stays where it was
+            data, fit = settle(search.of_one.fit, search.data)
+            search = searched(_refitted(search.base, fit, data), data)
     most = search.most_of_one()
     data, base = with_memory(search.base, search.data) if most < inf else (search.data, search.base)
     if _gain(data, base, search.data, search.base) > most:
@@ -51,10 +60,8 @@ def with_error_model(
         search, found, ranking = _again(search, found, search.data, found.fit, searched)
     if not has_settled(found.fit, search.data):
         progress("with what was found the cutoff of the filter moves; looking again")
-        try:
+        with suppress(SymidError):
             search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched)
-        except SymidError:
-            pass  # the model with what was found cannot be begun anew: the cutoff stays where it was
     data, explained = with_memory(found.fit, search.data)
     more = _gain(data, explained, search.data, found.fit)
     if data is search.data or found.evidence(1.0) + more < search.flexible().evidence(1.0):

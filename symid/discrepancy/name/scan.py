@@ -54,7 +54,9 @@ def _forgets(projection: Projection) -> bool:
     if len(segments) > 1:
         return False
     p = np.array([fit.values[k] for k in fit.simulator.parameters])
-    A, *_ = linearised_along(fit.simulator, p, fitted_path(fit, projection.data)).without_delay()
+    A, *_ = linearised_along(
+        fit.simulator, p, fitted_path(fit, projection.data), projection.data.mean_inputs
+    ).without_delay()
     rates = np.linalg.eigvals(A) * float(segments[0].time[-1] - segments[0].time[0])
     return bool(np.all((rates.real < -DECAYED) | (np.abs(rates) < DRIFTS)))
 

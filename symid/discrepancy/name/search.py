@@ -118,12 +118,17 @@ class Search:
         doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
         return self.flexible() if doubtful and self.beaten(found) else found
 
+    @cached_property
+    def of_one(self) -> Hypothesis:
+        """The one suspect that is believed most, fitted to the end, or nothing where none is worth its price."""
+        one = self._preferred(self.nothing, self.single)
+        return polished(one) if one else self.nothing
+
     def most_of_one(self) -> float:
         """Evidence for the one suspect or flexible law that explains most; infinite where one explains everything."""
-        nothing = self.nothing
-        if self.explained(self._preferred(nothing, self.single) or nothing):
+        if self.explained(self.of_one):
             return inf
-        return max(h.evidence(1.0) for h in [nothing, self.flexible(), *self.single])
+        return max(h.evidence(1.0) for h in [self.nothing, self.flexible(), self.of_one, *self.single])
 
     # ---- judging -----------------------------------------------------------------------------
     def value(self, found: Hypothesis, share: float, belief: bool = True) -> float:

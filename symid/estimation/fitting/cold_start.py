@@ -102,7 +102,7 @@ def _first(parameter) -> float:
 def _equivalent_noise(sim, values, initial, data: Data) -> np.ndarray:
     """(w,) size of each noise that moves an output by its sensor noise within a fifth of the pace."""
     step = data.segments[0].step
-    linear = linearised_along(sim, values, initial, points=1)
+    linear = linearised_along(sim, values, initial, data.mean_inputs, points=1)
     A, G, C = linear.without_delay()
     state, moved = np.zeros_like(G), np.zeros((len(C), G.shape[1]))
     for _ in range(max(1, int(0.2 * data.pace / step))):

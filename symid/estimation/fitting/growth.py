@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from symid.estimation.fitting.kalman import linearised_along
 from symid.estimation.fitting.predictor import Predictor
 
 AWAY = 2.0
@@ -32,7 +31,7 @@ def runs_away(predictor: Predictor, p: np.ndarray, x0: np.ndarray) -> bool:
 
 def growth(predictor: Predictor, p: np.ndarray, path: np.ndarray) -> float:
     """Standard errors of the penalty: zero where the model, linearised along a path of states, decays."""
-    A, *_ = linearised_along(predictor.sim, p, path).without_delay()
+    A, *_ = predictor.linearised(p, path).without_delay()
     longest = max(e.time[-1] - e.time[0] for e in predictor.data.segments)
     return PENALTY * max(0.0, float(np.linalg.eigvals(A).real.max()) * longest + DECAY)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 from scipy.linalg import LinAlgError, expm, matrix_balance, solve_discrete_are
 
@@ -14,11 +16,18 @@ FLOOR = 1e-12
 has no stationary gain."""
 
 
-def linearised_along(simulator: Simulator, values, states: np.ndarray, points: int = 16) -> Linearised:
-    """The mean of the linearisations at `points` states of a trajectory (statistical linearisation)."""
+def linearised_along(
+    simulator: Simulator, values, states: np.ndarray, inputs: Mapping[str, float], points: int = 16
+) -> Linearised:
+    """The mean of the linearisations at `points` states of a trajectory (statistical linearisation).
+
+    Parameters
+    ----------
+    inputs : the mean of each: a rope's length or a vehicle's speed, which a model may multiply by or divide by.
+    """
     rows = states[np.isfinite(states).all(axis=1)]
     rows = rows[np.linspace(0, len(rows) - 1, points).astype(int)] if len(rows) else states[:1]
-    return simulator.linearise(values, rows)
+    return simulator.linearise(values, rows, np.array([inputs[u] for u in simulator.source.inputs]))
 
 
 def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray) -> np.ndarray:

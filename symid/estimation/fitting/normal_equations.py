@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from symid.estimation.fitting.growth import growth_normal
-from symid.estimation.fitting.kalman import kalman_gain, linearised_along
+from symid.estimation.fitting.kalman import kalman_gain
 from symid.estimation.fitting.predictor import Predictor
 
 
@@ -57,7 +57,7 @@ def normal_equations(
 
 def _tuned_columns(predictor: Predictor, p, x0, gain, process, path, innovations):
     """Change of the innovations per unit of the logarithm of what is tuned, by differences."""
-    linear, columns = linearised_along(predictor.sim, p, path) if predictor.driven else None, []
+    linear, columns = predictor.linearised(p, path) if predictor.driven else None, []
     for j in predictor.tuned:
         more = process.copy()
         more[j] *= np.exp(0.1)

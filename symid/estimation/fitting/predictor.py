@@ -18,7 +18,7 @@ from symid.estimation.sensors.whitening import Whitening, whitening_of
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.model import Model
-from symid.simulation import simulator
+from symid.simulation import Linearised, simulator
 
 LONGEST_STEP = 0.02
 """First longest step of the integrator [s], of a motion with the pace of a second."""
@@ -125,9 +125,11 @@ class Predictor:
         """Kalman gain at these values, linearised along a path of states; None without random forces."""
         if not self.driven:
             return None
-        return kalman_gain(
-            linearised_along(self.sim, p, path), self.step, process[: self.noises], self.sensors(process)
-        )
+        return kalman_gain(self.linearised(p, path), self.step, process[: self.noises], self.sensors(process))
+
+    def linearised(self, p, path) -> Linearised:
+        """The model linearised along a path of states and at the mean of each input."""
+        return linearised_along(self.sim, p, path, self.data.mean_inputs)
 
     def path(self, p, x0, gain) -> np.ndarray:
         """States along the trajectories, or the initial states if those diverge."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -50,6 +51,12 @@ class Data:
     @property
     def samples(self) -> int:
         return sum(len(e.time) for e in self.segments)
+
+    @cached_property
+    def mean_inputs(self) -> dict[str, float]:
+        return {
+            u: float(np.mean(np.concatenate([e.inputs[u] for e in self.segments]))) for u in self.segments[0].inputs
+        }
 
     @property
     def span(self) -> tuple[float, float]:
