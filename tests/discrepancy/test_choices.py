@@ -73,7 +73,12 @@ def test_a_motion_that_forgets_how_it_began_is_swept_for_frequencies(monkeypatch
     """A cart on a spring over ten seconds; a comb stands for one that still swings as it began."""
     model, time = cart(), np.linspace(0.0, 10.0, 11)
     fit = SimpleNamespace(simulator=simulator(model), values={"stiffness": 30.0, "damping": damping})
-    data = SimpleNamespace(segments=[SimpleNamespace(time=time, step=1.0)] * pieces, driven=False, pace=1.0)
+    data = SimpleNamespace(
+        segments=[SimpleNamespace(time=time, step=1.0)] * pieces,
+        driven=False,
+        pace=1.0,
+        mean_inputs=dict.fromkeys(model.inputs, 0.0),
+    )
     suspect = SimpleNamespace(
         scanned=SimpleNamespace(clock="frequency"), strength=SimpleNamespace(key="size", bounds=(0.0, 1.0))
     )
