@@ -1,15 +1,18 @@
-"""What may be wrong with a drive: a force that is commanded is not always the force that acts."""
+"""What drives, sensors and recorders do to their signals: what acts need not be what was commanded or recorded."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from types import SimpleNamespace
 
 import sympy as sm
 
-from symid.mechanics.missing.laws import give_unit, late_symbols
-from symid.model import Law, LawParameter, Model
+from symid.mechanics.missing.laws import LAG, give_unit, late_symbols
+from symid.model import Equation, Input, Law, LawParameter, Model, Output, State
 
+INPUT_DELAY = LawParameter("delay_s", "s", (-0.3, 0.3), 0.0, (-0.1, -0.04, 0.04, 0.1), 0.05)
+"""Of what was recorded of a drive, by one recorder or another: it may be early, too."""
 CORNER = 0.01
 """Roundness of a corner, as a part of the size at which it is: drives stop short, and derivatives are needed."""
 
@@ -30,6 +33,73 @@ def _bent(key: str, shape: Callable[[sm.Expr, sm.Expr], sm.Expr]) -> Callable[[M
 
     return build
 
+
+def _input_lag(model: Model, place: str, p: SimpleNamespace) -> None:
+    for u in model.find("excitation", place):
+        late = {s: model.delays[s].lag for s in late_symbols(model, u.symbol)}
+        x = _lagging(model, u, f"input_lag_{u.name}")
+        model.substitute({u.symbol: x} | {s: model.delayed(x, lag) for s, lag in late.items()})
+        _follow(model, x, p.time_constant_s, u.symbol)
+
+
+def _sensor_lag(model: Model, place: str, p: SimpleNamespace) -> None:
+    for y in model.find("sensor", place):
+        x = _lagging(model, y, f"sensor_lag_{y.name}")
+        _follow(model, x, p.time_constant_s, y.expr)
+        model.redefine(y.name, x)
+
+
+def make_late(model: Model, inputs: Sequence[Input], delay: sm.Expr) -> None:
+    """Let each of these inputs come later [s]."""
+    for u in inputs:
+        present = (u.symbol, *late_symbols(model, u.symbol))
+        model.substitute({s: model.delayed(s, delay) for s in present})
+
+
+def _inputs_delay(model: Model, place: str, p: SimpleNamespace) -> None:
+    make_late(model, model.find("excitation"), p.delay_s)
+
+
+def _lagging(model: Model, part: Input | Output, name: str) -> sm.Symbol:
+    """A new state that stands for what `part` was so far."""
+    setattr(model, name, State(unit=part.unit, role="memory", at=part.at, meaning="a signal with its lag"))
+    return model[name].symbol
+
+
+def _follow(model: Model, state: sm.Symbol, time_constant: sm.Expr, signal: sm.Expr) -> None:
+    """Let a state follow a signal with a first-order lag [s]."""
+    equation = Equation(time_constant * model[str(state)].dot + state - signal)
+    setattr(model, f"{state}_equation", equation)
+
+
+LAG_LAWS: tuple[Law, ...] = (
+    Law(
+        "inputs_delay",
+        "excitation",
+        (INPUT_DELAY,),
+        _inputs_delay,
+        "The true excitations all come {delay_s} after the recorded ones",
+        "Ljung 1999",
+        "global",
+    ),
+    Law(
+        "input_lag",
+        "excitation",
+        (LAG,),
+        _input_lag,
+        "The true excitation follows the recorded one with a lag of {time_constant_s}",
+        "Ljung 1999",
+    ),
+    Law(
+        "sensor_lag",
+        "sensor",
+        (replace(LAG, plausible=0.005),),
+        _sensor_lag,
+        "The {place} follows the truth with a lag of {time_constant_s}",
+        "Ljung 1999",
+    ),
+)
+"""First-order lags, as an amplifier, a valve, a servo or a filter against aliases has; two recorders out of step."""
 
 DRIVE_LAWS: tuple[Law, ...] = (
     Law(

@@ -8,7 +8,16 @@ from types import SimpleNamespace
 import sympy as sm
 
 from symid.mechanics.feedback import lag_torque
-from symid.mechanics.missing.laws import dry, fit_units, fixed, parameter_name, port_at, switched_on, time_derivative
+from symid.mechanics.missing.laws import (
+    LAG,
+    dry,
+    fit_units,
+    fixed,
+    parameter_name,
+    port_at,
+    switched_on,
+    time_derivative,
+)
 from symid.model import Equation, Law, LawParameter, Model, State
 
 _SWITCH = 0.02
@@ -17,7 +26,6 @@ _BACKLASH_EDGE = 0.1
 """Part of the gap over which the contact of a backlash is smoothed."""
 
 _DELAY = LawParameter("delay_s", "s", (0.0, 0.5), 0.0, (0.03, 0.08, 0.15, 0.25), 0.1)
-_LAG = LawParameter("time_constant_s", "s", (0.0, 1.0), 0.0, (0.03, 0.08, 0.2), 0.1)
 
 
 def _make_late(model: Model, place: str | None, lag: sm.Expr) -> None:
@@ -151,7 +159,7 @@ FEEDBACK_LAWS: tuple[Law, ...] = (
     Law(
         "muscle_lag",
         "feedback_torque",
-        (_LAG,),
+        (LAG,),
         _muscle_lag,
         "All feedback torques follow their command with a lag of {time_constant_s}",
         "Zajac 1989",
@@ -225,7 +233,7 @@ FURTHER_FEEDBACK_LAWS: tuple[Law, ...] = (
     Law(
         "joint_muscle_lag",
         "feedback_torque",
-        (_LAG,),
+        (LAG,),
         _joint_muscle_lag,
         "The feedback torque at the {place} alone follows its command with a lag of {time_constant_s}",
         "Zajac 1989",
@@ -233,7 +241,7 @@ FURTHER_FEEDBACK_LAWS: tuple[Law, ...] = (
     Law(
         "second_order_muscle_lag",
         "feedback_torque",
-        (_LAG,),
+        (LAG,),
         _second_order_lag,
         "All feedback torques follow their command through two lags of {time_constant_s}",
         "Zajac 1989",

@@ -15,6 +15,9 @@ from symid.units import reduced
 FRICTION_SPEED = 0.05
 """Width [rad/s or m/s] of the smoothed jump of dry friction where a model states none."""
 
+LAG = LawParameter("time_constant_s", "s", (0.0, 1.0), 0.0, (0.03, 0.08, 0.2), 0.1)
+"""Of a first-order lag."""
+
 _ANGLES_ANYWHERE = ("phase_rad",)
 
 

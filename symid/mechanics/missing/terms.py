@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.bodies import BODY_LAWS
-from symid.mechanics.missing.drive_laws import DRIVE_LAWS
+from symid.mechanics.missing.drive_laws import DRIVE_LAWS, LAG_LAWS
 from symid.mechanics.missing.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
 from symid.mechanics.missing.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
@@ -30,6 +30,7 @@ LIBRARY: dict[str, Law] = {
         *FURTHER_LINK_LAWS,
         *FURTHER_WORLD_LAWS,
         *DRIVE_LAWS,
+        *LAG_LAWS,
         *BODY_LAWS,
         *STATED_LAWS,
     )

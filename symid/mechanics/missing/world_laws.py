@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import sympy as sm
 
 from symid.errors import ModelError
+from symid.mechanics.missing.drive_laws import INPUT_DELAY, make_late
 from symid.mechanics.missing.laws import give_unit, late_symbols, parameter_name, time_derivative
 from symid.model import Equation, Expression, Law, LawParameter, Model, Port, State
 
@@ -27,9 +28,7 @@ def _input_gain(model: Model, place: str, p: SimpleNamespace) -> None:
 
 
 def _input_delay(model: Model, place: str, p: SimpleNamespace) -> None:
-    for u in model.find("excitation", place):
-        present = (u.symbol, *late_symbols(model, u.symbol))
-        model.substitute({s: model.delayed(s, p.delay_s) for s in present})
+    make_late(model, model.find("excitation", place), p.delay_s)
 
 
 def _extra_mass(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -230,7 +229,7 @@ WORLD_LAWS: tuple[Law, ...] = (
     Law(
         "input_delay",
         "excitation",
-        (LawParameter("delay_s", "s", (-0.3, 0.3), 0.0, (-0.1, -0.04, 0.04, 0.1), 0.05),),
+        (INPUT_DELAY,),
         _input_delay,
         "The true excitation comes {delay_s} after the recorded one",
         "Ljung 1999",
