@@ -23,6 +23,9 @@ from symid.model import Model
 DELAY = "input_delay"
 """The law that may be none."""
 DELAY_KEY = LIBRARY[DELAY].parameters[0].key
+STRONG = 6.0
+"""What a held input must be likelier by, twice in the logarithm: strong evidence (Kass & Raftery 1995, section 3.2). A
+slow signal is nearly the same held or not, and chance would tell."""
 
 
 def held(
@@ -67,7 +70,7 @@ def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
 
 
 def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
-    """The fit, or that with inputs on straight lines or curves where these are likelier than held ones after all.
+    """The fit, or that with inputs on straight lines or curves where held ones are not much likelier after all.
 
     Noise with a memory that was taken for white makes half a sample more or less look likely, and so does a lag that
     the model as given leaves out.
@@ -77,7 +80,8 @@ def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
             free = Fitter(fit.model.with_holds(**{name: "either"}), data, near=fit).again(fit)
         except SymidError:
             continue  # what cannot be followed is not likelier
-        fit = max(fit, with_likeliest_curves(free, data), key=lambda f: f.loglik2)
+        free = with_likeliest_curves(free, data)
+        fit = free if free.loglik2 > fit.loglik2 - STRONG else fit
     return fit
 
 
@@ -86,7 +90,8 @@ def _likelier(
 ) -> Hypothesis:
     """The `rest` of what was found with one input held, if that is believed more than `found`, and than any delay."""
     model = found.base.model.with_holds(**{name: "zero"})
-    if len(rest) == len(found.suspects) and _promise(found, rest, model, data) <= found.fit.loglik2:
+    same = len(rest) == len(found.suspects)
+    if same and _promise(found, rest, model, data) <= found.fit.loglik2 + STRONG:
         return found
     try:
         base = Fitter(model, data, near=found.base).again(found.base)
@@ -97,14 +102,15 @@ def _likelier(
     other = None if fit is None else Hypothesis(rest, fit, found.base, data)
     if other is None or better(found, other) is found:
         return found
-    if len(rest) == len(found.suspects):
-        if fit.kalman_gain is None and not is_met(fit, data):
-            return found  # of a motion that is not met half a sample more or less may be better by chance
-        late = Suspect(LIBRARY[DELAY].at(place))
-        delayed = hypothesis([*rest, late], found.fit, found.base, data, late.named({DELAY_KEY: step / 2}))
-        if delayed is not None and better(delayed, other) is delayed:
-            return found
-    return other
+    if not same:
+        return other
+    if fit.loglik2 <= found.fit.loglik2 + STRONG:
+        return found
+    if fit.kalman_gain is None and not is_met(fit, data):
+        return found  # of a motion that is not met half a sample more or less may be better by chance
+    late = Suspect(LIBRARY[DELAY].at(place))
+    delayed = hypothesis([*rest, late], found.fit, found.base, data, late.named({DELAY_KEY: step / 2}))
+    return found if delayed is not None and better(delayed, other) is delayed else other
 
 
 def _promise(found: Hypothesis, rest: tuple[Suspect, ...], model: Model, data: Data) -> float:
