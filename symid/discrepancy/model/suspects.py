@@ -236,6 +236,7 @@ def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:
         return None
     own = [more[term.parameter_name(q.key)].symbol for q in term.law.parameters]
     plain = {s: s.func(f"unknown{i}") for i, s in enumerate(own)}
+    plain |= {late: late.func(f"{d.of}@{d.lag.xreplace(plain)}") for late, d in more.delays.items()}
     written = (*more.residual(), *(y.expr for y in more.outputs.values()), *(d.lag for d in more.delays.values()))
     if not any(e.has(*own) for e in written):
         return None
