@@ -21,6 +21,7 @@ from symid.cli import main
 from symid.conceal import draw_case, write_case
 from symid.discrepancy import suspects
 from symid.discrepancy.locate.latent import latent_torques
+from symid.estimation.free_run import FreeRun
 from symid.mechanics import LIBRARY, DoubleLinkPendulum, FullStatePD
 from symid.report import diagnosis_html, page, write_diagnosis_report
 from symid.report.experiment import experiment
@@ -217,7 +218,8 @@ def test_a_hidden_torque_of_a_model_with_a_delay_stays_finite():
     model = body.with_feedback(FullStatePD()).with_term(LIBRARY["feedback_delay"].at("global"))
     values = json.loads((folder / "truth.json").read_text())["parameters"] | {"feedback_delay_global_delay_s": 0.05}
     sway = 0.002 * np.column_stack([np.sin(0.06 * np.arange(1500)), np.cos(0.04 * np.arange(1500))])
-    run = SimpleNamespace(time=0.02 * np.arange(1500), recorded=sway, simulated=0 * sway, lengths=[1500], pace=1.0)
+    inputs = dict.fromkeys(model.inputs, 0.0)
+    run = FreeRun(0.02 * np.arange(1500), sway, 0 * sway, np.ones(2), (1500,), mean_inputs=inputs)
     for force in latent_torques(SimpleNamespace(model=model, simulator=Simulator(model), values=values), run):
         assert np.abs(force.torque).max() < 5 and 0 < force.error.min() and force.error.max() < 5
 
