@@ -126,7 +126,8 @@ class Derived:
 
         Raises
         ------
-        ModelError : a control has no known motion, or an algebraic variable is no expression; `what` begins the words.
+        ModelError : the model cannot be used yet, a control has no known motion, or an algebraic variable is no
+            expression; `what` begins the words.
         """
         return variants.simulated(self._model, what)
 

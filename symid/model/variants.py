@@ -116,8 +116,10 @@ def simulated(model: Model, what: str) -> Model:
 
     Raises
     ------
-    ModelError : there are controls, in the words of `what` is asked for; or as for `explicit`.
+    ModelError : the model cannot be used yet, or there are controls, in the words of `what` is asked for; or as for
+        `explicit`.
     """
+    model.check(units=False)
     noises = {name: Noise(**_told(p)) for name, p in model.processes.items()}
     others = [name for name in model.controls if name not in noises]
     if others:

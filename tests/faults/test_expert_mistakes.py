@@ -149,6 +149,14 @@ def test_a_diagnosis_of_nothing_is_refused():
         si.diagnose(pendulum(), empty, fit_window=(0, 1), held_out=(1, 2))
 
 
+@pytest.mark.parametrize("asked", [lambda m: si.diagnose(m, RECORDING, fit_window=(0, 1)), si.identifiability])
+def test_a_model_that_cannot_be_used_is_refused_in_its_own_words(asked):
+    model = pendulum()
+    model.components["drive"] = replace(model.components["drive"], hold="held")
+    with pytest.raises(ModelError, match="the input 'drive' has hold='held'; known: 'smooth', "):
+        asked(model)
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [

@@ -61,7 +61,7 @@ def with_error_model(
     if not has_settled(found.fit, search.data):
         progress("with what was found the cutoff of the filter moves; looking again")
         with suppress(SymidError):
-            search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched)
+            search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched, anew=False)
     data, explained = with_memory(found.fit, search.data)
     more = _gain(data, explained, search.data, found.fit)
     if data is search.data or found.evidence(1.0) + more < search.flexible().evidence(1.0):
@@ -71,14 +71,19 @@ def with_error_model(
 
 
 def _again(
-    search: Search, found: Hypothesis, data: Data, explained: Fit, searched: Callable[[Fit, Data], Search]
+    search: Search,
+    found: Hypothesis,
+    data: Data,
+    explained: Fit,
+    searched: Callable[[Fit, Data], Search],
+    anew: bool = True,
 ) -> tuple[Search, Hypothesis, list[Hypothesis]]:
     """A search under the error model of `data`, and the better of what it finds and what was found before.
 
     Noise with a memory may take up so much of what is missing that a search which begins anew goes astray.
     """
     search = searched(_refitted(search.base, explained, data), data)
-    again, ranking = search.run()
+    again, ranking = search.run(anew)
     return search, search.better(again, Hypothesis(found.suspects, explained, search.base, data)), ranking
 
 

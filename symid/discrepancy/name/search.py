@@ -18,6 +18,7 @@ from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.measurement import has_settled
 from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
@@ -78,11 +79,14 @@ class Search:
         self.starts.clear()  # nothing asks for them again, and they hold many fits
         return found
 
-    def run(self) -> tuple[Hypothesis, list[Hypothesis]]:
+    def run(self, anew: bool = True) -> tuple[Hypothesis, list[Hypothesis]]:
         """The best hypothesis, and each suspect alone, best first.
 
         It ends early where with what was found, or instead of it, the inputs are likelier to do something else between
-        their samples, as they then do in the model of its fit: all else hangs on that.
+        their samples, as they then do in the model of its fit: all else hangs on that. And on the cutoff of a filter,
+        where that moves.
+
+        anew : whether a search can follow in which the cutoff has moved.
         """
         best, single = self.nothing, self.single
         while len(best.suspects) < POLICY.most_effects:
@@ -111,6 +115,8 @@ class Search:
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
             if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best):
                 break
+            if anew and not has_settled(best.fit, self.data):
+                return best, single
         return self._exchanged(best) if len(best.suspects) > 1 or not best.established else best, single
 
     def settled(self, found: Hypothesis) -> Hypothesis:
