@@ -72,3 +72,39 @@ def test_dry_friction_that_sets_in_over_twice_the_sharpest_width_is_no_stribeck_
     assert [str(e.name) for e in found.effects] == ["coulomb_friction"]
     value, error = found.effects[0].parameters["torque_Nm"]
     assert value == pytest.approx(DRY_Nm, abs=4 * error)
+
+
+def drive() -> tuple[si.Model, si.Recording]:
+    """A drive that a controller moves to and fro, with dry friction and a cable that pulls (as Janot et al. 2019)."""
+    m = si.Model("drive")
+    m.x, m.v, m.force = si.State(unit="m"), si.State(unit="m/s"), si.Input(unit="N", hold="zero")
+    m.mass = si.Parameter(unit="kg", bounds=(1, 1000))
+    m.viscous = si.Parameter(unit="N*s/m", bounds=(0, 1e4))
+    m.moves = si.Equation(m.x.dot - m.v)
+    m.balance = si.Equation(m.mass * m.v.dot + m.viscous * m.v - m.force)
+    m.encoder = si.Output(m.x, channel="position")
+    m.port = si.Port(position=m.x, rate=m.v, into={"balance": -1.0}, role="joint", at="slide")
+    step, inner = 0.004, 10
+    time = np.arange(0, 24, step)
+    wanted = 0.1 * np.sign(np.sin(2 * np.pi * time / 6)) * (0.5 + 0.5 * ((time // 6) % 4) / 3)
+    wanted = gaussian_filter1d(wanted, 0.25 / step)
+    x, v, moved, forces = 0.0, 0.0, [], []
+    for r, rate in zip(wanted, CubicSpline(time, wanted)(time, 1), strict=True):
+        moved.append(x)
+        forces.append(float(np.clip(3840 * (r - x) - 486 * (v - rate), -200, 200)))
+        for _ in range(inner):
+            middle = v + 0.5 * step / inner * (forces[-1] - 203 * v - 20.4 * np.tanh(v / 0.002) + 3.2) / 95
+            x += step / inner * middle
+            v += step / inner * (forces[-1] - 203 * middle - 20.4 * np.tanh(middle / 0.002) + 3.2) / 95
+    noisy = np.array(moved) + 4.71e-4 * np.random.default_rng(2).standard_normal(time.size)
+    return m, si.Recording("drive", time, {"force": forces, "position": noisy}, {"force": "N", "position": "m"})
+
+
+def test_dry_friction_is_tried_wherever_a_law_like_it_explains_more_than_it_promised():
+    """Beside a constant force the model's mass is wrong by a third, and the slope of dry friction promises little."""
+    model, recording = drive()
+    found = si.diagnose(model, recording, fit_window=(0, 16.8), held_out=(16.8, 24), driven=False, threads=1)
+    assert {e.name for e in found.effects} == {"constant_torque", "coulomb_friction"} and found.confirmed
+    values = {e.name: e.parameters["torque_Nm"][0] for e in found.effects}
+    assert values["constant_torque"] == pytest.approx(3.2, abs=0.01)
+    assert values["coulomb_friction"] == pytest.approx(20.4, abs=0.15)

@@ -78,12 +78,17 @@ def explore(
     others = {
         s[0].suspect: [t for t in s[1:] if t.forecast > KEPT * s[0].forecast and not t.afresh][:2] for s in starts
     }
+
+    def converging(begun: Sequence[Hypothesis]) -> list[Hypothesis]:
+        return in_threads(lambda c: _converge(fit, data, c, others[c.suspect], jumps), begun)
+
     good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
-    found = in_threads(lambda c: _converge(fit, data, c, others[c.suspect], jumps), good)
     rest = first[len(good) :]
+    found = converging(good)
+    found += converging(begun(_unseen(starts, [*first, *found])))
     near = max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near
     close = [c for c in rest if c.log_ratio > max(near, 0.0) and not c.fit.converged]
-    found += in_threads(lambda c: _converge(fit, data, c, others[c.suspect], jumps), close)
+    found += converging(close)
     return by_score(found + [c for c in rest if c not in close])
 
 
