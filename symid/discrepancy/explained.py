@@ -116,7 +116,8 @@ def _under(
 ) -> Explained:
     """The laws that explain a recording of which the audit is right."""
     task = replace(given, model=with_friction_speeds(given.model, pieces, checked.noise))
-    plain = Data(pieces, checked.noise, task.random, checked.rounding).thinned()
+    plain = Data(pieces, checked.noise, task.random, checked.rounding)
+    plain = plain.thinned() if checked.filter is None else plain  # undoing one needs all samples that it made
 
     def fits(task: Task, plain: Data, start: dict[str, float]) -> list[tuple[Data, Fit]]:
         window, c = (task.fit_window, task.segment_length), checked

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from conftest import pendulum, pendulum_recording
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import butter, filtfilt
 
@@ -89,3 +90,15 @@ def test_a_file_with_digits_after_a_filter_stays_filtered():
     recording = si.Recording("swing", time, {"angle": np.round(smooth, 5)}, {"angle": "rad"})
     found = audit(model, recording, segments_of(model, recording, recording.interval), None)
     assert found.filter.cutoff == pytest.approx(8.0, rel=0.15)
+
+
+def test_a_filter_is_undone_from_all_samples_that_it_made(monkeypatch):
+    """A fit of free motion takes one sample in several of so many; the noise of those is not what the filter left."""
+    monkeypatch.setattr("symid.estimation.signals.data.MOST_SAMPLES", 1500)
+    swing = pendulum_recording(duration=27, step=0.004)
+    noisy = swing["angle"] + 0.003 * np.random.default_rng(0).standard_normal(len(swing.time))
+    filtered = {**swing.channels, "angle": filtfilt(*butter(2, 0.25), noisy)}
+    recording = si.Recording("dense", swing.time, filtered, swing.units)
+    found = si.diagnose(pendulum(), recording, fit_window=(0, 18), held_out=(18, 27), driven=False, threads=1)
+    assert found.verdict == "adequate"
+    assert "The recording was low-pass filtered" in str(found) and "The noise is not white" not in str(found)
