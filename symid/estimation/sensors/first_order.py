@@ -17,7 +17,8 @@ from scipy.stats import chi2
 PER_OCTAVE = 4
 """Bands of an octave in which a spectrum is compared: a resonance of a damping ratio of 0.1 fills one."""
 UNLIKELY = 1e-3
-"""Probability below which chance does not explain the difference of two spectra: one right noise in a thousand."""
+"""Probability below which chance does not explain the difference of two spectra. Bands of one or two values have longer
+tails: of right noises half of a percent are refused (tests/estimation/test_first_order.py)."""
 TAPER = 0.2
 """Part of a segment over which it is faded in and out, so that its ends do not look like noise (Tukey 1967)."""
 MEMORIES, WHITE = (3.0, 10.0, 30.0), 0.2
