@@ -50,7 +50,7 @@ def test_one_channel_that_moves_is_enough_and_segments_are_taken_together():
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_noise_that_remembers_many_samples_is_no_missing_physics(seed):
-    """The parts of a millimetre that a fine sensor wanders, sampled so fast that each sample repeats the last."""
+    """A sensor that wanders, sampled so fast that each sample nearly repeats the last."""
     quiet = pendulum_recording(duration=40)
     wandering = remembering(np.random.default_rng(seed), len(quiet.time), 12)
     channels = {**quiet.channels, "angle": quiet["angle"] + 0.02 * quiet["angle"].std() * wandering}

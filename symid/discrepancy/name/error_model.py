@@ -60,8 +60,10 @@ def with_error_model(
         search, found, ranking = _again(search, found, search.data, found.fit, searched)
     if not has_settled(found.fit, search.data):
         progress("with what was found the cutoff of the filter moves; looking again")
-        with suppress(SymidError):
-            search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched, anew=False)
+        try:
+            search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched, to_end=True)
+        except SymidError:  # the cutoff stays where it was, and the search that ended there goes on
+            found, ranking = search.run(to_end=True)
     data, explained = with_memory(found.fit, search.data)
     more = _gain(data, explained, search.data, found.fit)
     if data is search.data or found.evidence(1.0) + more < search.flexible().evidence(1.0):
@@ -76,14 +78,14 @@ def _again(
     data: Data,
     explained: Fit,
     searched: Callable[[Fit, Data], Search],
-    anew: bool = True,
+    to_end: bool = False,
 ) -> tuple[Search, Hypothesis, list[Hypothesis]]:
     """A search under the error model of `data`, and the better of what it finds and what was found before.
 
     Noise with a memory may take up so much of what is missing that a search which begins anew goes astray.
     """
     search = searched(_refitted(search.base, explained, data), data)
-    again, ranking = search.run(anew)
+    again, ranking = search.run(to_end)
     return search, search.better(again, Hypothesis(found.suspects, explained, search.base, data)), ranking
 
 

@@ -79,14 +79,13 @@ class Search:
         self.starts.clear()  # nothing asks for them again, and they hold many fits
         return found
 
-    def run(self, anew: bool = True) -> tuple[Hypothesis, list[Hypothesis]]:
+    def run(self, to_end: bool = False) -> tuple[Hypothesis, list[Hypothesis]]:
         """The best hypothesis, and each suspect alone, best first.
 
         It ends early where with what was found, or instead of it, the inputs are likelier to do something else between
-        their samples, as they then do in the model of its fit: all else hangs on that. And on the cutoff of a filter,
-        where that moves.
+        their samples, as they then do in the model of its fit: all else hangs on that.
 
-        anew : whether a search can follow in which the cutoff has moved.
+        to_end : whether it goes on where the cutoff of a filter moves with what was found. All else hangs on that, too.
         """
         best, single = self.nothing, self.single
         while len(best.suspects) < POLICY.most_effects:
@@ -115,7 +114,7 @@ class Search:
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
             if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best):
                 break
-            if anew and not has_settled(best.fit, self.data):
+            if not to_end and not has_settled(best.fit, self.data):
                 return best, single
         return self._exchanged(best) if len(best.suspects) > 1 or not best.established else best, single
 

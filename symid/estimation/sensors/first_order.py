@@ -47,7 +47,7 @@ def _chance(series: Sequence[np.ndarray]) -> float:
     band = np.floor(PER_OCTAVE * np.log2(f / f.min()))
     means = [(np.sum(band == b), np.mean(ratio[band == b])) for b in np.unique(band)]
     deviance = sum(2 * n * (m - 1 - np.log(m)) for n, m in means)
-    return float(chi2.sf(deviance, len(means) - 3))
+    return float(chi2.sf(deviance, len(means) - 3))  # memory, white part and scale were fitted
 
 
 def _fitted(f: np.ndarray, power: np.ndarray) -> np.ndarray:
