@@ -2,7 +2,8 @@
  * Compiled once after symid/codegen/ode.h; the model is a table of generated functions.
  * Sensitivities S = dx/dq obey M S' = -(r_x S + r_late S_late + r_p); q = chosen parameters,
  * then chosen initial states. Runge-Kutta 4 carries its own dense output (Hairer, Norsett &
- * Wanner 1993, II.6) for the delayed signals. */
+ * Wanner 1993, II.6) for the delayed signals. Stiff steps are those of ROS2 (Verwer, Spee, Blom & Hundsdorfer
+ * 1999, eq. 1.3 and 1.4): of order 2 with any matrix, so that S may have the same one as x. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +14,16 @@
 #define NY (v->m->ny)
 #define NXX NX
 #define NON(n) ((n) > 0 ? (n) : 1)
+#define EULER 1
+#define STIFF 2
+/* Decays together faster than this in a step are stiff: the explicit method follows 2.785. */
+#define FAST 2.0
+/* Of ROS2, 1 - 1/sqrt(2): what is infinitely stiff is gone after one step. */
+#define GAMMA 0.29289321881345248
+/* Where what decays changes more than this within a step the method of order 2 would overshoot. */
+#define EVEN 0.5
+/* At most so many has a step within which something stiff sets in. */
+#define PIECES 64
 /* Rows of sensitivities are padded with zeros to whole vectors of the processor, so that no loop has a remainder. */
 #define WIDE 4
 #define PADDED(n) (((n) + WIDE - 1) / WIDE * WIDE)
@@ -38,6 +49,8 @@ typedef struct {
     double tk, *ak, *sak;                /* rate of change of x' in the last step, and of S' */
     double *xk, *k1, *sk, *sk1; /* start of the present step */
     int inside;                         /* k1 of the present step is known */
+    double *x, *S, *xs, *Sx;            /* the state and its sensitivities, now and within a step */
+    double *rate[4], *Rate[4], *lS, *A; /* of the stages, of S there; of late signals; derivative of the rates by x */
 } Work;
 
 static void add(double a, const double *restrict x, double *restrict y, long padded)
@@ -224,7 +237,9 @@ static void late_at(Work *v, double t, long k, const double *x, const double *S,
     }
 }
 
-static int rates(Work *v, double t, long k, const double *x, const double *S, double *xd, double *Sd, double *lS)
+/* Rates of x and S; and their derivative A by x, in padded rows, unless that is null. 1 where M is singular. */
+static int rates(Work *v, double t, long k, const double *x, const double *S, double *xd, double *Sd, double *lS,
+                 double *A)
 {
     const Run *r = &v->r;
     long nq = v->nq;
@@ -237,9 +252,15 @@ static int rates(Work *v, double t, long k, const double *x, const double *S, do
     int pivot[NXX];
     for (int i = 0; i < NX; i++) xd[i] = -xd[i];
     if (factor(NX, M, pivot, xd)) return 1;
-    if (!nq) return 0;
+    if (!nq && !A) return 0;
     double dx[NON(m->rx.count)], dl[NON(m->rl.count)], dp[NON(m->rp.count)], dw[NON(m->rw.count)];
     m->slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dw);
+    if (A) {
+        memset(A, 0, NX * PADDED(NX) * sizeof(double));
+        for (int i = 0; i < m->rx.count; i++) A[m->rx.row[i]*PADDED(NX) + m->rx.col[i]] -= dx[i];
+        solve(NX, M, pivot, A, PADDED(NX));
+    }
+    if (!nq) return 0;
     memset(Sd, 0, NX * nq * sizeof(double));
     chain(-1, &m->rx, dx, S, Sd, nq);
     chain(-1, &m->rl, dl, lS, Sd, nq);
@@ -306,6 +327,104 @@ static void correct_past(Work *v, double now, double interval, const double *e, 
     }
 }
 
+/* What decays, less what grows, in a second: the trace of A has the sum of all eigenvalues, in whatever units. */
+static double decay(int n, const double *A)
+{
+    double trace = 0;
+    for (int i = 0; i < n; i++) trace += A[i*PADDED(n)+i];
+    return -trace;
+}
+
+/* A straight step at the first rates. */
+static int euler_step(Work *v, double h)
+{
+    long big = NX * v->nq;
+    const double *k1 = v->rate[0], *K1 = v->Rate[0];
+    memcpy(v->rate[3], k1, NX * sizeof(double)); memcpy(v->Rate[3], K1, big * sizeof(double));
+    for (int i = 0; i < NX; i++) { v->rate[1][i] = 2*k1[i]; v->x[i] += h*k1[i]; }
+    for (long i = 0; i < big; i++) { v->Rate[1][i] = 2*K1[i]; v->S[i] += h*K1[i]; }
+    return 0;
+}
+
+/* One step of ROS2 from x and S, whose rates are known. Its stages become those of a straight line to its end. */
+static int implicit_step(Work *v, double t, double h, long k)
+{
+    long nq = v->nq, big = NX*nq;
+    double W[NXX*NXX], d[NXX*WIDE], A[NXX*PADDED(NX)], *k1 = v->rate[0], *k2 = v->rate[1], *g = v->rate[2];
+    double *K1 = v->Rate[0], *K2 = v->Rate[1], *G = v->Rate[2];
+    int pivot[NXX];
+    memset(d, 0, sizeof(d));
+    for (int i = 0; i < NX; i++)
+        for (int j = 0; j < NX; j++) W[i*NX+j] = (i == j) - GAMMA * h * v->A[i*PADDED(NX)+j];
+    /* What the rates change by where all but x goes on, and all but S: else the answer to an input would be late. */
+    if (rates(v, t + h, k, v->x, v->S, g, G, v->lS, 0)) return 1;
+    for (int i = 0; i < NX; i++) { g[i] = GAMMA * (g[i] - k1[i]); k1[i] += g[i]; }
+    if (factor(NX, W, pivot, k1)) return 1;
+    for (int i = 0; i < NX; i++) v->xs[i] = v->x[i] + h*k1[i];
+    if (nq && rates(v, t + h, k, v->xs, v->S, k2, G, v->lS, 0)) return 1;
+    for (long i = 0; i < big; i++) { G[i] = GAMMA * (G[i] - K1[i]); K1[i] += G[i]; }
+    solve(NX, W, pivot, K1, nq);
+    for (long i = 0; i < big; i++) v->Sx[i] = v->S[i] + h*K1[i];
+    if (rates(v, t + h, k, v->xs, v->Sx, k2, K2, v->lS, A)) return 1;
+    double before = decay(NX, v->A), after = decay(NX, A);
+    if (!(after > EVEN * before && before > EVEN * after)) return euler_step(v, h);
+    for (int i = 0; i < NX; i++) d[i*WIDE] = k2[i] - 2*k1[i] - g[i];
+    for (long i = 0; i < big; i++) K2[i] -= 2*K1[i] + G[i];
+    solve(NX, W, pivot, d, WIDE);
+    solve(NX, W, pivot, K2, nq);
+    for (int i = 0; i < NX; i++) k1[i] = 1.5*k1[i] + 0.5*d[i*WIDE];
+    for (long i = 0; i < big; i++) K1[i] = 1.5*K1[i] + 0.5*K2[i];
+    return euler_step(v, h);
+}
+
+/* One step of Runge-Kutta 4 likewise. Where `fast` is asked for it is the decay in the stiffest stage, and A that of
+ * its rates. */
+static int explicit_step(Work *v, double t, double h, long k, double *fast)
+{
+    long big = NX * v->nq;
+    double A[NXX*PADDED(NX)];
+    const double part[3] = {0.5, 0.5, 1.0};
+    for (int s = 0; s < 3; s++) {
+        const double *d = v->rate[s], *D = v->Rate[s], a = part[s] * h;
+        for (int i = 0; i < NX; i++) v->xs[i] = v->x[i] + a*d[i];
+        for (long i = 0; i < big; i++) v->Sx[i] = v->S[i] + a*D[i];
+        if (rates(v, t + a, k, v->xs, v->Sx, v->rate[s+1], v->Rate[s+1], v->lS, fast ? A : 0)) return 1;
+        if (fast && decay(NX, A) > *fast) {
+            *fast = decay(NX, A);
+            memcpy(v->A, A, sizeof(A));
+        }
+    }
+    double *k1 = v->rate[0], *k2 = v->rate[1], *k3 = v->rate[2], *k4 = v->rate[3];
+    double *K1 = v->Rate[0], *K2 = v->Rate[1], *K3 = v->Rate[2], *K4 = v->Rate[3];
+    for (int i = 0; i < NX; i++) { k2[i] += k3[i]; v->x[i] += h/6 * (k1[i] + 2*k2[i] + k4[i]); }
+    for (long i = 0; i < big; i++) { K2[i] += K3[i]; v->S[i] += h/6 * (K1[i] + 2*K2[i] + K4[i]); }
+    return 0;
+}
+
+/* One step from x and S, and its stages; 1 where a mass matrix is singular. */
+static int step(Work *v, double t, double h, long k, int whole)
+{
+    long big = NX * v->nq;
+    int stiff = v->r.method == STIFF;
+    v->inside = 0;
+    v->tk = t;
+    memcpy(v->xk, v->x, NX * sizeof(double)); memcpy(v->sk, v->S, big * sizeof(double));
+    if (rates(v, t, k, v->x, v->S, v->rate[0], v->Rate[0], v->lS, stiff ? v->A : 0)) return 1;
+    memcpy(v->k1, v->rate[0], NX * sizeof(double)); memcpy(v->sk1, v->Rate[0], big * sizeof(double));
+    v->inside = 1;
+    if (v->r.method == EULER) return euler_step(v, h);
+    if (stiff && decay(NX, v->A) * h > FAST) return implicit_step(v, t, h, k);
+    double fast = 0;
+    if (explicit_step(v, t, h, k, stiff ? &fast : 0)) return 1;
+    if (fast * h <= FAST) return 0;
+    /* Something sets in within the step, as dry friction does where it comes to stick. */
+    memcpy(v->x, v->xk, NX * sizeof(double)); memcpy(v->S, v->sk, big * sizeof(double));
+    if (!whole) return implicit_step(v, t, h, k);
+    long pieces = (long)fmin(ceil(fast * h / FAST), PIECES);
+    for (long i = 0; i < pieces; i++) if (step(v, t + i * h / pieces, h / pieces, k, 0)) return 1;
+    return 0;
+}
+
 /* Rows of sensitivities without their padding. */
 static void shown(double *out, const double *S, long rows, long nq, long padded)
 {
@@ -327,15 +446,18 @@ long simulate(const Ode *model, const Run *given)
     for (long k = 0; k < r->nqp; k++) column[r->qp[k]] = (int)k;
     v->column = column;
     long nsteps = keep ? (r->N - 1) * m + 1 : 0;
-    double *space = calloc(14 * big + 2 * NON(NL) * nq + NON(NY) * nq + 64, sizeof(double));
-    double *S = space, *Sx = S + big, *K1 = Sx + big, *K2 = K1 + big, *K3 = K2 + big, *K4 = K3 + big;
-    double *lS, x[NXX], xs[NXX], k1[NXX], k2[NXX], k3[NXX], k4[NXX], y[NON(NY)], *Sy;
-    double xk[NXX], first[NXX], ak[NXX], lag[NON(NL)];
+    double *space = calloc(9 * big + 2 * NON(NL) * nq + NON(NY) * nq + 64, sizeof(double));
+    double x[NXX], xs[NXX], rate[4*NXX], y[NON(NY)], xk[NXX], first[NXX], ak[NXX], lag[NON(NL)], A[NXX*PADDED(NX)];
     long hint[NON(NL)];
     memset(ak, 0, NX * sizeof(double)); memset(first, 0, NX * sizeof(double)); memset(hint, 0, NON(NL) * sizeof(long));
-    v->xk = xk; v->k1 = first; v->ak = ak; v->lag = lag; v->hint = hint;
-    v->sk = K4 + big; v->sk1 = v->sk + big; v->sak = v->sk1 + big;
-    v->dlag = v->sak + big; lS = v->dlag + NON(NL)*nq; Sy = lS + NON(NL)*nq;
+    memset(rate, 0, NX * sizeof(double));
+    v->xk = xk; v->k1 = first; v->ak = ak; v->lag = lag; v->hint = hint; v->x = x; v->xs = xs; v->A = A;
+    double *S = v->S = space, *room = S + big;
+    v->Sx = room; room += big;
+    for (int s = 0; s < 4; s++) { v->rate[s] = rate + s*NX; v->Rate[s] = room; room += big; }
+    v->sk = room; v->sk1 = room + big; v->sak = room + 2*big; v->dlag = room + 3*big;
+    double *lS = v->lS = v->dlag + NON(NL)*nq, *Sy = lS + NON(NL)*nq;
+    double *k1 = v->rate[0], *k2 = v->rate[1], *k4 = v->rate[3], *K1 = v->Rate[0], *K2 = v->Rate[1], *K4 = v->Rate[3];
     if (keep) {
         v->when = malloc(2 * nsteps * sizeof(double));
         v->span = v->when + nsteps;
@@ -359,7 +481,7 @@ long simulate(const Ode *model, const Run *given)
         if (!healthy(NX, x, r->limit)) break;
         if (v->m->outputs_need_rates) {
             v->inside = 0;
-            if (rates(v, r->t[k], interval, x, S, k1, K1, lS)) break;
+            if (rates(v, r->t[k], interval, x, S, k1, K1, lS, 0)) break;
         }
         observe_at(v, r->t[k], k, k1, K1, x, S, y, Sy, lS);
         if (r->X) memcpy(r->X + k*NX, x, NX * sizeof(double));
@@ -383,29 +505,7 @@ long simulate(const Ode *model, const Run *given)
         double h = (r->t[k+1] - r->t[k]) / m;
         for (long s = 0; s < m; s++) {
             double t = r->t[k] + s * h;
-            v->inside = 0;
-            v->tk = t;
-            memcpy(v->xk, x, NX * sizeof(double)); memcpy(v->sk, S, big * sizeof(double));
-            if (rates(v, t, k, x, S, k1, K1, lS)) goto end;
-            memcpy(v->k1, k1, NX * sizeof(double)); memcpy(v->sk1, K1, big * sizeof(double));
-            v->inside = 1;
-            if (r->method) {
-                memcpy(k4, k1, NX * sizeof(double)); memcpy(K4, K1, big * sizeof(double));
-                for (int i = 0; i < NX; i++) { k2[i] = 2*k1[i]; x[i] += h*k1[i]; }
-                for (long i = 0; i < big; i++) { K2[i] = 2*K1[i]; S[i] += h*K1[i]; }
-            } else {
-                for (int i = 0; i < NX; i++) xs[i] = x[i] + 0.5*h*k1[i];
-                for (long i = 0; i < big; i++) Sx[i] = S[i] + 0.5*h*K1[i];
-                if (rates(v, t + 0.5*h, k, xs, Sx, k2, K2, lS)) goto end;
-                for (int i = 0; i < NX; i++) xs[i] = x[i] + 0.5*h*k2[i];
-                for (long i = 0; i < big; i++) Sx[i] = S[i] + 0.5*h*K2[i];
-                if (rates(v, t + 0.5*h, k, xs, Sx, k3, K3, lS)) goto end;
-                for (int i = 0; i < NX; i++) { xs[i] = x[i] + h*k3[i]; k2[i] += k3[i]; }
-                for (long i = 0; i < big; i++) { Sx[i] = S[i] + h*K3[i]; K2[i] += K3[i]; }
-                if (rates(v, t + h, k, xs, Sx, k4, K4, lS)) goto end;
-                for (int i = 0; i < NX; i++) x[i] += h/6 * (k1[i] + 2*k2[i] + k4[i]);
-                for (long i = 0; i < big; i++) S[i] += h/6 * (K1[i] + 2*K2[i] + K4[i]);
-            }
+            if (step(v, t, h, k, !keep)) goto end;
             if (keep) {
                 long n = v->steps;
                 double *P = v->poly + n*4*NX, *Q = v->spoly + n*4*big;

@@ -12,6 +12,11 @@ from symid.codegen.ode import OdeSource
 from symid.simulation.past import Past, Step
 from symid.simulation.run import METHODS, Run
 
+FAST, GAMMA, EVEN, PIECES = 2.0, 1 - 2**-0.5, 0.5, 64
+"""Of stiff steps, as in `loop.c`."""
+Rates = tuple[np.ndarray, np.ndarray]
+"""(n,) of the state and (n, nq) of its sensitivities."""
+
 
 class PythonLoop:
     """`simulate` and `linearise` of one model, as `CompiledLoop` has them."""
@@ -122,7 +127,7 @@ class _Simulation:
         return (np.zeros(len(y)) if run.recorded is None else run.recorded[k] - y), Sy
 
     def _rates(self, t: float, k: int, x: np.ndarray, S: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-        """x' and S', None where the mass matrix is singular."""
+        """Rates of x and S, None where the mass matrix is singular."""
         run, n = self.run, len(x)
         u, _ = self.past.inputs_at(t, k)
         late, lS = self.past.late_at(t, k, x, S)
@@ -150,28 +155,78 @@ class _Simulation:
         if self.run.npast:
             self.past.correct(self.run.t[k], self.run.t[k + 1] - self.run.t[k], e, Sy)
 
-    def _step(self, t: float, h: float, k: int) -> bool:
-        """One step of the integrator from t; False where the mass matrix is singular."""
+    def _step(self, t: float, h: float, k: int, whole: bool = True) -> bool:
+        """One step of the integrator from t; False where a matrix is singular."""
         x, S, past = self.x, self.S, self.past
         past.begin(t, x, S)
-        first = self._rates(t, k, x, S)
-        if first is None:
+        found = self._rates(t, k, x, S)
+        if found is None:
             return False
-        past.inside(*first)
-        stages = [first]
-        if self.run.method == METHODS["euler"]:
-            middle, last = (2 * first[0], 2 * first[1]), first
-            self.x, self.S = x + h * first[0], S + h * first[1]
-        else:
-            for part in (0.5, 0.5, 1.0):
-                d, D = stages[-1]
-                found = self._rates(t + part * h, k, x + part * h * d, S + part * h * D)
-                if found is None:
-                    return False
-                stages.append(found)
-            middle = stages[1][0] + stages[2][0], stages[1][1] + stages[2][1]
-            last = stages[3]
-            self.x = x + h / 6 * (first[0] + 2 * middle[0] + last[0])
-            self.S = S + h / 6 * (first[1] + 2 * middle[1] + last[1])
+        past.inside(*found)
+        try:
+            stages = self._stages(t, h, k, found, whole)
+        except np.linalg.LinAlgError:
+            return False
+        if stages is None:
+            return all(self._step(t + i * h / self.pieces, h / self.pieces, k, False) for i in range(self.pieces))
+        first, middle, last = stages
+        self.x = x + h / 6 * (first[0] + 2 * middle[0] + last[0])
+        self.S = S + h / 6 * (first[1] + 2 * middle[1] + last[1])
         past.end(Step(t, h, [x, first[0], middle[0], last[0]], [S, first[1], middle[1], last[1]]))
         return True
+
+    def _stages(self, t: float, h: float, k: int, first: Rates, whole: bool) -> tuple[Rates, Rates, Rates] | None:
+        """Rates at the start, twice those in the middle, and at the end; None where the step is made in pieces."""
+        method = self.run.method
+        if method == METHODS["euler"]:
+            return _straight(first)
+        A = self._derivative(t, k, self.x, self.S, first) if method == METHODS["stiff"] else None
+        if A is not None and -np.trace(A) * h > FAST:
+            return _straight(self._implicit(t, h, k, A, first))
+        stages, fast = [first], A
+        for part in (0.5, 0.5, 1.0):
+            x, S = self.x + part * h * stages[-1][0], self.S + part * h * stages[-1][1]
+            stages.append(self._found(t + part * h, k, x, S))
+            if A is not None:
+                fast = min(fast, self._derivative(t + part * h, k, x, S, stages[-1]), key=np.trace)
+        if A is not None and -np.trace(fast) * h > FAST:
+            if not whole or len(self.loop.source.late):
+                return _straight(self._implicit(t, h, k, fast, first))
+            self.pieces = int(min(np.ceil(-np.trace(fast) * h / FAST), PIECES))
+            return None
+        return first, (stages[1][0] + stages[2][0], stages[1][1] + stages[2][1]), stages[3]
+
+    def _found(self, t: float, k: int, x: np.ndarray, S: np.ndarray) -> Rates:
+        """`_rates`; LinAlgError where the mass matrix is singular."""
+        found = self._rates(t, k, x, S)
+        if found is None:
+            raise np.linalg.LinAlgError
+        return found
+
+    def _derivative(self, t: float, k: int, x: np.ndarray, S: np.ndarray, rates: Rates) -> np.ndarray:
+        """(n, n) of the rates by the state."""
+        u, _ = self.past.inputs_at(t, k)
+        late, _ = self.past.late_at(t, k, x, S)
+        call = (rates[0], x, late, u, self.run.w[k], self.run.p, self.run.c, t)
+        M, _ = self.functions["mass"](*call)
+        return -np.linalg.solve(M.reshape(len(x), len(x)), self.loop.slopes("slopes", call)["x"])
+
+    def _implicit(self, t: float, h: float, k: int, A: np.ndarray, first: Rates) -> Rates:
+        """Mean rates of one step of ROS2, or of the linearly implicit Euler method where its matrix changes much."""
+        W = np.linalg.inv(np.eye(len(A)) - GAMMA * h * A)
+        g = GAMMA * (self._found(t + h, k, self.x, self.S)[0] - first[0])
+        d = W @ (first[0] + g)
+        x = self.x + h * d
+        G = GAMMA * (self._found(t + h, k, x, self.S)[1] - first[1])
+        D = W @ (first[1] + G)
+        S = self.S + h * D
+        found = self._found(t + h, k, x, S)
+        before, after = -np.trace(A), -np.trace(self._derivative(t + h, k, x, S, found))
+        if not (after > EVEN * before and before > EVEN * after):
+            return d, D
+        return 1.5 * d + 0.5 * W @ (found[0] - 2 * d - g), 1.5 * D + 0.5 * W @ (found[1] - 2 * D - G)
+
+
+def _straight(rates: Rates) -> tuple[Rates, Rates, Rates]:
+    """The stages of a step along a straight line."""
+    return rates, (2 * rates[0], 2 * rates[1]), rates

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-METHODS = {"rk4": 0, "euler": 1}
+METHODS = {"rk4": 0, "euler": 1, "stiff": 2}
 
 
 @dataclass(eq=False)

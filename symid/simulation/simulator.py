@@ -81,7 +81,8 @@ class Simulator:
         initial_state : likewise for the states at ``time[0]``.
         time : (N,) increasing [s]; inputs and noise : name -> (N,), noise of an interval at its start.
         sensitivity, initial_sensitivity : parameters and states (initial values) to differentiate by.
-        substeps : steps of the integrator per sample interval. method : ``"rk4"`` or ``"euler"``.
+        substeps : steps of the integrator per sample interval. method : ``"rk4"``, ``"euler"``, or ``"stiff"``: as
+            ``"rk4"``, but steps in which something dies out faster than that can follow are implicit, of order 2.
         history : (K,) times before ``time[0]`` and (K, n) states, for delayed signals; without it
             the initial state held before the start.
         gain, recorded : (n, m) and (N, m): after each sample the state is moved by

@@ -119,6 +119,6 @@ def test_a_small_difference_grows_as_the_motion_falls():
     m.fall = si.Equation(m.x.dot - m.x)
     m.place = si.Output(m.x)
     time = np.arange(0, 2.005, 0.01)
-    fit = SimpleNamespace(simulator=simulator(m), values={}, substeps=1)
+    fit = SimpleNamespace(simulator=simulator(m), values={}, steps={})
     found = growth(fit, Segment(time, np.exp(time)[:, None], {}), np.array([1.0]), 0.5, np.array([1e-3]))
     assert found == pytest.approx(np.exp(2.0), rel=0.05)

@@ -49,9 +49,9 @@ def force_responses(projection: Projection, port: Port, forces: np.ndarray) -> n
                 fit.values | {SIZE: 0.0},
                 x0,
                 padded(fit.kalman_gain, sim),
-                substeps=projection.substeps,
                 sensitivity=[SIZE],
                 keep="outputs",
+                **projection.steps,
             )
             if run.diverged:
                 return None

@@ -36,7 +36,7 @@ class Projection:
         self.bases: list[np.ndarray] = []
         self.scans: list[Callable[[np.ndarray], np.ndarray]] = []
         fitter = Fitter.of(fit, data, known)
-        self.substeps = fitter.substeps
+        self.steps = fitter.steps
         runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.kalman_gain, sensitivities=True)
         self.outputs = len(data.sensor_noise)
         q, n = len(fitter.free), fit.initial.shape[1]
@@ -97,7 +97,7 @@ class Projection:
                 continue
             p = self.fit.values | suspect.named(values | own)
             t = e.simulate(
-                sim, p, x0, padded(self.fit.kalman_gain, sim), substeps=self.substeps, sensitivity=names, keep="outputs"
+                sim, p, x0, padded(self.fit.kalman_gain, sim), sensitivity=names, keep="outputs", **self.steps
             )
             if t.diverged:
                 return None

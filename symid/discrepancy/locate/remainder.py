@@ -112,9 +112,9 @@ def _columns(projection: Projection, sim: Simulator, term: Term) -> np.ndarray |
             values,
             x0,
             padded(projection.fit.kalman_gain, sim),
-            substeps=projection.substeps,
             sensitivity=names,
             keep="outputs",
+            **projection.steps,
         )
         if t.diverged:
             return None

@@ -105,9 +105,10 @@ def _ratio(suspect: Suspect, found: Hypothesis, share: float) -> float:
     """Log-likelihood ratio of one effect to nothing, by its standard errors.
 
     For a moment or a frequency it is what is lost without the effect: a short push with a high peak and a longer one
-    with a lower peak are alike, so that its peak is uncertain where the push is certain.
+    with a lower peak are alike, so that its peak is uncertain where the push is certain. So are the many unknowns of a
+    flexible law.
     """
-    if suspect.scanned is None:
+    if suspect.scanned is None and suspect.established:
         return _certainty(suspect, found.fit) ** 2 / share
     rest = [s for s in found.suspects if s is not suspect]
     less = hypothesis(rest, found.fit, found.base, found.data) if rest else None

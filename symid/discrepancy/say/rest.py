@@ -20,6 +20,8 @@ from symid.units import quantity, reduced, same_dimension
 NOUNS = {"N*m": "torque", "N": "force", **dict.fromkeys(("m/s^2", "rad/s^2", "1/s^2"), "acceleration")}
 AMOUNTS = ("m^3", "cm^3", "L", "mL", "kg", "g", "mol", "mmol")
 """What flows where a unit is one of these over a time."""
+LARGEST = 0.99
+"""Part of the samples below whose force the rest is told: the few above may answer to a start that is far off."""
 ORDER = ("first", "middle", "last")
 UNEVEN = 1.5
 """A part of the motion where the force is so many times what it is elsewhere is named."""
@@ -90,11 +92,13 @@ def _force(rest: Rest) -> str:
     what, unit = noun(rest.port.unit), rest.port.unit
     names = list(dict.fromkeys(signal_name(rest.model, rest.port, s) for s in rest.signals))
     follows = names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
-    largest = float(np.quantile(np.abs(rest.force), 0.99))
+    size = np.abs(rest.force)
+    largest = float(np.quantile(size, LARGEST))
+    usual = float(np.sqrt(np.mean(size[size <= largest] ** 2)))
     article = "an" if what == "acceleration" else "a"
     return (
         f"What no established law explains is like {article} {what} at {place_name(rest.port.at)} of "
-        f"{quantity(rest.whole.rms, unit=unit)} (rms; up to {quantity(largest, unit=unit)}) that follows the {follows}."
+        f"{quantity(usual, unit=unit)} (rms; up to {quantity(largest, unit=unit)}) that follows the {follows}."
     )
 
 

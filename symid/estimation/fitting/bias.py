@@ -75,6 +75,7 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
             {k: np.interp(time, fine, u) for k, u in e.inputs.items()},
             noise=noise,
             substeps=-(-fitter.substeps // holds),
+            method=fitter.method,
             keep="outputs",
         )
         if run.diverged:

@@ -57,10 +57,10 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -
 def _grow(model: Model, data: Data, values: dict[str, float], initial: np.ndarray, all_known: bool) -> Fit:
     """Begin with the states alone; parameters that are known so far keep their values until the whole is fitted."""
     longest, length = max(len(e.time) for e in data.segments), FIRST * data.pace / data.segments[0].step
-    fixed = tuple(model.parameters)
+    fixed, fit = tuple(model.parameters), None
     while True:
         rows = int(min(longest, max(FEWEST, length)))
-        fit = _fit_heads(model, data, values, initial, rows, fixed)
+        fit = _fit_heads(model, data, values, initial, rows, fixed, fit)
         values, initial = fit.values, fit.initial
         if rows == longest and not fixed:
             return fit
@@ -85,9 +85,11 @@ def _begun(model: Model, data: Data, start: Mapping[str, float]) -> tuple[dict[s
     return values, np.array([observed_state(model, e.recorded[0], start) for e in data.segments])
 
 
-def _fit_heads(model: Model, data: Data, values, initial: np.ndarray, rows: int, fixed: tuple[str, ...]) -> Fit:
+def _fit_heads(
+    model: Model, data: Data, values, initial: np.ndarray, rows: int, fixed: tuple[str, ...], before: Fit | None = None
+) -> Fit:
     head = data.with_segments(e.head(rows) for e in data.segments)
-    return Fitter(model, head, fixed).fit(values, initial, np.zeros(len(model.noises)))
+    return Fitter(model, head, fixed, before).fit(values, initial, np.zeros(len(model.noises)))
 
 
 def _first(parameter) -> float:

@@ -26,6 +26,8 @@ SEEN, MOST_SUBSTEPS = 3.0, 32
 """What the integrator may cost of twice the log-likelihood; its steps are halved until then. A systematic error that
 the likelihood sees looks like physics. The error of every step stays in a shaft that turns freely, and the corners of
 dry friction make it large."""
+STIFF = "stiff"
+"""Method of the integrator."""
 PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
 SHARPEST = 4.0
@@ -48,7 +50,7 @@ class Fit:
     kalman_gain : (n, m) or None. innovations : per segment (N, m), recorded minus predicted.
     whitening : makes the innovations white. loglik2 : twice the log-likelihood.
     errors : parameter -> standard error, zero for what was held; empty where not asked for.
-    substeps : of the integrator in each sample. bounded : whether growth without end had to be kept away.
+    substeps, method : of the integrator in each sample. bounded : whether growth without end had to be kept away.
     """
 
     model: Model
@@ -64,10 +66,16 @@ class Fit:
     converged: bool = False
     substeps: int = 1
     bounded: bool = False
+    method: str = "rk4"
 
     @property
     def simulator(self) -> Simulator:
         return simulator(self.model)
+
+    @property
+    def steps(self) -> dict:
+        """How the integrator steps, as `Simulator.simulate` takes it."""
+        return {"substeps": self.substeps, "method": self.method}
 
     @property
     def covariance(self) -> np.ndarray:
@@ -108,7 +116,7 @@ class Fitter(Predictor):
     """
 
     def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), near: Fit | None = None, tune: bool = True):
-        super().__init__(model, data, fixed, near.substeps if near else 1)
+        super().__init__(model, data, fixed, **(near.steps if near else {}))
         self.bounds = np.array([model.parameters[p].bounds for p in self.sim.parameters], dtype=float).reshape(-1, 2)
         ratios = len(data.sensor_noise) - 1 if self.driven and data.ratios_free else 0
         tuned = [*range(self.noises)] if self.driven else []
@@ -134,8 +142,7 @@ class Fitter(Predictor):
         self.bounded = self.driven and self.near is not None and self.near.bounded
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
-        while self.substeps < MOST_SUBSTEPS and self._too_coarse(at):
-            self.substeps *= 2
+        while self._refined(at.p, at.x0, at.kalman_gain, at.process):
             at.value = self.evaluate(at.p, at.x0, at.kalman_gain, at.process) - self._growth_penalty(at.p, at.path)
             k, converged = self._descend(at, iterations, tolerance)
         if self.driven and not self.bounded and runs_away(self, at.p, at.x0):
@@ -164,16 +171,28 @@ class Fitter(Predictor):
                 break
         return k, converged
 
-    def _too_coarse(self, at: _Point) -> bool:
-        """Whether steps half as long change the motion by more than the likelihood would leave unseen."""
-        coarse = self.run(at.p, at.x0, at.kalman_gain, False, process=at.process)
-        self.substeps *= 2
-        fine = self.run(at.p, at.x0, at.kalman_gain, False, process=at.process)
-        self.substeps //= 2
-        if coarse is None or fine is None:
+    def _refined(self, p, x0, gain, process) -> bool:
+        """Change to stiff steps where one is stiff, else to ones half as long where the likelihood sees the difference.
+
+        Explicit steps may follow what is stiff, as dry friction where it comes to stick, and their slopes be far off.
+        """
+        now, steps = self.run(p, x0, gain, False, process=process), self.steps
+        if self.method != STIFF:
+            self.method = STIFF
+            other = self.run(p, x0, gain, False, process=process)
+            if other and not (now and all(np.array_equal(a.y, b.y) for a, b in zip(now, other, strict=True))):
+                return True
+            self.method = steps["method"]
+        if now is None or self.substeps >= MOST_SUBSTEPS:
             return False
-        left = np.vstack(self.innovations(coarse, at.process))
-        return seen(np.vstack([a.y - b.y for a, b in zip(coarse, fine, strict=True)]), left)
+        self.substeps *= 2
+        fine = self.run(p, x0, gain, False, process=process)
+        if fine and seen(
+            np.vstack([a.y - b.y for a, b in zip(now, fine, strict=True)]), np.vstack(self.innovations(now, process))
+        ):
+            return True
+        self.substeps = steps["substeps"]
+        return False
 
     def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
         """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).
@@ -213,6 +232,9 @@ class Fitter(Predictor):
         value = self.evaluate(p, x0, gain, process)
         if not np.isfinite(value) and known is not None:
             gain, value = known, self.evaluate(p, x0, known, process)
+        if not np.isfinite(value) and self._refined(p, x0, gain, process):
+            path = self.path(p, x0, gain)
+            value = self.evaluate(p, x0, gain, process)
         if not np.isfinite(value):
             raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
         return _Point(p, x0, process, gain, path, value - self._growth_penalty(p, path))
@@ -280,4 +302,5 @@ class Fitter(Predictor):
             converged,
             self.substeps,
             self.bounded,
+            self.method,
         )

@@ -13,7 +13,7 @@ def fitted_path(fit: Fit, data: Data) -> np.ndarray:
     sim = fit.simulator
     return np.vstack(
         [
-            e.simulate(sim, fit.values, x0, fit.kalman_gain, substeps=fit.substeps).x
+            e.simulate(sim, fit.values, x0, fit.kalman_gain, **fit.steps).x
             for e, x0 in zip(data.segments, fit.initial, strict=True)
         ]
     )

@@ -32,7 +32,7 @@ class Predictor:
     Parameters
     ----------
     fixed : parameters that keep their value: nobody asks for slopes by them.
-    substeps : of the integrator in each sample, at least.
+    substeps, method : of the integrator in each sample, at least so many; as of `Simulator.simulate`.
 
     Attributes
     ----------
@@ -42,7 +42,7 @@ class Predictor:
     tuned: Sequence[int] = ()
     bounded = False
 
-    def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), substeps: int = 1):
+    def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), substeps: int = 1, method: str = "rk4"):
         self.model, self.data = model, data
         self.sim = simulator(model)
         self.free = [p for p in self.sim.parameters if p not in fixed]
@@ -53,7 +53,12 @@ class Predictor:
         self.ratios_at = slice(self.noises + data.cutoff_free, None)
         self.step = data.segments[0].step
         longest = LONGEST_STEP * data.pace
-        self.substeps = max(substeps, int(np.ceil(self.step / (1.01 * longest))))
+        self.substeps, self.method = max(substeps, int(np.ceil(self.step / (1.01 * longest)))), method
+
+    @property
+    def steps(self) -> dict:
+        """How the integrator steps, as `Simulator.simulate` takes it."""
+        return {"substeps": self.substeps, "method": self.method}
 
     def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs", process=()):
         """Trajectories of all segments, or None if one diverged; `p` are values in the order of `sim`, or by name."""
@@ -64,11 +69,11 @@ class Predictor:
                 p,
                 start,
                 gain,
-                substeps=self.substeps,
                 keep=keep,
                 sensitivity=self.free if sensitivities else (),
                 initial_sensitivity=self.sim.states if sensitivities else (),
                 history=self._history(p, start, e),
+                **self.steps,
             )
             if t.diverged:
                 return None
@@ -79,7 +84,7 @@ class Predictor:
         """States just before an segment of a motion without random forces, where something reads them late."""
         if self.driven or not self.model.delays:
             return None
-        x = segment.head(3).simulate(self.sim, p, start, substeps=self.substeps, keep="states").x
+        x = segment.head(3).simulate(self.sim, p, start, keep="states", **self.steps).x
         if not np.isfinite(x).all():
             return None
         ago = np.linspace(-REACH * self.data.pace, 0.0, 7)[:, None]

@@ -111,12 +111,12 @@ def growth(fit: Fit, segment: Segment, start: np.ndarray, pace: float, noise: np
 
     Times what the states themselves grow within the pace: that of a balanced pendulum is far slower than its fall.
     """
-    run = segment.simulate(fit.simulator, fit.values, start, substeps=fit.substeps)
+    run = segment.simulate(fit.simulator, fit.values, start, **fit.steps)
     early, found, sizes = max(2, int(pace / segment.step)), 1.0, run.x.std(axis=0)
     moves, columns = np.flatnonzero(sizes), []
     for j in moves:
         moved = start + SMALL * sizes[j] * (np.arange(len(start)) == j)
-        other = segment.simulate(fit.simulator, fit.values, moved, substeps=fit.substeps)
+        other = segment.simulate(fit.simulator, fit.values, moved, **fit.steps)
         apart = np.linalg.norm((other.y - run.y) / noise, axis=1)
         found = max(found, float(np.nan_to_num(apart, nan=np.inf).max()) / max(float(apart[:early].max()), 1e-300))
         columns.append((other.x - run.x)[:early, moves] / sizes[j] / SMALL)

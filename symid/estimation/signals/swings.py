@@ -24,7 +24,7 @@ def swing(segment: Segment) -> float:
     centred, time = segment.recorded - segment.recorded.mean(axis=0), segment.time
     found = []
     for y in centred.T:
-        k = np.flatnonzero(y[1:] * y[:-1] < 0)
+        k = _crossings(y)
         at = time[k] + (time[k + 1] - time[k]) * y[k] / (y[k] - y[k + 1])
         found.append(2 * (at[-1] - at[0]) / (len(at) - 1) if len(at) > 1 else 2 * (time[-1] - time[0]))
     return float(min(found))
@@ -42,15 +42,19 @@ def _turns(time: np.ndarray, y: np.ndarray) -> float:
     What wanders off, as the angle of a wheel does, swings about straight lines.
     """
     span = float(time[-1] - time[0])
-    found = [2 * span / max(_crossings(z), 1) for z in (y - y.mean(), _without_trend(time, y))]
+    found = [2 * span / max(len(_crossings(z)), 1) for z in (y - y.mean(), _without_trend(time, y))]
     return found[0] if found[0] < span / FEW_SWINGS else found[1]
 
 
-def _crossings(y: np.ndarray) -> int:
-    """How often a signal goes over to the other side of zero."""
-    side = np.sign(y) * (np.abs(y) > TURNING * y.std())
-    side = side[side != 0]
-    return int(np.sum(side[1:] != side[:-1]))
+def _crossings(y: np.ndarray) -> np.ndarray:
+    """Samples before which a signal last had the sign that it left for good, each time it went over to the other side.
+
+    Noise crosses zero, too, where a slow swing does: of its crossings the last before the turn counts.
+    """
+    out = np.flatnonzero(np.abs(y) > TURNING * y.std())
+    turns = out[np.flatnonzero(np.diff(np.sign(y[out])) != 0) + 1]
+    changes = np.flatnonzero((y[1:] < 0) != (y[:-1] < 0))
+    return changes[np.searchsorted(changes, turns) - 1] if len(turns) else turns
 
 
 def _without_trend(time: np.ndarray, y: np.ndarray) -> np.ndarray:
