@@ -18,7 +18,7 @@ _RESULTS = ("X", "Y", "SX", "SY")
 
 
 class _Run(ct.Structure):
-    """The struct Run of loop.c."""
+    """The struct Run of run.h."""
 
     _fields_ = [
         *((n, ct.c_long) for n in _SIZES),
@@ -30,7 +30,8 @@ class _Run(ct.Structure):
 
 @lru_cache
 def _loop() -> ct.CDLL:
-    library = load_library(TABLE + Path(__file__).with_name("loop.c").read_text(), ("-O3",))
+    parts = (Path(__file__).with_name(name).read_text() for name in ("run.h", "rates.c", "steps.c", "loop.c"))
+    library = load_library(TABLE + "".join(parts), ("-O3",))
     library.simulate.restype = ct.c_long
     library.linearise.restype = None
     return library

@@ -13,7 +13,7 @@ from symid.simulation.past import Past, Step
 from symid.simulation.run import METHODS, Run
 
 FAST, GAMMA, EVEN, PIECES = 2.0, 1 - 2**-0.5, 0.5, 64
-"""Of stiff steps, as in `loop.c`."""
+"""Of stiff steps, as in `steps.c`."""
 Rates = tuple[np.ndarray, np.ndarray]
 """(n,) of the state and (n, nq) of its sensitivities."""
 

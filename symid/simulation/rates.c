@@ -1,0 +1,226 @@
+/* Inputs, late signals, rates and outputs at one time of a run, with forward sensitivities S = dx/dq, which obey
+ * M S' = -(r_x S + r_late S_late + r_p); q = chosen parameters, then chosen initial states. */
+
+/* Slope of input i at sample k of two or more: of the parabola through the three samples next to it (cubic Bessel
+ * interpolation; de Boor 1978, chapter IV). */
+static double slope_at(const Work *v, long k, int i)
+{
+    const Run *r = &v->r;
+    if (r->N == 2) return (r->u[NU+i] - r->u[i]) / (r->t[1] - r->t[0]);
+    long middle = k == 0 ? 1 : k == r->N - 1 ? k - 1 : k;
+    const double *u = r->u + middle*NU + i, *t = r->t + middle;
+    double before = (u[0] - u[-NU]) / (t[0] - t[-1]), after = (u[NU] - u[0]) / (t[1] - t[0]);
+    double bend = (after - before) / (t[1] - t[-1]);
+    return before + bend * (t[0] - t[-1] + 2 * (r->t[k] - t[0]));
+}
+
+/* All inputs at time s: linear or cubic between samples or held, constant beyond the ends. slope may be null.
+ * k is the present interval: at its end a held input still has the value of its start. */
+static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
+{
+    const Run *r = &v->r;
+    if (NU == 0) return;
+    long present = k;
+    if (k > r->N - 2) k = r->N - 2;
+    if (k < 0) k = 0;
+    while (k > 0 && s < r->t[k]) k--;
+    while (k < r->N - 2 && s > r->t[k+1]) k++;
+    double h = r->N > 1 ? r->t[k+1] - r->t[k] : 1.0, f = (s - r->t[k]) / h;
+    int out = f < 0 || f > 1 || r->N < 2;
+    if (f < 0 || r->N < 2) f = 0;
+    if (f > 1) f = 1;
+    const double *a = r->u + k*NU, *b = r->N > 1 ? a + NU : a;
+    long held = present == k-1 && s - r->t[k] < 1e-9*h ? present : present > k && f == 1 ? r->N - 1 : k;
+    for (int i = 0; i < NU; i++) {
+        if (v->m->input_between[i] == 1) {
+            u[i] = r->u[held*NU+i];
+            if (slope) slope[i] = 0.0;
+            continue;
+        }
+        u[i] = a[i] + f * (b[i] - a[i]);
+        if (slope) slope[i] = out ? 0.0 : (b[i] - a[i]) / h;
+        if (v->m->input_between[i] == 2 && !out) {
+            /* Hermite's cubic: what its slopes at both samples differ from the straight line's. */
+            double line = (b[i] - a[i]) / h, g = 1 - f;
+            double first = slope_at(v, k, i) - line, last = slope_at(v, k + 1, i) - line;
+            u[i] += h * f * g * (g * first - f * last);
+            if (slope) slope[i] += g * (1 - 3*f) * first - f * (2 - 3*f) * last;
+        }
+    }
+}
+
+/* out += sign * (entries of a Jacobian) S, and the same for the chosen parameters themselves. */
+static void chain(double sign, const Entries *e, const double *d, const double *S, double *out, long nq)
+{
+    for (int i = 0; i < e->count; i++) add(sign * d[i], S + e->col[i]*nq, out + e->row[i]*nq, nq);
+}
+
+static void direct(double sign, const Entries *e, const double *d, const Work *v, double *out)
+{
+    for (int i = 0; i < e->count; i++) {
+        int m = v->column[e->col[i]];
+        if (m >= 0) out[e->row[i]*v->nq+m] += sign * d[i];
+    }
+}
+
+/* Value, rate and sensitivities of state i at time s, from history, stored steps or this step. */
+static void state_at(Work *v, int j, int i, double s, double *value, double *rate, double *S)
+{
+    const Run *r = &v->r;
+    long nq = v->nq;
+    if (v->inside ? s >= v->tk : v->steps == 0 ? s >= r->t[0] : s > v->tk) {
+        double d = s - v->tk;
+        *value = v->xk[i] + d * v->k1[i] + 0.5 * d * d * v->ak[i];
+        *rate = v->k1[i] + d * v->ak[i];
+        for (long k = 0; k < nq; k++)
+            S[k] = v->sk[i*nq+k] + d * v->sk1[i*nq+k] + 0.5 * d * d * v->sak[i*nq+k];
+        return;
+    }
+    if (s <= r->t[0] || v->steps == 0) {
+        *rate = 0;
+        memset(S, 0, nq * sizeof(double));
+        if (r->nh == 0) {
+            *value = r->x0[i];
+            for (long k = 0; k < r->nqx; k++) if (r->qx[k] == i) S[r->nqp+k] = 1;
+            return;
+        }
+        long k = 0;
+        while (k < r->nh - 2 && s > r->ht[k+1]) k++;
+        if (r->nh < 2) { *value = r->hx[i]; return; }
+        double h = r->ht[k+1] - r->ht[k], f = (s - r->ht[k]) / h;
+        if (f < 0) f = 0;
+        double a = r->hx[k*NX+i], b = r->hx[(k+1)*NX+i];
+        *value = a + f * (b - a);
+        *rate = f > 0 ? (b - a) / h : 0;
+        return;
+    }
+    long k = v->hint[j];
+    if (k >= v->steps) k = v->steps - 1;
+    while (k > 0 && s < v->when[k]) k--;
+    while (k < v->steps - 1 && s > v->when[k] + v->span[k]) k++;
+    v->hint[j] = k;
+    double h = v->span[k], q = (s - v->when[k]) / h, q2 = q*q, q3 = q2*q;
+    double b1 = h * (q - 1.5*q2 + 2*q3/3), b2 = h * (q2 - 2*q3/3), b4 = h * (-0.5*q2 + 2*q3/3);
+    const double *P = v->poly + k*4*NX;
+    *value = P[i] + b1*P[NX+i] + b2*P[2*NX+i] + b4*P[3*NX+i];
+    *rate = (1 - 3*q + 2*q2)*P[NX+i] + (2*q - 2*q2)*P[2*NX+i] + (-q + 2*q2)*P[3*NX+i];
+    if (nq) {
+        const double *Q = v->spoly + k*4*NX*nq + i*nq;
+        for (long m = 0; m < nq; m++)
+            S[m] = Q[m] + b1*Q[NX*nq+m] + b2*Q[2*NX*nq+m] + b4*Q[3*NX*nq+m];
+    }
+}
+
+/* All late signals at time t, given the present x (used where a lag is zero). */
+static void late_at(Work *v, double t, long k, const double *x, const double *S, double *l, double *lS)
+{
+    long nq = v->nq;
+    for (int j = 0; j < NL; j++) {
+        double rate = 0, u[NON(NU)], slope[NON(NU)];
+        int i = v->m->late_index[j];
+        double *row = lS + j*nq;
+        if (v->m->late_kind[j]) {
+            memset(row, 0, nq * sizeof(double));
+            inputs_at(v, t - v->lag[j], k, u, slope);
+            l[j] = u[i];
+            rate = slope[i];
+        } else if (v->lag[j] == 0) {
+            l[j] = x[i];
+            rate = v->k1[i];
+            if (nq) memcpy(row, S + i*nq, nq * sizeof(double));
+        } else {
+            state_at(v, j, i, t - v->lag[j], &l[j], &rate, row);
+        }
+        add(-rate, v->dlag + j*nq, row, nq);
+    }
+}
+
+/* Rates of x and S; and their derivative A by x, in padded rows, unless that is null. 1 where M is singular. */
+static int rates(Work *v, double t, long k, const double *x, const double *S, double *xd, double *Sd, double *lS,
+                 double *A)
+{
+    const Run *r = &v->r;
+    long nq = v->nq;
+    double u[NON(NU)], l[NON(NL)], M[NXX*NXX];
+    const Ode *m = v->m;
+    const double *w = r->w + k*m->nw;
+    inputs_at(v, t, k, u, 0);
+    late_at(v, t, k, x, S, l, lS);
+    m->mass(xd, x, l, u, w, r->p, r->c, t, M, xd);
+    int pivot[NXX];
+    for (int i = 0; i < NX; i++) xd[i] = -xd[i];
+    if (factor(NX, M, pivot, xd)) return 1;
+    if (!nq && !A) return 0;
+    double dx[NON(m->rx.count)], dl[NON(m->rl.count)], dp[NON(m->rp.count)], dw[NON(m->rw.count)];
+    m->slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dw);
+    if (A) {
+        memset(A, 0, NX * PADDED(NX) * sizeof(double));
+        for (int i = 0; i < m->rx.count; i++) A[m->rx.row[i]*PADDED(NX) + m->rx.col[i]] -= dx[i];
+        solve(NX, M, pivot, A, PADDED(NX));
+    }
+    if (!nq) return 0;
+    memset(Sd, 0, NX * nq * sizeof(double));
+    chain(-1, &m->rx, dx, S, Sd, nq);
+    chain(-1, &m->rl, dl, lS, Sd, nq);
+    direct(-1, &m->rp, dp, v, Sd);
+    solve(NX, M, pivot, Sd, nq);
+    return 0;
+}
+
+static void observe_at(Work *v, double t, long k, const double *xd, const double *Sd, const double *x,
+                       const double *S, double *y, double *Sy, double *lS)
+{
+    const Run *r = &v->r;
+    long nq = v->nq;
+    double u[NON(NU)], l[NON(NL)];
+    const double *w = r->w + (k < r->N - 1 ? k : k > 0 ? k - 1 : 0)*v->m->nw;
+    inputs_at(v, t, k, u, 0);
+    late_at(v, t, k, x, S, l, lS);
+    const Ode *m = v->m;
+    m->observe(xd, x, l, u, w, r->p, r->c, t, y);
+    if (!nq) return;
+    double dx[NON(m->hx.count)], dl[NON(m->hl.count)], dp[NON(m->hp.count)], dr[NON(m->hxd.count)];
+    m->observe_slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dr);
+    memset(Sy, 0, NY * nq * sizeof(double));
+    chain(1, &m->hx, dx, S, Sy, nq);
+    chain(1, &m->hl, dl, lS, Sy, nq);
+    chain(1, &m->hxd, dr, Sd, Sy, nq);
+    direct(1, &m->hp, dp, v, Sy);
+}
+
+static int healthy(int n, const double *x, double limit)
+{
+    for (int i = 0; i < n; i++) if (!(fabs(x[i]) < limit)) return 0;
+    return 1;
+}
+
+/* Correction of state i per unit of surprise o, `late` sample intervals before the sample. */
+static double past_gain(const Work *v, double late, int i, int o)
+{
+    long j = (long)late, size = NX*NY;
+    if (late < 0) return v->r.gain[i*NY+o];
+    if (j >= v->r.npast) return 0;
+    double f = late - j;
+    return (1-f) * v->r.gain[j*size + i*NY+o] + f * v->r.gain[(j+1)*size + i*NY+o];
+}
+
+/* What a sample says about the past that delayed signals still read: a fixed-lag smoother
+ * (Anderson & Moore 1979, 7.3) on the stored steps, linear within each. */
+static void correct_past(Work *v, double now, double interval, const double *e, const double *Sy)
+{
+    long nq = v->nq, big = NX*nq;
+    for (long n = v->steps - 1; n >= 0; n--) {
+        double h = v->span[n], a = (now - v->when[n]) / interval, b = a - h / interval;
+        if (b >= v->r.npast) break;
+        double *P = v->poly + n*4*NX, *Q = v->spoly + n*4*big;
+        for (int i = 0; i < NX; i++)
+            for (int o = 0; o < NY; o++) {
+                double start = past_gain(v, a, i, o), slope = (past_gain(v, b, i, o) - start) / h;
+                double part[4] = {start, slope, 2*slope, slope};
+                for (int k = 0; k < 4; k++) {
+                    P[k*NX+i] += part[k] * e[o];
+                    add(-part[k], Sy + o*nq, Q + k*big + i*nq, nq);
+                }
+            }
+    }
+}

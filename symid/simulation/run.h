@@ -1,0 +1,89 @@
+/* What one simulation is given, what it works on, and the small matrices of its equations. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define NX (v->m->nx)
+#define NL (v->m->nl)
+#define NU (v->m->nu)
+#define NY (v->m->ny)
+#define NXX NX
+#define NON(n) ((n) > 0 ? (n) : 1)
+/* Rows of sensitivities are padded with zeros to whole vectors of the processor, so that no loop has a remainder. */
+#define WIDE 4
+#define PADDED(n) (((n) + WIDE - 1) / WIDE * WIDE)
+
+typedef struct {
+    long N, substeps, method, nq, nqp, nqx, nh, npast;
+    const double *t, *u, *w, *p, *c, *x0;
+    const int *qp, *qx;             /* which parameters, which initial states */
+    const double *gain, *recorded;  /* (1 + npast) x NX x NY corrections at the samples, or null: of the
+                                       state now, and of what it was 1, 2 ... sample intervals ago */
+    const double *ht, *hx;          /* given history before the start, or null */
+    double limit;
+    double *X, *Y, *SX, *SY;        /* results: N x NX, N x NY, N x NX x nq, N x NY x nq */
+} Run;
+
+typedef struct {
+    Run r;
+    const Ode *m;
+    long steps, *hint, nq;              /* nq: sensitivities in a padded row */
+    const int *column;                  /* of each parameter among the sensitivities, -1 where not asked for */
+    double *when, *span, *poly, *spoly; /* stored steps: x0, k1, k2 + k3, k4 of states, then of S */
+    double *lag, *dlag;                 /* NL, NL x nq */
+    double tk, *ak, *sak;                /* rate of change of x' in the last step, and of S' */
+    double *xk, *k1, *sk, *sk1; /* start of the present step */
+    int inside;                         /* k1 of the present step is known */
+    double *x, *S, *xs, *Sx;            /* the state and its sensitivities, now and within a step */
+    double *rate[4], *Rate[4], *lS, *A; /* of the stages, of S there; of late signals; derivative of the rates by x */
+} Work;
+
+static void add(double a, const double *restrict x, double *restrict y, long padded)
+{
+    for (long k = 0; k < padded; k += WIDE) for (int j = 0; j < WIDE; j++) y[k+j] += a * x[k+j];
+}
+
+static void swap(double *restrict x, double *restrict y, long n)
+{
+    for (long k = 0; k < n; k++) { double s = x[k]; x[k] = y[k]; y[k] = s; }
+}
+
+/* b = M^-1 b, and M = P L U in its place, by partial pivoting; 1 where it is singular. */
+static int factor(int n, double *restrict M, int *restrict pivot, double *restrict b)
+{
+    for (int k = 0; k < n; k++) {
+        int piv = k;
+        for (int i = k + 1; i < n; i++) if (fabs(M[i*n+k]) > fabs(M[piv*n+k])) piv = i;
+        if (!(fabs(M[piv*n+k]) > 1e-300)) return 1;
+        pivot[k] = piv;
+        if (piv != k) { swap(M + k*n, M + piv*n, n); swap(b + k, b + piv, 1); }
+        double inv = 1.0 / M[k*n+k];
+        for (int i = k + 1; i < n; i++) {
+            double f = M[i*n+k];
+            if (f == 0.0) continue;
+            M[i*n+k] = f *= inv;
+            for (int j = k + 1; j < n; j++) M[i*n+j] -= f * M[k*n+j];
+            b[i] -= f * b[k];
+        }
+    }
+    for (int k = n - 1; k >= 0; k--) {
+        for (int i = k + 1; i < n; i++) if (M[k*n+i] != 0.0) b[k] -= M[k*n+i] * b[i];
+        b[k] *= 1.0 / M[k*n+k];
+    }
+    return 0;
+}
+
+/* B = M^-1 B for n rows of B, padded, with the factors of M. */
+static void solve(int n, const double *M, const int *pivot, double *B, long padded)
+{
+    for (int k = 0; k < n; k++) if (pivot[k] != k) swap(B + k*padded, B + pivot[k]*padded, padded);
+    for (int k = 0; k < n; k++)
+        for (int i = k + 1; i < n; i++)
+            if (M[i*n+k] != 0.0) add(-M[i*n+k], B + k*padded, B + i*padded, padded);
+    for (int k = n - 1; k >= 0; k--) {
+        for (int i = k + 1; i < n; i++)
+            if (M[k*n+i] != 0.0) add(-M[k*n+i], B + i*padded, B + k*padded, padded);
+        double inv = 1.0 / M[k*n+k], *row = B + k*padded;
+        for (long j = 0; j < padded; j += WIDE) for (int l = 0; l < WIDE; l++) row[j+l] *= inv;
+    }
+}

@@ -1,0 +1,112 @@
+/* One step of the integrator. Runge-Kutta 4 carries its own dense output (Hairer, Norsett & Wanner 1993, II.6) for
+ * the delayed signals. Stiff steps are those of ROS2 (Verwer, Spee, Blom & Hundsdorfer 1999, eq. 1.3 and 1.4): of
+ * order 2 with any matrix, so that S may have the same one as x. */
+
+#define EULER 1
+#define STIFF 2
+/* Decays together faster than this in a step are stiff: the explicit method follows 2.785. */
+#define FAST 2.0
+/* Of ROS2, 1 - 1/sqrt(2): what is infinitely stiff is gone after one step. */
+#define GAMMA 0.29289321881345248
+/* Where what decays changes more than this within a step the method of order 2 would overshoot. */
+#define EVEN 0.5
+/* At most so many has a step within which something stiff sets in. */
+#define PIECES 64
+
+/* What decays, less what grows, in a second: the trace of A has the sum of all eigenvalues, in whatever units. */
+static double decay(int n, const double *A)
+{
+    double trace = 0;
+    for (int i = 0; i < n; i++) trace += A[i*PADDED(n)+i];
+    return -trace;
+}
+
+/* A straight step at the first rates. */
+static int euler_step(Work *v, double h)
+{
+    long big = NX * v->nq;
+    const double *k1 = v->rate[0], *K1 = v->Rate[0];
+    memcpy(v->rate[3], k1, NX * sizeof(double)); memcpy(v->Rate[3], K1, big * sizeof(double));
+    for (int i = 0; i < NX; i++) { v->rate[1][i] = 2*k1[i]; v->x[i] += h*k1[i]; }
+    for (long i = 0; i < big; i++) { v->Rate[1][i] = 2*K1[i]; v->S[i] += h*K1[i]; }
+    return 0;
+}
+
+/* One step of ROS2 from x and S, whose rates are known. Its stages become those of a straight line to its end. */
+static int implicit_step(Work *v, double t, double h, long k)
+{
+    long nq = v->nq, big = NX*nq;
+    double W[NXX*NXX], d[NXX*WIDE], A[NXX*PADDED(NX)], *k1 = v->rate[0], *k2 = v->rate[1], *g = v->rate[2];
+    double *K1 = v->Rate[0], *K2 = v->Rate[1], *G = v->Rate[2];
+    int pivot[NXX];
+    memset(d, 0, sizeof(d));
+    for (int i = 0; i < NX; i++)
+        for (int j = 0; j < NX; j++) W[i*NX+j] = (i == j) - GAMMA * h * v->A[i*PADDED(NX)+j];
+    /* What the rates change by where all but x goes on, and all but S: else the answer to an input would be late. */
+    if (rates(v, t + h, k, v->x, v->S, g, G, v->lS, 0)) return 1;
+    for (int i = 0; i < NX; i++) { g[i] = GAMMA * (g[i] - k1[i]); k1[i] += g[i]; }
+    if (factor(NX, W, pivot, k1)) return 1;
+    for (int i = 0; i < NX; i++) v->xs[i] = v->x[i] + h*k1[i];
+    if (nq && rates(v, t + h, k, v->xs, v->S, k2, G, v->lS, 0)) return 1;
+    for (long i = 0; i < big; i++) { G[i] = GAMMA * (G[i] - K1[i]); K1[i] += G[i]; }
+    solve(NX, W, pivot, K1, nq);
+    for (long i = 0; i < big; i++) v->Sx[i] = v->S[i] + h*K1[i];
+    if (rates(v, t + h, k, v->xs, v->Sx, k2, K2, v->lS, A)) return 1;
+    double before = decay(NX, v->A), after = decay(NX, A);
+    if (!(after > EVEN * before && before > EVEN * after)) return euler_step(v, h);
+    for (int i = 0; i < NX; i++) d[i*WIDE] = k2[i] - 2*k1[i] - g[i];
+    for (long i = 0; i < big; i++) K2[i] -= 2*K1[i] + G[i];
+    solve(NX, W, pivot, d, WIDE);
+    solve(NX, W, pivot, K2, nq);
+    for (int i = 0; i < NX; i++) k1[i] = 1.5*k1[i] + 0.5*d[i*WIDE];
+    for (long i = 0; i < big; i++) K1[i] = 1.5*K1[i] + 0.5*K2[i];
+    return euler_step(v, h);
+}
+
+/* One step of Runge-Kutta 4 likewise. Where `fast` is asked for it is the decay in the stiffest stage, and A that of
+ * its rates. */
+static int explicit_step(Work *v, double t, double h, long k, double *fast)
+{
+    long big = NX * v->nq;
+    double A[NXX*PADDED(NX)];
+    const double part[3] = {0.5, 0.5, 1.0};
+    for (int s = 0; s < 3; s++) {
+        const double *d = v->rate[s], *D = v->Rate[s], a = part[s] * h;
+        for (int i = 0; i < NX; i++) v->xs[i] = v->x[i] + a*d[i];
+        for (long i = 0; i < big; i++) v->Sx[i] = v->S[i] + a*D[i];
+        if (rates(v, t + a, k, v->xs, v->Sx, v->rate[s+1], v->Rate[s+1], v->lS, fast ? A : 0)) return 1;
+        if (fast && decay(NX, A) > *fast) {
+            *fast = decay(NX, A);
+            memcpy(v->A, A, sizeof(A));
+        }
+    }
+    double *k1 = v->rate[0], *k2 = v->rate[1], *k3 = v->rate[2], *k4 = v->rate[3];
+    double *K1 = v->Rate[0], *K2 = v->Rate[1], *K3 = v->Rate[2], *K4 = v->Rate[3];
+    for (int i = 0; i < NX; i++) { k2[i] += k3[i]; v->x[i] += h/6 * (k1[i] + 2*k2[i] + k4[i]); }
+    for (long i = 0; i < big; i++) { K2[i] += K3[i]; v->S[i] += h/6 * (K1[i] + 2*K2[i] + K4[i]); }
+    return 0;
+}
+
+/* One step from x and S, and its stages; 1 where a mass matrix is singular. */
+static int step(Work *v, double t, double h, long k, int whole)
+{
+    long big = NX * v->nq;
+    int stiff = v->r.method == STIFF;
+    v->inside = 0;
+    v->tk = t;
+    memcpy(v->xk, v->x, NX * sizeof(double)); memcpy(v->sk, v->S, big * sizeof(double));
+    if (rates(v, t, k, v->x, v->S, v->rate[0], v->Rate[0], v->lS, stiff ? v->A : 0)) return 1;
+    memcpy(v->k1, v->rate[0], NX * sizeof(double)); memcpy(v->sk1, v->Rate[0], big * sizeof(double));
+    v->inside = 1;
+    if (v->r.method == EULER) return euler_step(v, h);
+    if (stiff && decay(NX, v->A) * h > FAST) return implicit_step(v, t, h, k);
+    double fast = 0;
+    if (explicit_step(v, t, h, k, stiff ? &fast : 0)) return 1;
+    if (fast * h <= FAST) return 0;
+    /* Something sets in within the step, as dry friction does where it comes to stick. */
+    memcpy(v->x, v->xk, NX * sizeof(double)); memcpy(v->S, v->sk, big * sizeof(double));
+    if (!whole) return implicit_step(v, t, h, k);
+    long pieces = (long)fmin(ceil(fast * h / FAST), PIECES);
+    for (long i = 0; i < pieces; i++) if (step(v, t + i * h / pieces, h / pieces, k, 0)) return 1;
+    return 0;
+}
