@@ -110,7 +110,7 @@ def synthetic_recording(
     _known("sensor", sensor_noise or {}, channels, model)
     start = dict.fromkeys(model.states, 0.0) | dict(initial_state or {})
     run = simulator(model.with_unstated_holds("linear")).simulate(
-        parameters, start, time, inputs, noise=noise, substeps=max(1, int(np.ceil(step / 0.0051)))
+        parameters, start, time, inputs, noise=noise, substeps=max(1, int(np.ceil(step / 0.0051))), method="stiff"
     )
     if run.diverged:
         raise SymidError(

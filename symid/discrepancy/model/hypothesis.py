@@ -15,7 +15,7 @@ from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.sensors.independence import independent_share
 from symid.estimation.signals.data import Data
-from symid.estimation.signals.swings import swing
+from symid.estimation.signals.swings import period
 from symid.simulation import Simulator
 
 
@@ -44,6 +44,12 @@ class Hypothesis:
     @property
     def established(self) -> bool:
         return all(s.established for s in self.suspects)
+
+    @property
+    def is_free(self) -> bool:
+        """Whether nothing drives the motion: no random forces, and no input that changes."""
+        driven = any(np.ptp(u) > 0 for s in self.data.segments for u in s.inputs.values())
+        return self.fit.kalman_gain is None and not driven
 
     @property
     def log_ratio(self) -> float:
@@ -95,14 +101,10 @@ class Hypothesis:
     def _is_harmonic(self, suspect: Suspect) -> bool:
         """Whether a clock strikes where a motion that nothing drives has its own harmonics."""
         key = suspect.clock("frequency")
-        if (
-            key is None
-            or self.fit.kalman_gain is not None
-            or any(np.ptp(u) > 0 for s in self.data.segments for u in s.inputs.values())
-        ):
+        if key is None or not self.is_free:
             return False
         t0, t1 = self.data.span
-        ratio = self.fit.values[suspect.term.parameter_name(key)] * np.median([swing(s) for s in self.data.segments])
+        ratio = self.fit.values[suspect.term.parameter_name(key)] * np.median([period(s) for s in self.data.segments])
         nearest = min(max(round(ratio), 1), POLICY.harmonics)
         return abs(ratio - nearest) < nearest * 0.02 + ratio * 0.5 / (t1 - t0)
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, log
+from weakref import WeakKeyDictionary
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import Test, remainder
@@ -48,7 +49,7 @@ class Search:
     jumps: Sequence[str] = ()
     unstated: Sequence[str] = ()
     progress: Callable[[str], None] = lambda text: None
-    left: dict[int, list[Test]] = field(default_factory=dict)
+    left: WeakKeyDictionary[Fit, list[Test]] = field(default_factory=WeakKeyDictionary)
     starts: dict[Suspect, list[Start]] = field(default_factory=dict)
     tried: list[Hypothesis] = field(default_factory=list)
     clocks: list[Hypothesis] = field(default_factory=list)
@@ -159,12 +160,20 @@ class Search:
         return max(one, other, key=lambda h: self.value(h, share))
 
     def _preferred(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
-        """The one that is believed most, of those that are worth their price on top of `less`."""
+        """The one that is believed most, of those that are worth their price on top of `less`.
+
+        A clock imitates what follows the state of a motion that nothing drives: it comes after what explains as much.
+        """
         worth = [h for h in found if self._worth(h, less)]
         if not worth:
             return None
         share = max(worth, key=lambda h: h.log_ratio).share
-        return max(worth, key=lambda h: self.value(h, share))
+        best = max(worth, key=lambda h: self.value(h, share))
+        if best.suspect.kind != "clock" or not best.is_free:
+            return best
+        least = self.value(best, share) - POLICY.equivalent
+        states = [h for h in worth if h.established and h.suspect.kind == "state" and self.value(h, share) > least]
+        return max(states, key=lambda h: self.value(h, share), default=best)
 
     def _steady(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
         """Likewise, but for an oscillation that a half of the data contradicts."""
@@ -176,9 +185,9 @@ class Search:
 
     def remainder(self, found: Hypothesis) -> list[Test]:
         """The tests for something left over, made once."""
-        if id(found.fit) not in self.left:
-            self.left[id(found.fit)] = remainder(found.fit, self.data)
-        return self.left[id(found.fit)]
+        if found.fit not in self.left:
+            self.left[found.fit] = remainder(found.fit, self.data)
+        return self.left[found.fit]
 
     def quiet(self, found: Hypothesis) -> bool:
         """Whether nothing is left that more suspects could explain."""

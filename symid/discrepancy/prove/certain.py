@@ -49,15 +49,23 @@ def steady(found: Hypothesis) -> Hypothesis | None:
 
 
 def sure(found: Hypothesis) -> Hypothesis:
-    """The hypothesis without effects that could as well be nothing, the least certain dropped first; one stays."""
-    while len(found.suspects) > 1:
-        doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
+    """The hypothesis without effects that could as well be nothing, the least certain dropped first; one stays.
+
+    One whose size is uncertain since another unknown can make up for it, as the gain of a sensor for every force, is
+    not nothing where its evidence is lost without it.
+    """
+    kept: list[Suspect] = []
+    while len(found.suspects) > max(1, len(kept)):
+        doubtful = min((s for s in found.suspects if s not in kept), key=lambda s: _certainty(s, found.fit))
         if _certainty(doubtful, found.fit) > POLICY.sure:
             break
         less = _without([s for s in found.suspects if s is not doubtful], found, white=False)
         if less is None:
             break
-        found = less
+        if found.score - less.evidence(found.share) > POLICY.equivalent:
+            kept.append(doubtful)
+        else:
+            found = less
     return found
 
 
@@ -71,13 +79,17 @@ def beyond_chance(found: Hypothesis, maxima: np.ndarray, best: float, white: boo
     """
     while found.suspects:
         # Honest errors count independent samples only, the maxima count all: the same units are compared.
-        chance = false_alarm_probability(weakest(found, 1.0 if white else found.share), maxima)
+        share = 1.0 if white else found.share
+        chance = false_alarm_probability(weakest(found, share), maxima)
         if chance is None or chance <= POLICY.chance:
             return found, chance
         doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
         less = _without([s for s in found.suspects if s is not doubtful], found, white)
         if less is None:
             return found, chance
+        lost = false_alarm_probability(share * (found.log_ratio - less.log_ratio), maxima)
+        if lost is not None and lost <= POLICY.chance:
+            return found, lost
         found = less
     return found, false_alarm_probability(best, maxima)
 
@@ -105,10 +117,9 @@ def _ratio(suspect: Suspect, found: Hypothesis, share: float) -> float:
     """Log-likelihood ratio of one effect to nothing, by its standard errors.
 
     For a moment or a frequency it is what is lost without the effect: a short push with a high peak and a longer one
-    with a lower peak are alike, so that its peak is uncertain where the push is certain. So are the many unknowns of a
-    flexible law.
+    with a lower peak are alike, so that its peak is uncertain where the push is certain.
     """
-    if suspect.scanned is None and suspect.established:
+    if suspect.scanned is None:
         return _certainty(suspect, found.fit) ** 2 / share
     rest = [s for s in found.suspects if s is not suspect]
     less = hypothesis(rest, found.fit, found.base, found.data) if rest else None

@@ -15,19 +15,30 @@ PACES = 0.25, 4.0
 """Motions whose swing lasts so many seconds have the pace of one second for which laws and searches are stated."""
 TURNING = 0.25
 """A motion swings over where it leaves its mean by this part of its deviation on the other side: noise does not."""
+SURELY = 4.0
+"""Noise leaves its mean by so many standard deviations once in 16000 samples (normal distribution)."""
 FEW_SWINGS, TRENDS = 3, 8
 """A signal with fewer swings about its mean wanders: its swings are those about the lines through so many parts."""
 
 
 def swing(segment: Segment) -> float:
     """Seconds of one swing of the output that swings fastest, from the times at which it crosses its mean."""
-    centred, time = segment.recorded - segment.recorded.mean(axis=0), segment.time
-    found = []
-    for y in centred.T:
-        k = _crossings(y)
-        at = time[k] + (time[k + 1] - time[k]) * y[k] / (y[k] - y[k + 1])
-        found.append(2 * (at[-1] - at[0]) / (len(at) - 1) if len(at) > 1 else 2 * (time[-1] - time[0]))
-    return float(min(found))
+    return min(_swing(segment.time, y, 0.0) for y in _centred(segment))
+
+
+def period(segment: Segment) -> float:
+    """The same of the motion itself: noise crosses the mean, too, where a slow swing does."""
+    return min(_swing(segment.time, y, min(TURNING * y.std(), SURELY * _noise(y))) for y in _centred(segment))
+
+
+def _centred(segment: Segment) -> np.ndarray:
+    return (segment.recorded - segment.recorded.mean(axis=0)).T
+
+
+def _swing(time: np.ndarray, y: np.ndarray, least: float) -> float:
+    k = _crossings(y, least)
+    at = time[k] + (time[k + 1] - time[k]) * y[k] / (y[k] - y[k + 1])
+    return float(2 * (at[-1] - at[0]) / (len(at) - 1) if len(at) > 1 else 2 * (time[-1] - time[0]))
 
 
 def pace_of(segments: Sequence[Segment]) -> float:
@@ -42,19 +53,21 @@ def _turns(time: np.ndarray, y: np.ndarray) -> float:
     What wanders off, as the angle of a wheel does, swings about straight lines.
     """
     span = float(time[-1] - time[0])
-    found = [2 * span / max(len(_crossings(z)), 1) for z in (y - y.mean(), _without_trend(time, y))]
+    found = [2 * span / max(len(_crossings(z, TURNING * z.std())), 1) for z in (y - y.mean(), _without_trend(time, y))]
     return found[0] if found[0] < span / FEW_SWINGS else found[1]
 
 
-def _crossings(y: np.ndarray) -> np.ndarray:
-    """Samples before which a signal last had the sign that it left for good, each time it went over to the other side.
-
-    Noise crosses zero, too, where a slow swing does: of its crossings the last before the turn counts.
-    """
-    out = np.flatnonzero(np.abs(y) > TURNING * y.std())
+def _crossings(y: np.ndarray, least: float) -> np.ndarray:
+    """Samples after which a signal last changed its sign, each time it went over to `least` on the other side."""
+    out = np.flatnonzero(np.abs(y) > least)
     turns = out[np.flatnonzero(np.diff(np.sign(y[out])) != 0) + 1]
     changes = np.flatnonzero((y[1:] < 0) != (y[:-1] < 0))
     return changes[np.searchsorted(changes, turns) - 1] if len(turns) else turns
+
+
+def _noise(y: np.ndarray) -> float:
+    """Standard deviation of white noise that has the second differences of a signal: more than its noise has."""
+    return float(np.std(np.diff(y, 2)) / np.sqrt(6.0)) if len(y) > 2 else 0.0
 
 
 def _without_trend(time: np.ndarray, y: np.ndarray) -> np.ndarray:
