@@ -11,7 +11,7 @@ from rigs import ROD, law_of
 import symid as si
 from symid.discrepancy.locate.flexible_law import flexible_law
 from symid.discrepancy.locate.rest import rest_of
-from symid.discrepancy.say.rest import rest_words
+from symid.discrepancy.say.rest import noun, rest_words
 from symid.discrepancy.say.words import left_beside_noise
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.free_run import free_run
@@ -176,3 +176,10 @@ def test_a_rest_of_a_model_without_noise_says_how_random_forces_are_declared(noi
         error=lambda errors: "3 mm",
     )
     assert ("declares a Noise" in " ".join(left_beside_noise(story))) is told
+
+
+@pytest.mark.parametrize(
+    ("unit", "name"), [("N*m", "torque"), ("rad/s^2", "acceleration"), ("L/s", "flow"), ("K/s", "rate"), ("A", "force")]
+)
+def test_what_acts_is_called_as_its_unit_says(unit, name):
+    assert noun(unit) == name

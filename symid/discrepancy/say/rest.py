@@ -77,7 +77,8 @@ def rest_words(rest: Rest) -> list[str]:
 
 def noun(unit: str) -> str:
     """What a force with this unit is called."""
-    return NOUNS.get(unit, "flow" if unit.partition("/")[0] in AMOUNTS else "force")
+    amount, _, time = unit.partition("/")
+    return NOUNS.get(unit, "flow" if amount in AMOUNTS else "rate" if time == "s" else "force")
 
 
 def signal_name(model: Model, port: Port, signal) -> str:

@@ -180,7 +180,9 @@ class Fitter(Predictor):
         if self.method != STIFF:
             self.method = STIFF
             other = self.run(p, x0, gain, False, process=process)
-            if other and not (now and all(np.array_equal(a.y, b.y) for a, b in zip(now, other, strict=True))):
+            if other and not (
+                now and all(np.array_equal(a.y, b.y, equal_nan=True) for a, b in zip(now, other, strict=True))
+            ):
                 return True
             self.method = steps["method"]
         if now is None or self.substeps >= MOST_SUBSTEPS:
