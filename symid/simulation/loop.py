@@ -167,16 +167,16 @@ class _Simulation:
             stages = self._stages(t, h, k, found, whole)
         except np.linalg.LinAlgError:
             return False
-        if stages is None:
-            return all(self._step(t + i * h / self.pieces, h / self.pieces, k, False) for i in range(self.pieces))
+        if isinstance(stages, int):
+            return all(self._step(t + i * h / stages, h / stages, k, False) for i in range(stages))
         first, middle, last = stages
         self.x = x + h / 6 * (first[0] + 2 * middle[0] + last[0])
         self.S = S + h / 6 * (first[1] + 2 * middle[1] + last[1])
         past.end(Step(t, h, [x, first[0], middle[0], last[0]], [S, first[1], middle[1], last[1]]))
         return True
 
-    def _stages(self, t: float, h: float, k: int, first: Rates, whole: bool) -> tuple[Rates, Rates, Rates] | None:
-        """Rates at the start, twice those in the middle, and at the end; None where the step is made in pieces."""
+    def _stages(self, t: float, h: float, k: int, first: Rates, whole: bool) -> tuple[Rates, Rates, Rates] | int:
+        """Rates at the start, twice those in the middle, and at the end; or in how many pieces the step is made."""
         method = self.run.method
         if method == METHODS["euler"]:
             return _straight(first)
@@ -192,8 +192,7 @@ class _Simulation:
         if A is not None and -np.trace(fast) * h > FAST:
             if not whole or len(self.loop.source.late):
                 return _straight(self._implicit(t, h, k, fast, first))
-            self.pieces = int(min(np.ceil(-np.trace(fast) * h / FAST), PIECES))
-            return None
+            return int(min(np.ceil(-np.trace(fast) * h / FAST), PIECES))
         return first, (stages[1][0] + stages[2][0], stages[1][1] + stages[2][1]), stages[3]
 
     def _found(self, t: float, k: int, x: np.ndarray, S: np.ndarray) -> Rates:

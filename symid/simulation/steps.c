@@ -1,6 +1,6 @@
 /* One step of the integrator. Runge-Kutta 4 carries its own dense output (Hairer, Norsett & Wanner 1993, II.6) for
- * the delayed signals. Stiff steps are those of ROS2 (Verwer, Spee, Blom & Hundsdorfer 1999, eq. 1.3 and 1.4): of
- * order 2 with any matrix, so that S may have the same one as x. */
+ * the delayed signals. Stiff steps are those of ROS2 (Verwer, Spee, Blom & Hundsdorfer 1999): of order 2 with any
+ * matrix, so that S may have the same one as x. */
 
 #define EULER 1
 #define STIFF 2

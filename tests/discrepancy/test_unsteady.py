@@ -41,3 +41,21 @@ def test_the_next_best_is_taken_instead_of_an_unsteady_oscillation(contradicted)
     found = {"unsteady": lambda found: [PERIODIC] if contradicted else []}
     search = Search(dry.base, data, [PERIODIC, FRICTION], lambda: nothing, **found)
     assert search._steady(nothing, [sine, dry]) is (dry if contradicted else sine)
+
+
+@pytest.mark.parametrize(
+    ("driven", "more", "chosen"), [(False, 10.0, FRICTION), (False, 55.0, PERIODIC), (True, 10.0, PERIODIC)]
+)
+def test_of_a_free_motion_what_follows_the_state_comes_before_a_clock_that_explains_hardly_more(driven, more, chosen):
+    """more : what the sine is believed more; answers within 12 cannot be told apart."""
+    data = data_of(recorded(4, FRICTION.term, {"torque_Nm": 0.35}))
+    dry, sine = alone(FRICTION, data, {"torque_Nm": 0.3}), alone(PERIODIC, data, TORQUE)
+    if not driven:
+        still = data.with_segments(replace(s, inputs={k: 0 * u for k, u in s.inputs.items()}) for s in data.segments)
+        dry, sine = (replace(h, data=still, fit=replace(h.fit, kalman_gain=None)) for h in (dry, sine))
+    nothing = Hypothesis((), dry.base, dry.base, data)
+    search = Search(dry.base, data, [PERIODIC, FRICTION], lambda: nothing)
+    search.explained = lambda found: True
+    apart = search.value(dry, dry.share) - search.value(sine, dry.share)
+    sine = replace(sine, fit=replace(sine.fit, loglik2=sine.fit.loglik2 + (apart + more) / dry.share))
+    assert search._preferred(nothing, [sine, dry]).suspect is chosen

@@ -172,28 +172,36 @@ class Fitter(Predictor):
         return k, converged
 
     def _refined(self, p, x0, gain, process) -> bool:
-        """Change to stiff steps where one is stiff, else to ones half as long where the likelihood sees the difference.
+        """Change to stiff steps, or else to ones half as long, where these are not good enough; whether it did."""
+        now = self.run(p, x0, gain, False, process=process)
+        return self._turned_stiff(now, p, x0, gain, process) or self._halved(now, p, x0, gain, process)
+
+    def _turned_stiff(self, now, p, x0, gain, process) -> bool:
+        """Change to stiff steps where a step of the run `now` is stiff.
 
         Explicit steps may follow what is stiff, as dry friction where it comes to stick, and their slopes be far off.
         """
-        now, steps = self.run(p, x0, gain, False, process=process), self.steps
-        if self.method != STIFF:
-            self.method = STIFF
-            other = self.run(p, x0, gain, False, process=process)
-            if other and not (
-                now and all(np.array_equal(a.y, b.y, equal_nan=True) for a, b in zip(now, other, strict=True))
-            ):
-                return True
-            self.method = steps["method"]
-        if now is None or self.substeps >= MOST_SUBSTEPS:
+        if self.method == STIFF:
             return False
-        self.substeps *= 2
-        fine = self.run(p, x0, gain, False, process=process)
-        if fine and seen(
-            np.vstack([a.y - b.y for a, b in zip(now, fine, strict=True)]), np.vstack(self.innovations(now, process))
+        before, self.method = self.method, STIFF
+        stiff = self.run(p, x0, gain, False, process=process)
+        if stiff and not (
+            now and all(np.array_equal(a.y, b.y, equal_nan=True) for a, b in zip(now, stiff, strict=True))
         ):
             return True
-        self.substeps = steps["substeps"]
+        self.method = before
+        return False
+
+    def _halved(self, now, p, x0, gain, process) -> bool:
+        """Change to steps half as long where the likelihood sees what that changes of the run `now`."""
+        if now is None or self.substeps >= MOST_SUBSTEPS:
+            return False
+        before, self.substeps = self.substeps, 2 * self.substeps
+        fine = self.run(p, x0, gain, False, process=process)
+        left = np.vstack(self.innovations(now, process))
+        if fine and seen(np.vstack([a.y - b.y for a, b in zip(now, fine, strict=True)]), left):
+            return True
+        self.substeps = before
         return False
 
     def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from symid.estimation.sensors.sensor_noise import white_noise
 from symid.estimation.signals.segment import FEWEST, Segment
 
 SWINGS = 5
@@ -28,7 +29,7 @@ def swing(segment: Segment) -> float:
 
 def period(segment: Segment) -> float:
     """The same of the motion itself: noise crosses the mean, too, where a slow swing does."""
-    return min(_swing(segment.time, y, min(TURNING * y.std(), SURELY * _noise(y))) for y in _centred(segment))
+    return min(_swing(segment.time, y, min(TURNING * y.std(), SURELY * white_noise([y]))) for y in _centred(segment))
 
 
 def _centred(segment: Segment) -> np.ndarray:
@@ -63,11 +64,6 @@ def _crossings(y: np.ndarray, least: float) -> np.ndarray:
     turns = out[np.flatnonzero(np.diff(np.sign(y[out])) != 0) + 1]
     changes = np.flatnonzero((y[1:] < 0) != (y[:-1] < 0))
     return changes[np.searchsorted(changes, turns) - 1] if len(turns) else turns
-
-
-def _noise(y: np.ndarray) -> float:
-    """Standard deviation of white noise that has the second differences of a signal: more than its noise has."""
-    return float(np.std(np.diff(y, 2)) / np.sqrt(6.0)) if len(y) > 2 else 0.0
 
 
 def _without_trend(time: np.ndarray, y: np.ndarray) -> np.ndarray:
