@@ -24,6 +24,7 @@ class _Run(ct.Structure):
         *((n, ct.c_long) for n in _SIZES),
         *((n, ct.c_void_p) for n in _ARRAYS),
         ("limit", ct.c_double),
+        ("stiff", ct.c_long),
         *((n, ct.c_void_p) for n in _RESULTS),
     ]
 
@@ -51,12 +52,11 @@ class CompiledLoop:
         """Fill the results of `run`; the number of samples reached, or -1 where memory is short."""
         sizes = {n: getattr(run, n) for n in _SIZES}
         arrays = {n: getattr(run, n) for n in (*_ARRAYS, *_RESULTS)}
-        return self._loop.simulate(
-            self._ode,
-            ct.byref(
-                _Run(**sizes, limit=run.limit, **{n: None if a is None else a.ctypes.data for n, a in arrays.items()})
-            ),
-        )
+        places = {n: None if a is None else a.ctypes.data for n, a in arrays.items()}
+        given = _Run(**sizes, limit=run.limit, **places)
+        reached = self._loop.simulate(self._ode, ct.byref(given))
+        run.stiff = given.stiff
+        return reached
 
     def linearise(self, arguments: tuple[np.ndarray, ...], out: list[np.ndarray]) -> None:
         """Mass matrix, slopes of the residual by x, late and w, of the outputs by x and late, and lags, into `out`."""

@@ -8,7 +8,7 @@ static void shown(double *out, const double *S, long rows, long nq, long padded)
 }
 
 /* Returns the number of samples that were reached before the run left `limit`. */
-long simulate(const Ode *model, const Run *given)
+long simulate(const Ode *model, Run *given)
 {
     Work work, *v = &work;
     memset(v, 0, sizeof(work));
@@ -23,11 +23,11 @@ long simulate(const Ode *model, const Run *given)
     v->column = column;
     long nsteps = keep ? (r->N - 1) * m + 1 : 0;
     double *space = calloc(9 * big + 2 * NON(NL) * nq + NON(NY) * nq + 64, sizeof(double));
-    double x[NXX], xs[NXX], rate[4*NXX], y[NON(NY)], xk[NXX], first[NXX], ak[NXX], lag[NON(NL)], A[NXX*PADDED(NX)];
+    double x[NXX], xs[NXX], rate[4*NXX], y[NON(NY)], xk[NXX], first[NXX], ak[NXX], lag[NON(NL)], A[NXX*PADDED(NX)], size[NXX];
     long hint[NON(NL)];
     memset(ak, 0, NX * sizeof(double)); memset(first, 0, NX * sizeof(double)); memset(hint, 0, NON(NL) * sizeof(long));
-    memset(rate, 0, NX * sizeof(double));
-    v->xk = xk; v->k1 = first; v->ak = ak; v->lag = lag; v->hint = hint; v->x = x; v->xs = xs; v->A = A;
+    memset(rate, 0, NX * sizeof(double)); memset(size, 0, NX * sizeof(double));
+    v->xk = xk; v->k1 = first; v->ak = ak; v->lag = lag; v->hint = hint; v->x = x; v->xs = xs; v->A = A; v->size = size;
     double *S = v->S = space, *room = S + big;
     v->Sx = room; room += big;
     for (int s = 0; s < 4; s++) { v->rate[s] = rate + s*NX; v->Rate[s] = room; room += big; }
@@ -81,7 +81,7 @@ long simulate(const Ode *model, const Run *given)
         double h = (r->t[k+1] - r->t[k]) / m;
         for (long s = 0; s < m; s++) {
             double t = r->t[k] + s * h;
-            if (step(v, t, h, k, !keep)) goto end;
+            if (step(v, t, h, k, keep ? 0 : HALVINGS)) goto end;
             if (keep) {
                 long n = v->steps;
                 double *P = v->poly + n*4*NX, *Q = v->spoly + n*4*big;
@@ -99,6 +99,7 @@ long simulate(const Ode *model, const Run *given)
         }
     }
 end:
+    given->stiff = v->stiff;
     if (keep) { free(v->when); free(v->poly); }
     free(space);
     return done;

@@ -12,7 +12,7 @@ from symid.codegen.ode import OdeSource
 from symid.simulation.past import Past, Step
 from symid.simulation.run import METHODS, Run
 
-FAST, GAMMA, EVEN, PIECES = 2.0, 1 - 2**-0.5, 0.5, 64
+FAST, GAMMA, EVEN, HALVINGS, UNSEEN, SMOOTH = 2.0, 1 - 2**-0.5, 0.5, 10, 1e-8, (10.0, 24.0)
 """Of stiff steps, as in `steps.c`."""
 Rates = tuple[np.ndarray, np.ndarray]
 """(n,) of the state and (n, nq) of its sensitivities."""
@@ -76,7 +76,7 @@ class _Simulation:
         self.functions, source = loop.functions, loop.source
         self.x, self.S = run.x0.copy(), np.zeros((len(run.x0), run.nq))
         self.S[run.qx, run.nqp + np.arange(run.nqx)] = 1
-        self.still, zero = np.zeros(len(run.x0)), np.zeros(max(loop.sizes["x"], 1))
+        self.size, self.still, zero = np.zeros(len(run.x0)), np.zeros(len(run.x0)), np.zeros(max(loop.sizes["x"], 1))
         call = (zero, self.x, zero, zero, zero, run.p, run.c, 0.0)
         late = len(source.late)
         lag, dlag = self.functions["lags"](*call)[0], np.zeros((late, run.nq))
@@ -96,9 +96,9 @@ class _Simulation:
                 break
             if run.gain is not None:
                 self._correct(k, *surprise)
-            h = (run.t[k + 1] - run.t[k]) / run.substeps
+            h, halvings = (run.t[k + 1] - run.t[k]) / run.substeps, 0 if len(self.loop.source.late) else HALVINGS
             for s in range(run.substeps):
-                if not self._step(run.t[k] + s * h, h, k):
+                if not self._step(run.t[k] + s * h, h, k, halvings):
                     return k + 1
         return run.N
 
@@ -126,18 +126,18 @@ class _Simulation:
                 place[k] = value
         return (np.zeros(len(y)) if run.recorded is None else run.recorded[k] - y), Sy
 
-    def _rates(self, t: float, k: int, x: np.ndarray, S: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
-        """Rates of x and S, None where the mass matrix is singular."""
+    def _rates(self, t: float, k: int, x: np.ndarray, S: np.ndarray | None) -> Rates | None:
+        """Rates of x and, unless None, of S; None where the mass matrix is singular."""
         run, n = self.run, len(x)
         u, _ = self.past.inputs_at(t, k)
-        late, lS = self.past.late_at(t, k, x, S)
+        late, lS = self.past.late_at(t, k, x, self.S if S is None else S)
         given = (late, u, run.w[k], run.p, run.c, t)
         M, force = self.functions["mass"](self.still, x, *given)
         try:
             M = M.reshape(n, n)
             xd = np.linalg.solve(M, -force)
-            if not run.nq:
-                return xd, S
+            if S is None or not run.nq:
+                return xd, self.S
             d = self.loop.slopes("slopes", (xd, x, *given))
             right = -(d["x"] @ S + d["l"] @ lS)
             right[:, : run.nqp] -= d["p"][:, run.qp]
@@ -155,34 +155,35 @@ class _Simulation:
         if self.run.npast:
             self.past.correct(self.run.t[k], self.run.t[k + 1] - self.run.t[k], e, Sy)
 
-    def _step(self, t: float, h: float, k: int, whole: bool = True) -> bool:
-        """One step of the integrator from t; False where a matrix is singular."""
+    def _step(self, t: float, h: float, k: int, halvings: int) -> bool:
+        """One step of the integrator from t, which may be halved so often; False where a matrix is singular."""
         x, S, past = self.x, self.S, self.past
         past.begin(t, x, S)
         found = self._rates(t, k, x, S)
         if found is None:
             return False
         past.inside(*found)
+        self.size = np.maximum(self.size, np.maximum(np.abs(x), h * np.abs(found[0])))
         try:
-            stages = self._stages(t, h, k, found, whole)
+            stages = self._stages(t, h, k, found, halvings)
         except np.linalg.LinAlgError:
             return False
-        if isinstance(stages, int):
-            return all(self._step(t + i * h / stages, h / stages, k, False) for i in range(stages))
+        if stages is None:
+            return all(self._step(t + part * h, h / 2, k, halvings - 1) for part in (0.0, 0.5))
         first, middle, last = stages
         self.x = x + h / 6 * (first[0] + 2 * middle[0] + last[0])
         self.S = S + h / 6 * (first[1] + 2 * middle[1] + last[1])
         past.end(Step(t, h, [x, first[0], middle[0], last[0]], [S, first[1], middle[1], last[1]]))
         return True
 
-    def _stages(self, t: float, h: float, k: int, first: Rates, whole: bool) -> tuple[Rates, Rates, Rates] | int:
-        """Rates at the start, twice those in the middle, and at the end; or in how many pieces the step is made."""
+    def _stages(self, t: float, h: float, k: int, first: Rates, halvings: int) -> tuple[Rates, Rates, Rates] | None:
+        """Rates at the start, twice those in the middle, and at the end; None where the step is to be halved."""
         method = self.run.method
         if method == METHODS["euler"]:
             return _straight(first)
         A = self._derivative(t, k, self.x, self.S, first) if method == METHODS["stiff"] else None
         if A is not None and -np.trace(A) * h > FAST:
-            return _straight(self._implicit(t, h, k, A, first))
+            return self._implicit(t, h, k, A, first, halvings)
         stages, fast = [first], A
         for part in (0.5, 0.5, 1.0):
             x, S = self.x + part * h * stages[-1][0], self.S + part * h * stages[-1][1]
@@ -190,12 +191,37 @@ class _Simulation:
             if A is not None:
                 fast = min(fast, self._derivative(t + part * h, k, x, S, stages[-1]), key=np.trace)
         if A is not None and -np.trace(fast) * h > FAST:
-            if not whole or len(self.loop.source.late):
-                return _straight(self._implicit(t, h, k, fast, first))
-            return int(min(np.ceil(-np.trace(fast) * h / FAST), PIECES))
-        return first, (stages[1][0] + stages[2][0], stages[1][1] + stages[2][1]), stages[3]
+            self.run.stiff += 1
+            return None if halvings else self._implicit(t, h, k, fast, first, 0)
+        middle = stages[1][0] + stages[2][0], stages[1][1] + stages[2][1]
+        end = self.x + h / 6 * (first[0] + 2 * middle[0] + stages[3][0])
+        bends = A is not None and halvings and self._bends(t, h, k, end, halvings)
+        return None if bends else (first, middle, stages[3])
 
-    def _found(self, t: float, k: int, x: np.ndarray, S: np.ndarray) -> Rates:
+    def _bends(self, t: float, h: float, k: int, end: np.ndarray, halvings: int) -> bool:
+        """Whether an explicit step to `end`, which may be halved so often, errs since the rates bend in it."""
+        whole, middle = self._error(t, h, k, self.x, end)
+        if halvings < HALVINGS or not whole > UNSEEN:
+            return whole > UNSEEN
+        end = self._state(t + h / 2, h / 2, k, middle)
+        halves = self._error(t, h / 2, k, self.x, middle)[0] + self._error(t + h / 2, h / 2, k, middle, end)[0]
+        return not SMOOTH[0] * halves < whole < SMOOTH[1] * halves
+
+    def _error(self, t: float, h: float, k: int, x: np.ndarray, end: np.ndarray) -> tuple[float, np.ndarray]:
+        """What a step from x to `end` errs by, of the size of each state, and where its first half ends."""
+        middle = self._state(t, h / 2, k, x)
+        twice = self._state(t + h / 2, h / 2, k, middle)
+        return np.nanmax(np.abs(twice - end) / self.size, initial=0.0), middle
+
+    def _state(self, t: float, h: float, k: int, x: np.ndarray) -> np.ndarray:
+        """The state alone, one step of Runge-Kutta 4 after x."""
+        k1 = self._found(t, k, x, None)[0]
+        k2 = self._found(t + h / 2, k, x + h / 2 * k1, None)[0]
+        k3 = self._found(t + h / 2, k, x + h / 2 * k2, None)[0]
+        k4 = self._found(t + h, k, x + h * k3, None)[0]
+        return x + h / 6 * (k1 + 2 * (k2 + k3) + k4)
+
+    def _found(self, t: float, k: int, x: np.ndarray, S: np.ndarray | None) -> Rates:
         """`_rates`; LinAlgError where the mass matrix is singular."""
         found = self._rates(t, k, x, S)
         if found is None:
@@ -210,8 +236,11 @@ class _Simulation:
         M, _ = self.functions["mass"](*call)
         return -np.linalg.solve(M.reshape(len(x), len(x)), self.loop.slopes("slopes", call)["x"])
 
-    def _implicit(self, t: float, h: float, k: int, A: np.ndarray, first: Rates) -> Rates:
-        """Mean rates of one step of ROS2, or of the linearly implicit Euler method where its matrix changes much."""
+    def _implicit(
+        self, t: float, h: float, k: int, A: np.ndarray, first: Rates, halvings: int
+    ) -> tuple[Rates, Rates, Rates] | None:
+        """Stages of a step of ROS2, or of the linearly implicit Euler method or None where its matrix changes much."""
+        self.run.stiff += 1
         W = np.linalg.inv(np.eye(len(A)) - GAMMA * h * A)
         g = GAMMA * (self._found(t + h, k, self.x, self.S)[0] - first[0])
         d = W @ (first[0] + g)
@@ -222,8 +251,8 @@ class _Simulation:
         found = self._found(t + h, k, x, S)
         before, after = -np.trace(A), -np.trace(self._derivative(t + h, k, x, S, found))
         if not (after > EVEN * before and before > EVEN * after):
-            return d, D
-        return 1.5 * d + 0.5 * W @ (found[0] - 2 * d - g), 1.5 * D + 0.5 * W @ (found[1] - 2 * D - G)
+            return None if halvings else _straight((d, D))
+        return _straight((1.5 * d + 0.5 * W @ (found[0] - 2 * d - g), 1.5 * D + 0.5 * W @ (found[1] - 2 * D - G)))
 
 
 def _straight(rates: Rates) -> tuple[Rates, Rates, Rates]:

@@ -21,6 +21,7 @@ typedef struct {
                                        state now, and of what it was 1, 2 ... sample intervals ago */
     const double *ht, *hx;          /* given history before the start, or null */
     double limit;
+    long stiff;                     /* result: steps in which something was stiff */
     double *X, *Y, *SX, *SY;        /* results: N x NX, N x NY, N x NX x nq, N x NY x nq */
 } Run;
 
@@ -33,6 +34,8 @@ typedef struct {
     double *lag, *dlag;                 /* NL, NL x nq */
     double tk, *ak, *sak;                /* rate of change of x' in the last step, and of S' */
     double *xk, *k1, *sk, *sk1; /* start of the present step */
+    double *size;                       /* the largest that each state was */
+    long stiff;                         /* steps in which something was stiff */
     int inside;                         /* k1 of the present step is known */
     double *x, *S, *xs, *Sx;            /* the state and its sensitivities, now and within a step */
     double *rate[4], *Rate[4], *lS, *A; /* of the stages, of S there; of late signals; derivative of the rates by x */

@@ -22,6 +22,7 @@ class Run:
     gain : (npast + 1, n, m) or (n, m) corrections at the samples and recorded : (N, m), or None.
     ht, hx : (nh,) and (nh, n) history before the start, or None.
     X : (N, n), Y : (N, m), SX : (N, n, nq), SY : (N, m, nq): results; None where not wanted.
+    stiff : result: steps of the integrator in which something was stiff.
     """
 
     substeps: int
@@ -43,6 +44,7 @@ class Run:
     Y: np.ndarray
     SX: np.ndarray | None
     SY: np.ndarray | None
+    stiff: int = 0
 
     @property
     def N(self) -> int:

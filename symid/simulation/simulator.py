@@ -82,7 +82,9 @@ class Simulator:
         time : (N,) increasing [s]; inputs and noise : name -> (N,), noise of an interval at its start.
         sensitivity, initial_sensitivity : parameters and states (initial values) to differentiate by.
         substeps : steps of the integrator per sample interval. method : ``"rk4"``, ``"euler"``, or ``"stiff"``: as
-            ``"rk4"``, but steps in which something dies out faster than that can follow are implicit, of order 2.
+            ``"rk4"``, but steps in which something dies out faster than that can follow are implicit, of order 2, and
+            those within which rates bend, as where dry friction changes its sign, are halved around it as often as
+            needed (at most ten times; in a model with late signals not at all).
         history : (K,) times before ``time[0]`` and (K, n) states, for delayed signals; without it
             the initial state held before the start.
         gain, recorded : (n, m) and (N, m): after each sample the state is moved by
@@ -128,7 +130,7 @@ class Simulator:
         if reached < 0:
             raise MemoryError(f"simulation of '{self.model.name}' over {n} samples with {q} sensitivities")
         wrt = (*sensitivity, *(f"{s}(0)" for s in initial_sensitivity))
-        return Trajectory(time, run.X, run.Y, self.states, self.outputs, wrt, run.SX, run.SY, reached)
+        return Trajectory(time, run.X, run.Y, self.states, self.outputs, wrt, run.SX, run.SY, reached, run.stiff)
 
     def batch(self, runs: Sequence[Mapping], *, threads: int = 2, **common: object) -> list[Trajectory]:
         """`simulate(**common, **run)` for every run of `runs`, on `threads`; the same numbers as a loop."""

@@ -10,8 +10,15 @@
 #define GAMMA 0.29289321881345248
 /* Where what decays changes more than this within a step the method of order 2 would overshoot. */
 #define EVEN 0.5
-/* At most so many has a step within which something stiff sets in. */
-#define PIECES 64
+/* So often a step is halved in which something sets in, as dry friction does where it comes to stick. */
+#define HALVINGS 10
+#define CUT 2
+/* What a step may err by where its rates bend, of the size of each state: a precise sensor sees 1e-6 of its range, and
+ * a motion that cannot be followed for long makes 100 times as much of it. */
+#define UNSEEN 1e-8
+/* Where rates are smooth, a step errs 16 times as much as its halves together; where it is not between these, they bend. */
+#define LEAST 10.0
+#define MOST 24.0
 
 /* What decays, less what grows, in a second: the trace of A has the sum of all eigenvalues, in whatever units. */
 static double decay(int n, const double *A)
@@ -32,13 +39,15 @@ static int euler_step(Work *v, double h)
     return 0;
 }
 
-/* One step of ROS2 from x and S, whose rates are known. Its stages become those of a straight line to its end. */
-static int implicit_step(Work *v, double t, double h, long k)
+/* One step of ROS2 from x and S, whose rates are known. Its stages become those of a straight line to its end. CUT
+ * where what decays changes within it, if it may be halved. */
+static int implicit_step(Work *v, double t, double h, long k, int halvings)
 {
     long nq = v->nq, big = NX*nq;
     double W[NXX*NXX], d[NXX*WIDE], A[NXX*PADDED(NX)], *k1 = v->rate[0], *k2 = v->rate[1], *g = v->rate[2];
     double *K1 = v->Rate[0], *K2 = v->Rate[1], *G = v->Rate[2];
     int pivot[NXX];
+    v->stiff++;
     memset(d, 0, sizeof(d));
     for (int i = 0; i < NX; i++)
         for (int j = 0; j < NX; j++) W[i*NX+j] = (i == j) - GAMMA * h * v->A[i*PADDED(NX)+j];
@@ -53,7 +62,7 @@ static int implicit_step(Work *v, double t, double h, long k)
     for (long i = 0; i < big; i++) v->Sx[i] = v->S[i] + h*K1[i];
     if (rates(v, t + h, k, v->xs, v->Sx, k2, K2, v->lS, A)) return 1;
     double before = decay(NX, v->A), after = decay(NX, A);
-    if (!(after > EVEN * before && before > EVEN * after)) return euler_step(v, h);
+    if (!(after > EVEN * before && before > EVEN * after)) return halvings ? CUT : euler_step(v, h);
     for (int i = 0; i < NX; i++) d[i*WIDE] = k2[i] - 2*k1[i] - g[i];
     for (long i = 0; i < big; i++) K2[i] -= 2*K1[i] + G[i];
     solve(NX, W, pivot, d, WIDE);
@@ -87,8 +96,45 @@ static int explicit_step(Work *v, double t, double h, long k, double *fast)
     return 0;
 }
 
-/* One step from x and S, and its stages; 1 where a mass matrix is singular. */
-static int step(Work *v, double t, double h, long k, int whole)
+/* The state alone, one step of Runge-Kutta 4 after x. */
+static int state_step(Work *v, double t, double h, long k, const double *x, double *to)
+{
+    double k1[NXX], k2[NXX], k3[NXX], k4[NXX];
+    if (rates(v, t, k, x, 0, k1, 0, 0, 0)) return 1;
+    for (int i = 0; i < NX; i++) to[i] = x[i] + h/2*k1[i];
+    if (rates(v, t + h/2, k, to, 0, k2, 0, 0, 0)) return 1;
+    for (int i = 0; i < NX; i++) to[i] = x[i] + h/2*k2[i];
+    if (rates(v, t + h/2, k, to, 0, k3, 0, 0, 0)) return 1;
+    for (int i = 0; i < NX; i++) to[i] = x[i] + h*k3[i];
+    if (rates(v, t + h, k, to, 0, k4, 0, 0, 0)) return 1;
+    for (int i = 0; i < NX; i++) to[i] = x[i] + h/6 * (k1[i] + 2*(k2[i] + k3[i]) + k4[i]);
+    return 0;
+}
+
+/* What a step from x to `end` errs by, of the size of each state, and where its first half ends. */
+static double error_of(Work *v, double t, double h, long k, const double *x, const double *end, double *middle)
+{
+    double twice[NXX], worst = 0;
+    if (state_step(v, t, h/2, k, x, middle) || state_step(v, t + h/2, h/2, k, middle, twice)) return 0;
+    for (int i = 0; i < NX; i++) worst = fmax(worst, fabs(twice[i] - end[i]) / v->size[i]);
+    return worst;
+}
+
+/* Whether the explicit step from xk to x, which may be halved so often, errs since the rates bend in it. */
+static int bends(Work *v, double t, double h, long k, int halvings)
+{
+    long nq = v->nq;
+    double middle[NXX], end[NXX], unused[NXX];
+    v->nq = 0;
+    double whole = error_of(v, t, h, k, v->xk, v->x, middle), halves = 0;
+    if (halvings == HALVINGS && whole > UNSEEN && !state_step(v, t + h/2, h/2, k, middle, end))
+        halves = error_of(v, t, h/2, k, v->xk, middle, unused) + error_of(v, t + h/2, h/2, k, middle, end, unused);
+    v->nq = nq;
+    return whole > UNSEEN && !(LEAST * halves < whole && whole < MOST * halves);
+}
+
+/* One step from x and S, and its stages, which may be halved so often; 1 where a mass matrix is singular. */
+static int step(Work *v, double t, double h, long k, int halvings)
 {
     long big = NX * v->nq;
     int stiff = v->r.method == STIFF;
@@ -99,14 +145,21 @@ static int step(Work *v, double t, double h, long k, int whole)
     memcpy(v->k1, v->rate[0], NX * sizeof(double)); memcpy(v->sk1, v->Rate[0], big * sizeof(double));
     v->inside = 1;
     if (v->r.method == EULER) return euler_step(v, h);
-    if (stiff && decay(NX, v->A) * h > FAST) return implicit_step(v, t, h, k);
-    double fast = 0;
-    if (explicit_step(v, t, h, k, stiff ? &fast : 0)) return 1;
-    if (fast * h <= FAST) return 0;
-    /* Something sets in within the step, as dry friction does where it comes to stick. */
+    for (int i = 0; i < NX; i++) v->size[i] = fmax(v->size[i], fmax(fabs(v->x[i]), h * fabs(v->k1[i])));
+    int end = CUT;
+    if (stiff && decay(NX, v->A) * h > FAST) end = implicit_step(v, t, h, k, halvings);
+    else {
+        double fast = 0;
+        if (explicit_step(v, t, h, k, stiff ? &fast : 0)) return 1;
+        int sets_in = fast * h > FAST;
+        v->stiff += sets_in;
+        if (!sets_in && !(stiff && halvings && bends(v, t, h, k, halvings))) return 0;
+        if (!halvings) {
+            memcpy(v->x, v->xk, NX * sizeof(double)); memcpy(v->S, v->sk, big * sizeof(double));
+            return implicit_step(v, t, h, k, 0);
+        }
+    }
+    if (end != CUT) return end;
     memcpy(v->x, v->xk, NX * sizeof(double)); memcpy(v->S, v->sk, big * sizeof(double));
-    if (!whole) return implicit_step(v, t, h, k);
-    long pieces = (long)fmin(ceil(fast * h / FAST), PIECES);
-    for (long i = 0; i < pieces; i++) if (step(v, t + i * h / pieces, h / pieces, k, 0)) return 1;
-    return 0;
+    return step(v, t, h/2, k, halvings - 1) || step(v, t + h/2, h/2, k, halvings - 1);
 }

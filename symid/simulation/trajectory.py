@@ -19,6 +19,7 @@ class Trajectory:
     dx : (N, n, q) and dy : (N, m, q) derivatives of x and y, or None.
     reached : samples before the run diverged; N if it did not.
     state_names, output_names : of the columns of x and y.
+    stiff : steps of the integrator in which something was stiff, where those were asked for.
 
     Examples
     --------
@@ -38,6 +39,7 @@ class Trajectory:
     dx: np.ndarray | None = None
     dy: np.ndarray | None = None
     reached: int = 0
+    stiff: int = 0
 
     @property
     def diverged(self) -> bool:

@@ -38,6 +38,7 @@ def tried_beside(monkeypatch, leader: str, *alike: str, explains: float) -> set[
     monkeypatch.setattr(exploring, "starts_of", starts)
     monkeypatch.setattr(exploring, "_begin", begin)
     monkeypatch.setattr(exploring, "_converge", lambda fit, data, first, others, jumps: first)
+    monkeypatch.setattr(exploring, "_continued", lambda data, begun, exact: begun)
     monkeypatch.setattr(exploring, "by_score", lambda found: found)
     exploring.explore(fit, None, pool, projection=object())
     return begun

@@ -70,7 +70,8 @@ def explore(
     first += begun(worth)
     unseen = _unseen(starts, first)
     first += begun(unseen)
-    first += [c for c in in_threads(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first)) if c is not None]
+    afresh = in_threads(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first))
+    first += [c for c in afresh if c is not None]
     tried = [*chosen[: POLICY.always_refitted], *worth, *unseen]
     first += _eased(fit, data, tried, first, jumps)
     first = list({c.suspect: c for c in sorted(first, key=lambda c: c.log_ratio)}.values())
@@ -86,10 +87,13 @@ def explore(
     rest = first[len(good) :]
     found = converging(good)
     found += converging(begun(_unseen(starts, [*first, *found])))
-    near = max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near
-    close = [c for c in rest if c.log_ratio > max(near, 0.0) and not c.fit.converged]
-    found += converging(close)
-    return by_score(found + [c for c in rest if c not in close])
+    near = max(max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near, 0.0)
+    close = [c for c in rest if c.log_ratio > near and not c.fit.converged]
+    found += converging(close) + [c for c in rest if c not in close]
+    # Only those that may turn out to be the best are worth steps of the integrator that cost nothing of the likelihood.
+    leading = [c for c in found if c.log_ratio > near]
+    exact = in_threads(lambda c: _continued(data, c, exact=True), leading)
+    return by_score(exact + [c for c in found if c not in leading])
 
 
 def _reaches(starts: Sequence[list[Start]]) -> dict[Suspect, float]:
@@ -164,18 +168,20 @@ def by_score(found: Sequence[Hypothesis]) -> list[Hypothesis]:
 
 
 def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothesis | None:
+    """From there; not exact (see `Fitter.fit`), and without standard errors."""
     suspect, model = start.suspect, fit.model.with_term(start.suspect.term)
     fitter = Fitter(model, data, near=fit)
     try:
         new = (
-            fit_model(model, data, suspect.named(start.values))
+            fit_model(model, data, suspect.named(start.values), exact=False)
             if start.afresh
             else fitter.fit(
                 fit.values | suspect.named(start.values),
                 extended(fit.initial, fitter.sim),
                 fit.process,
                 iterations,
-                errors=iterations >= 40,
+                errors=False,
+                exact=False,
             )
         )
     except SymidError:
@@ -207,7 +213,7 @@ def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
 
 
 def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], jumps: Sequence[str]) -> Hypothesis:
-    """The candidate fitted to convergence, or what another start leads to if that is better."""
+    """The candidate fitted to convergence, or what another start leads to if that is better; not exact."""
     found = [_continued(data, first)]
     for start in others:
         other = _begun(fit, data, start)
@@ -224,9 +230,9 @@ def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], jump
     return again if again is not None and again.log_ratio > best.log_ratio else best
 
 
-def _continued(data: Data, begun: Hypothesis) -> Hypothesis:
+def _continued(data: Data, begun: Hypothesis, exact: bool = False) -> Hypothesis:
     """The same candidate after more iterations, with standard errors."""
-    new = Fitter.of(begun.fit, data).again(begun.fit, CONVERGING_ITERATIONS)
+    new = Fitter.of(begun.fit, data).again(begun.fit, CONVERGING_ITERATIONS, exact)
     return Hypothesis(begun.suspects, new, begun.base, data, begun.forecast)
 
 

@@ -227,9 +227,17 @@ class Search:
             self.progress("looking for what follows a clock")
             found += self._explored(best, clocks, least)
             self.clocks = self.clocks or [h for h in found if h.suspect.kind == "clock" and self._worth(h, best)]
-        found = self._with_jumps(found, best)
+        found = self._with_jumps(found + self._instead(found), best)
         self.tried += found
         return by_score(found)
+
+    def _instead(self, found: Sequence[Hypothesis]) -> list[Hypothesis]:
+        """The best of `found` without earlier suspects of which beside the new one a part came to nothing."""
+        best = sorted(found, key=lambda h: -h.log_ratio)[: POLICY.rivals]
+        sets = [(h, [s for s in h.suspects if s is h.suspect or not h.is_half(s)]) for h in best]
+        less = [(h, kept) for h, kept in sets if len(kept) < len(h.suspects)]
+        tried = in_threads(lambda s: hypothesis(s[1], s[0].fit, self.base, self.data), less)
+        return [h for h in tried if h is not None]
 
     def _with_jumps(self, found: list[Hypothesis], less: Hypothesis) -> list[Hypothesis]:
         """`found` on top of `less`, with dry friction that is new there as abrupt as the recording likes it."""

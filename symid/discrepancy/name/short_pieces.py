@@ -48,16 +48,19 @@ class ShortPieces:
     jumps: Sequence[str]
 
     def fitted(self, suspect: Suspect, values: dict[str, float], forecast: float) -> Hypothesis | None:
-        """The suspect fitted from `values` in the short pieces, and from there in whole; None where it cannot be."""
+        """The suspect fitted from `values` in the short pieces, and from there in whole; None where it cannot be.
+
+        Neither fit is exact (see `Fitter.fit`).
+        """
         given, pieces = self.without.fit, self.without.data
-        try:
-            fit = fit_model(given.model.with_term(suspect.term), pieces, self.base.values | suspect.named(values))
-        except SymidError:
+        start = replace(given, values=self.base.values)
+        fit = refit((suspect,), start, given, pieces, suspect.named(values), exact=False)
+        if fit is None:
             return None
         found = with_fitted_jumps(Hypothesis((suspect,), fit, given, pieces), self.jumps, given.model)
         near = replace(found.fit, initial=found.fit.initial[self.first], substeps=1)
         base = with_jumps_of(found.fit, self.base, self.jumps)
-        whole = refit((suspect,), near, base, self.data)
+        whole = refit((suspect,), near, base, self.data, exact=False)
         return None if whole is None else Hypothesis((suspect,), whole, base, self.data, forecast)
 
 

@@ -22,13 +22,14 @@ CONFIDENT = 10.0
 """The first process noise moves the outputs by this many sensor noises: the fit then leans on the data."""
 
 
-def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -> Fit:
+def fit_model(model: Model, data: Data, start: dict[str, float] | None = None, exact: bool = True) -> Fit:
     """Fit `model` with all of its unknowns.
 
     Parameters
     ----------
     start : SI values of some parameters, and of states that no sensor shows as they are, where segments begin; zero, or
         the middle of the bounds, elsewhere.
+    exact : as of `Fitter.fit`.
 
     Raises
     ------
@@ -38,12 +39,12 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -
     values, initial = _begun(model, data, start)
     fitter = Fitter(model, data)
     if not fitter.driven:
-        return _grow(model, data, values, initial, all_known=values.keys() <= start.keys())
+        return _grow(model, data, values, initial, values.keys() <= start.keys(), exact)
     found, problem = [], None
     for confident in (CONFIDENT, 0.2 * CONFIDENT):
         process = confident * _equivalent_noise(sim, values, initial, data)
         try:
-            found.append(fitter.fit(values, initial, process))
+            found.append(fitter.fit(values, initial, process, exact=exact))
         except SymidError as error:
             problem = error
     if not found:
@@ -54,15 +55,16 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None) -
     return max(found, key=lambda f: f.loglik2)
 
 
-def _grow(model: Model, data: Data, values: dict[str, float], initial: np.ndarray, all_known: bool) -> Fit:
+def _grow(model: Model, data: Data, values: dict[str, float], initial: np.ndarray, all_known: bool, exact: bool) -> Fit:
     """Begin with the states alone; parameters that are known so far keep their values until the whole is fitted."""
     longest, length = max(len(e.time) for e in data.segments), FIRST * data.pace / data.segments[0].step
     fixed, fit = tuple(model.parameters), None
     while True:
         rows = int(min(longest, max(FEWEST, length)))
-        fit = _fit_heads(model, data, values, initial, rows, fixed, fit)
+        last = rows == longest and not fixed
+        fit = _fit_heads(model, data, values, initial, rows, fixed, fit, exact and last)
         values, initial = fit.values, fit.initial
-        if rows == longest and not fixed:
+        if last:
             return fit
         length *= GROWING
         fixed = fixed if all_known and rows < longest else ()
@@ -86,10 +88,17 @@ def _begun(model: Model, data: Data, start: Mapping[str, float]) -> tuple[dict[s
 
 
 def _fit_heads(
-    model: Model, data: Data, values, initial: np.ndarray, rows: int, fixed: tuple[str, ...], before: Fit | None = None
+    model: Model,
+    data: Data,
+    values,
+    initial: np.ndarray,
+    rows: int,
+    fixed: tuple[str, ...],
+    before: Fit | None = None,
+    exact: bool = True,
 ) -> Fit:
     head = data.with_segments(e.head(rows) for e in data.segments)
-    return Fitter(model, head, fixed, before).fit(values, initial, np.zeros(len(model.noises)))
+    return Fitter(model, head, fixed, before).fit(values, initial, np.zeros(len(model.noises)), exact=exact)
 
 
 def _first(parameter) -> float:

@@ -134,15 +134,18 @@ class Fitter(Predictor):
         tolerance: float = TOLERANCE,
         errors: bool = True,
         kalman_gain: np.ndarray | None = None,
+        exact: bool = True,
     ) -> Fit:
         """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if the start itself diverges.
 
-        `kalman_gain` is one that is known to hold the start together, of an earlier fit that ended there.
+        kalman_gain : one that is known to hold the start together, of an earlier fit that ended there.
+        exact : whether the integrator's steps are halved until the likelihood does not see what that changes. Each
+            time the fit goes on, so that a fit from which others begin is had for a small part of the work without.
         """
         self.bounded = self.driven and self.near is not None and self.near.bounded
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
-        while self._refined(at.p, at.x0, at.kalman_gain, at.process):
+        while self._refined(at.p, at.x0, at.kalman_gain, at.process, exact):
             at.value = self.evaluate(at.p, at.x0, at.kalman_gain, at.process) - self._growth_penalty(at.p, at.path)
             k, converged = self._descend(at, iterations, tolerance)
         if self.driven and not self.bounded and runs_away(self, at.p, at.x0):
@@ -171,13 +174,15 @@ class Fitter(Predictor):
                 break
         return k, converged
 
-    def _refined(self, p, x0, gain, process) -> bool:
+    def _refined(self, p, x0, gain, process, exact: bool = True) -> bool:
         """Change to stiff steps, or else to ones half as long, where these are not good enough; whether it did."""
         now = self.run(p, x0, gain, False, process=process)
-        return self._turned_stiff(now, p, x0, gain, process) or self._halved(now, p, x0, gain, process)
+        return self._turned_stiff(now, p, x0, gain, process, exact) or (
+            exact and self._halved(now, p, x0, gain, process)
+        )
 
-    def _turned_stiff(self, now, p, x0, gain, process) -> bool:
-        """Change to stiff steps where a step of the run `now` is stiff.
+    def _turned_stiff(self, now, p, x0, gain, process, exact: bool) -> bool:
+        """Change to stiff steps where something is stiff, or the likelihood sees what they change of the run `now`.
 
         Explicit steps may follow what is stiff, as dry friction where it comes to stick, and their slopes be far off.
         """
@@ -185,9 +190,8 @@ class Fitter(Predictor):
             return False
         before, self.method = self.method, STIFF
         stiff = self.run(p, x0, gain, False, process=process)
-        if stiff and not (
-            now and all(np.array_equal(a.y, b.y, equal_nan=True) for a, b in zip(now, stiff, strict=True))
-        ):
+        if stiff and (not now or any(t.stiff for t in stiff) or (exact and self._sees(now, stiff, process))):
+            self.substeps = self.fewest  # what asked for more was perhaps a bend, around which stiff steps are cut
             return True
         self.method = before
         return False
@@ -198,11 +202,15 @@ class Fitter(Predictor):
             return False
         before, self.substeps = self.substeps, 2 * self.substeps
         fine = self.run(p, x0, gain, False, process=process)
-        left = np.vstack(self.innovations(now, process))
-        if fine and seen(np.vstack([a.y - b.y for a, b in zip(now, fine, strict=True)]), left):
+        if fine and self._sees(now, fine, process):
             return True
         self.substeps = before
         return False
+
+    def _sees(self, now, other, process) -> bool:
+        """Whether the likelihood sees what another run changes of the run `now`."""
+        left = np.vstack(self.innovations(now, process))
+        return seen(np.vstack([a.y - b.y for a, b in zip(now, other, strict=True)]), left)
 
     def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
         """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).
@@ -228,9 +236,9 @@ class Fitter(Predictor):
         """For the model of a fit itself."""
         return cls(fit.model, data, fixed, fit)
 
-    def again(self, fit: Fit, iterations: int = 40) -> Fit:
+    def again(self, fit: Fit, iterations: int = 40, exact: bool = True) -> Fit:
         """A fit that goes on from where `fit` of the same model ended, perhaps with another error model."""
-        return self.fit(fit.values, fit.initial, fit.process, iterations, kalman_gain=fit.kalman_gain)
+        return self.fit(fit.values, fit.initial, fit.process, iterations, kalman_gain=fit.kalman_gain, exact=exact)
 
     def _begin(self, start, initial, process, known) -> _Point:
         p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)

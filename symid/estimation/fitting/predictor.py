@@ -37,6 +37,7 @@ class Predictor:
     Attributes
     ----------
     tuned : places in `process` of what a fit looks for. bounded : whether it keeps growth without end away.
+    fewest : substeps of a smooth motion with the data's pace.
     """
 
     tuned: Sequence[int] = ()
@@ -53,7 +54,8 @@ class Predictor:
         self.ratios_at = slice(self.noises + data.cutoff_free, None)
         self.step = data.segments[0].step
         longest = LONGEST_STEP * data.pace
-        self.substeps, self.method = max(substeps, int(np.ceil(self.step / (1.01 * longest)))), method
+        self.fewest = int(np.ceil(self.step / (1.01 * longest)))
+        self.substeps, self.method = max(substeps, self.fewest), method
 
     @property
     def steps(self) -> dict:
