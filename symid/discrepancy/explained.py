@@ -140,7 +140,7 @@ def _under(
         nothing = Hypothesis((), base, base, data)
         flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
         jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.model.constants]
-        return Search(base, data, pool, flexible, unsteady, jumps, unstated, progress)
+        return Search(base, data, pool, flexible, unsteady, jumps=jumps, unstated=unstated, progress=progress)
 
     search, found, ranking = with_error_model(possible, searched, settle, progress)
     return Explained(task, checked, plain, search, found, ranking)

@@ -91,6 +91,11 @@ class Suspect:
         """Values by key as values by the name of the model's parameters."""
         return {self.term.parameter_name(k): v for k, v in values.items()}
 
+    @property
+    def off(self) -> dict[str, float]:
+        """By the name of the model's parameters, values at which it does nothing, where there are such."""
+        return self.named({q.key: q.null or 0.0 for q in self.law.parameters})
+
     def starts(self, off: bool = True) -> list[dict[str, float]]:
         """Values by key from which a fit may begin, the strength off or at finite sizes."""
         choices = []

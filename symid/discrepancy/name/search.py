@@ -5,27 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import inf, log
-from weakref import WeakKeyDictionary
+from math import inf
 
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.locate.remainder import Test, remainder
-from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, polished
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.held import asked_again
+from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_of
 from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
-from symid.estimation.fitting.fit import Fit
 from symid.estimation.measurement import has_settled
-from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
 
 @dataclass(eq=False)
-class Search:
+class Search(Judge):
     """A search over sets of suspects.
 
     Each step adds the suspect that is worth most, puts the earlier ones to the test again, and tries others in their
@@ -33,23 +30,14 @@ class Search:
 
     Attributes
     ----------
-    base : the model as given, fitted to `data`. pool : the suspects.
-    flexible : the best flexible law at one place, made when asked for.
-    unsteady : the oscillations of a hypothesis that a half of the data contradicts: what is found on top goes astray.
     jumps : constants of the model that say how abruptly dry friction sets in and that nobody stated.
     unstated : inputs of which nobody stated what they do between their samples.
     starts : where fits on top of the model as given begin, until each suspect was tried alone.
     """
 
-    base: Fit
-    data: Data
-    pool: Sequence[Suspect]
-    flexible: Callable[[], Hypothesis]
-    unsteady: Callable[[Hypothesis], Sequence[Suspect]] = lambda found: ()
     jumps: Sequence[str] = ()
     unstated: Sequence[str] = ()
     progress: Callable[[str], None] = lambda text: None
-    left: WeakKeyDictionary[Fit, list[Test]] = field(default_factory=WeakKeyDictionary)
     starts: dict[Suspect, list[Start]] = field(default_factory=dict)
     tried: list[Hypothesis] = field(default_factory=list)
     clocks: list[Hypothesis] = field(default_factory=list)
@@ -136,80 +124,6 @@ class Search:
             return inf
         return max(h.evidence(1.0) for h in [self.nothing, self.flexible(), self.of_one, *self.single])
 
-    # ---- judging -----------------------------------------------------------------------------
-    def value(self, found: Hypothesis, share: float, belief: bool = True) -> float:
-        """Evidence less the price of each suspect for being one of many, and less prior belief."""
-        price = 2 * log(max(len(self.pool), 1)) + POLICY.accept
-        return found.evidence(share) - price * len(found.suspects) - (found.belief() if belief else found.doubt())
-
-    def _worth(self, more: Hypothesis, less: Hypothesis) -> bool:
-        """Whether what `more` explains is worth its price, whatever its names.
-
-        A clock imitates a part of any rest: one that leaves a rest must be worth believing, too.
-        """
-        share = max(more, less, key=lambda h: h.log_ratio).share
-        if self.value(more, share, belief=False) <= self.value(less, share, belief=False):
-            return False
-        if more.suspect.kind != "clock" or self.explained(more):
-            return True
-        return self.value(more, share) > self.value(less, share)
-
-    def better(self, one: Hypothesis, other: Hypothesis) -> Hypothesis:
-        """The one of two sets of suspects that is believed more."""
-        share = max(one, other, key=lambda h: h.log_ratio).share
-        return max(one, other, key=lambda h: self.value(h, share))
-
-    def _preferred(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
-        """The one that is believed most, of those that are worth their price on top of `less`.
-
-        A clock imitates what follows the state of a motion that nothing drives: it comes after what explains as much.
-        """
-        worth = [h for h in found if self._worth(h, less)]
-        if not worth:
-            return None
-        share = max(worth, key=lambda h: h.log_ratio).share
-        best = max(worth, key=lambda h: self.value(h, share))
-        if best.suspect.kind != "clock" or not best.is_free:
-            return best
-        least = self.value(best, share) - POLICY.equivalent
-        states = [h for h in worth if h.established and h.suspect.kind == "state" and self.value(h, share) > least]
-        return max(states, key=lambda h: self.value(h, share), default=best)
-
-    def _steady(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
-        """Likewise, but for an oscillation that a half of the data contradicts."""
-        more = self._preferred(less, found)
-        while more is not None and more.suspect.phase and more.suspect in self.unsteady(more):
-            found = [h for h in found if h is not more]
-            more = self._preferred(less, found)
-        return more
-
-    def remainder(self, found: Hypothesis) -> list[Test]:
-        """The tests for something left over, made once."""
-        if found.fit not in self.left:
-            self.left[found.fit] = remainder(found.fit, self.data)
-        return self.left[found.fit]
-
-    def quiet(self, found: Hypothesis) -> bool:
-        """Whether nothing is left that more suspects could explain."""
-        return self.remainder(found)[0].minus_log10_p <= POLICY.quiet
-
-    def explained(self, found: Hypothesis) -> bool:
-        """Whether nothing systematic is left."""
-        return self.remainder(found)[0].minus_log10_p <= POLICY.remainder
-
-    def beaten(self, found: Hypothesis) -> bool:
-        """Whether a flexible law at one place explains more than all that has a name: what acts there is in no list."""
-        flexible = self.flexible()
-        if not self._enough(flexible):
-            return False
-        share = max(flexible, found, key=lambda h: h.log_ratio).share
-        return flexible.evidence(share) > max(found.evidence(share), 0.0) + POLICY.doubt
-
-    def _enough(self, found: Hypothesis) -> bool:
-        """Whether what it leaves of a free motion is near the sensors' noise: else more than one thing is missing."""
-        return found.fit.kalman_gain is not None or is_met(found.fit, self.data)
-
-    # ---- trying ------------------------------------------------------------------------------
     def _added(self, best: Hypothesis, least: float = 0.0) -> list[Hypothesis]:
         """`best` with each of the other suspects, clocks only where states leave something.
 
@@ -232,11 +146,19 @@ class Search:
         return by_score(found)
 
     def _instead(self, found: Sequence[Hypothesis]) -> list[Hypothesis]:
-        """The best of `found` without earlier suspects of which beside the new one a part came to nothing."""
-        best = sorted(found, key=lambda h: -h.log_ratio)[: POLICY.rivals]
-        sets = [(h, [s for s in h.suspects if s is h.suspect or not h.is_half(s)]) for h in best]
-        less = [(h, kept) for h, kept in sets if len(kept) < len(h.suspects)]
-        tried = in_threads(lambda s: hypothesis(s[1], s[0].fit, self.base, self.data), less)
+        """The best of `found` with a simpler law, or none, for an earlier one of which a part came to nothing.
+
+        Friction that falls with speed may have stood for plain friction there and what the new one tells.
+        """
+        sets = []
+        for h in sorted(found, key=lambda h: -h.log_ratio)[: POLICY.rivals]:
+            taken = {s.term for s in h.suspects}
+            for half in (s for s in h.suspects[:-1] if h.is_half(s)):
+                rest = [s for s in h.suspects if s is not half]
+                sets.append((h, rest, {}))
+                alike = (o for o in self.pool if is_alike(o, half) and o.size < half.size and o.term not in taken)
+                sets += [(h, [o, *rest], o.off) for o in alike]
+        tried = in_threads(lambda s: hypothesis(s[1], s[0].fit, self.base, self.data, s[2]), sets)
         return [h for h in tried if h is not None]
 
     def _with_jumps(self, found: list[Hypothesis], less: Hypothesis) -> list[Hypothesis]:
@@ -307,7 +229,7 @@ class Search:
                 alike = [o for o in self.pool if is_alike(o, s) and o.term not in taken]
                 for other in (o for o in alike if o.established >= s.established):
                     sets.append([other if t is s else t for t in found.suspects])
-                    off |= other.named({q.key: q.null or 0.0 for q in other.law.parameters})
+                    off |= other.off
             tried = [found, *self._together([(chosen, off) for chosen in sets], found)]
             self.tried += tried[1:]
             share = max(tried, key=lambda h: h.log_ratio).share

@@ -1,0 +1,45 @@
+"""A law of which a part came to nothing is no such law, and a simpler one is tried in its place."""
+
+from dataclasses import replace
+
+import pytest
+from driven_cart import cart, data_of, recorded
+
+from symid.discrepancy import Suspect
+from symid.discrepancy.model.hypothesis import Hypothesis, refit
+from symid.discrepancy.name.search import Search
+from symid.estimation.fitting.cold_start import fit_model
+from symid.mechanics import LIBRARY
+
+STRIBECK, COULOMB, VISCOUS, SPRING = (
+    Suspect(LIBRARY[name].at("cart"))
+    for name in ("stribeck_friction", "coulomb_friction", "viscous_friction", "cubic_stiffness")
+)
+
+
+def with_parts(torque: float, excess: float) -> Hypothesis:
+    """Stribeck friction of these sizes [N] and a spring, on a cart that dry friction of 0.35 N holds back."""
+    data = data_of(recorded(4, COULOMB.term, {"torque_Nm": 0.35}))
+    base = fit_model(cart(), data)
+    fit = refit([STRIBECK, SPRING], base, base, data, STRIBECK.off | SPRING.off | STRIBECK.named({"speed_rad_s": 0.2}))
+    parts = STRIBECK.named({"torque_Nm": torque, "excess_Nm": excess})
+    return Hypothesis((STRIBECK, SPRING), replace(fit, values=fit.values | parts), base, data)
+
+
+@pytest.mark.parametrize(
+    ("torque", "excess", "half"), [(0.3, 0.2, False), (0.3, 0.04, False), (0.3, 0.01, True), (0.02, 0.3, True)]
+)
+def test_of_two_forces_of_one_law_neither_is_next_to_nothing(torque, excess, half):
+    found = with_parts(torque, excess)
+    assert found.is_half(STRIBECK) is half and not found.is_half(SPRING)
+
+
+def test_simpler_laws_are_tried_in_the_place_of_one_of_which_a_part_came_to_nothing():
+    found = with_parts(0.02, 0.3)
+    search = Search(found.base, found.data, [STRIBECK, COULOMB, VISCOUS, SPRING], lambda: None)
+    instead = {h.suspects: h for h in search._instead([found])}
+    assert instead.keys() == {(SPRING,), (COULOMB, SPRING), (VISCOUS, SPRING)}
+    best = max(instead.values(), key=lambda h: h.fit.loglik2)
+    assert best.suspects[0] is COULOMB
+    assert best.fit.values[COULOMB.term.parameter_name("torque_Nm")] == pytest.approx(0.35, abs=0.02)
+    assert search._instead([with_parts(0.3, 0.3)]) == []
