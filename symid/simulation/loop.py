@@ -12,10 +12,15 @@ from symid.codegen.ode import OdeSource
 from symid.simulation.past import Past, Step
 from symid.simulation.run import METHODS, Run
 
-FAST, GAMMA, EVEN, HALVINGS, UNSEEN, SMOOTH = 2.0, 1 - 2**-0.5, 0.5, 10, 1e-8, (10.0, 24.0)
+FAST, GAMMA, EVEN, HALVINGS, UNSEEN, UNEQUAL, SMOOTH = 2.0, 1 - 2**-0.5, 0.5, 10, 1e-8, 10.0, (6.0, 50.0)
 """Of stiff steps, as in `steps.c`."""
 Rates = tuple[np.ndarray, np.ndarray]
 """(n,) of the state and (n, nq) of its sensitivities."""
+Stages = tuple[Rates, Rates, Rates]
+"""At the start, twice those in the middle, and at the end."""
+Halves = tuple[bool, bool]
+"""Of a step that is to be cut: whether the rates bend in each."""
+BOTH: Halves = (True, True)
 
 
 class PythonLoop:
@@ -98,7 +103,7 @@ class _Simulation:
                 self._correct(k, *surprise)
             h, halvings = (run.t[k + 1] - run.t[k]) / run.substeps, 0 if len(self.loop.source.late) else HALVINGS
             for s in range(run.substeps):
-                if not self._step(run.t[k] + s * h, h, k, halvings):
+                if not self._step(run.t[k] + s * h, h, k, halvings, False):
                     return k + 1
         return run.N
 
@@ -155,8 +160,11 @@ class _Simulation:
         if self.run.npast:
             self.past.correct(self.run.t[k], self.run.t[k + 1] - self.run.t[k], e, Sy)
 
-    def _step(self, t: float, h: float, k: int, halvings: int) -> bool:
-        """One step of the integrator from t, which may be halved so often; False where a matrix is singular."""
+    def _step(self, t: float, h: float, k: int, halvings: int, bend: bool) -> bool:
+        """One step of the integrator from t, which may be halved so often; False where a matrix is singular.
+
+        bend : whether the rates bend in it.
+        """
         x, S, past = self.x, self.S, self.past
         past.begin(t, x, S)
         found = self._rates(t, k, x, S)
@@ -165,19 +173,20 @@ class _Simulation:
         past.inside(*found)
         self.size = np.maximum(self.size, np.maximum(np.abs(x), h * np.abs(found[0])))
         try:
-            stages = self._stages(t, h, k, found, halvings)
+            stages = self._stages(t, h, k, found, halvings, bend)
         except np.linalg.LinAlgError:
             return False
-        if stages is None:
-            return all(self._step(t + part * h, h / 2, k, halvings - 1) for part in (0.0, 0.5))
+        if len(stages) == 2:
+            halves = ((t, stages[0]), (t + h / 2, stages[1]))
+            return all(self._step(start, h / 2, k, halvings - 1, bends) for start, bends in halves)
         first, middle, last = stages
         self.x = x + h / 6 * (first[0] + 2 * middle[0] + last[0])
         self.S = S + h / 6 * (first[1] + 2 * middle[1] + last[1])
         past.end(Step(t, h, [x, first[0], middle[0], last[0]], [S, first[1], middle[1], last[1]]))
         return True
 
-    def _stages(self, t: float, h: float, k: int, first: Rates, halvings: int) -> tuple[Rates, Rates, Rates] | None:
-        """Rates at the start, twice those in the middle, and at the end; None where the step is to be halved."""
+    def _stages(self, t: float, h: float, k: int, first: Rates, halvings: int, bend: bool) -> Stages | Halves:
+        """Rates at the start, twice those in the middle, and at the end; halves where the step is to be cut."""
         method = self.run.method
         if method == METHODS["euler"]:
             return _straight(first)
@@ -192,20 +201,23 @@ class _Simulation:
                 fast = min(fast, self._derivative(t + part * h, k, x, S, stages[-1]), key=np.trace)
         if A is not None and -np.trace(fast) * h > FAST:
             self.run.stiff += 1
-            return None if halvings else self._implicit(t, h, k, fast, first, 0)
+            return BOTH if halvings else self._implicit(t, h, k, fast, first, 0)
         middle = stages[1][0] + stages[2][0], stages[1][1] + stages[2][1]
         end = self.x + h / 6 * (first[0] + 2 * middle[0] + stages[3][0])
-        bends = A is not None and halvings and self._bends(t, h, k, end, halvings)
-        return None if bends else (first, middle, stages[3])
+        bends = self._bends(t, h, k, end, bend) if A is not None and halvings else None
+        return bends or (first, middle, stages[3])
 
-    def _bends(self, t: float, h: float, k: int, end: np.ndarray, halvings: int) -> bool:
-        """Whether an explicit step to `end`, which may be halved so often, errs since the rates bend in it."""
+    def _bends(self, t: float, h: float, k: int, end: np.ndarray, bend: bool) -> Halves | None:
+        """In which halves of an explicit step to `end` the rates bend so that it errs; both, in a known `bend`."""
         whole, middle = self._error(t, h, k, self.x, end)
-        if halvings < HALVINGS or not whole > UNSEEN:
-            return whole > UNSEEN
+        if bend or not whole > UNSEEN:
+            return BOTH if whole > UNSEEN else None
         end = self._state(t + h / 2, h / 2, k, middle)
-        halves = self._error(t, h / 2, k, self.x, middle)[0] + self._error(t + h / 2, h / 2, k, middle, end)[0]
-        return not SMOOTH[0] * halves < whole < SMOOTH[1] * halves
+        first, second = self._error(t, h / 2, k, self.x, middle)[0], self._error(t + h / 2, h / 2, k, middle, end)[0]
+        halves = first > UNEQUAL * second, second > UNEQUAL * first
+        if any(halves):
+            return halves
+        return None if SMOOTH[0] * (first + second) < whole < SMOOTH[1] * (first + second) else BOTH
 
     def _error(self, t: float, h: float, k: int, x: np.ndarray, end: np.ndarray) -> tuple[float, np.ndarray]:
         """What a step from x to `end` errs by, of the size of each state, and where its first half ends."""
@@ -236,10 +248,8 @@ class _Simulation:
         M, _ = self.functions["mass"](*call)
         return -np.linalg.solve(M.reshape(len(x), len(x)), self.loop.slopes("slopes", call)["x"])
 
-    def _implicit(
-        self, t: float, h: float, k: int, A: np.ndarray, first: Rates, halvings: int
-    ) -> tuple[Rates, Rates, Rates] | None:
-        """Stages of a step of ROS2, or of the linearly implicit Euler method or None where its matrix changes much."""
+    def _implicit(self, t: float, h: float, k: int, A: np.ndarray, first: Rates, halvings: int) -> Stages | Halves:
+        """Stages of ROS2, or, where its matrix changes much, of the linearly implicit Euler method or halves."""
         self.run.stiff += 1
         W = np.linalg.inv(np.eye(len(A)) - GAMMA * h * A)
         g = GAMMA * (self._found(t + h, k, self.x, self.S)[0] - first[0])
@@ -251,10 +261,10 @@ class _Simulation:
         found = self._found(t + h, k, x, S)
         before, after = -np.trace(A), -np.trace(self._derivative(t + h, k, x, S, found))
         if not (after > EVEN * before and before > EVEN * after):
-            return None if halvings else _straight((d, D))
+            return BOTH if halvings else _straight((d, D))
         return _straight((1.5 * d + 0.5 * W @ (found[0] - 2 * d - g), 1.5 * D + 0.5 * W @ (found[1] - 2 * D - G)))
 
 
-def _straight(rates: Rates) -> tuple[Rates, Rates, Rates]:
+def _straight(rates: Rates) -> Stages:
     """The stages of a step along a straight line."""
     return rates, (2 * rates[0], 2 * rates[1]), rates

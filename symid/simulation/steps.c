@@ -16,9 +16,13 @@
 /* What a step may err by where its rates bend, of the size of each state: a precise sensor sees 1e-6 of its range, and
  * a motion that cannot be followed for long makes 100 times as much of it. */
 #define UNSEEN 1e-8
-/* Where rates are smooth, a step errs 16 times as much as its halves together; where it is not between these, they bend. */
-#define LEAST 10.0
-#define MOST 24.0
+/* Where rates are smooth, both halves of a step err alike, and a step between these many times as much as both together,
+ * 16 of very short ones. Where they bend in one half, that errs so many times as much as the other. */
+#define UNEQUAL 10.0
+#define LEAST 6.0
+#define MOST 50.0
+#define FIRST_HALF 1
+#define SECOND_HALF 2
 
 /* What decays, less what grows, in a second: the trace of A has the sum of all eigenvalues, in whatever units. */
 static double decay(int n, const double *A)
@@ -120,24 +124,31 @@ static double error_of(Work *v, double t, double h, long k, const double *x, con
     return worst;
 }
 
-/* Whether the explicit step from xk to x, which may be halved so often, errs since the rates bend in it. */
-static int bends(Work *v, double t, double h, long k, int halvings)
+/* In which halves of the explicit step from xk to x the rates bend so that it errs; both, in a `bend` that is known. */
+static int bends(Work *v, double t, double h, long k, int bend)
 {
     long nq = v->nq;
+    int both = FIRST_HALF + SECOND_HALF, found = 0;
     double middle[NXX], end[NXX], unused[NXX];
     v->nq = 0;
-    double whole = error_of(v, t, h, k, v->xk, v->x, middle), halves = 0;
-    if (halvings == HALVINGS && whole > UNSEEN && !state_step(v, t + h/2, h/2, k, middle, end))
-        halves = error_of(v, t, h/2, k, v->xk, middle, unused) + error_of(v, t + h/2, h/2, k, middle, end, unused);
+    double whole = error_of(v, t, h, k, v->xk, v->x, middle);
+    if (whole > UNSEEN && bend) found = both;
+    else if (whole > UNSEEN && !state_step(v, t + h/2, h/2, k, middle, end)) {
+        double first = error_of(v, t, h/2, k, v->xk, middle, unused);
+        double second = error_of(v, t + h/2, h/2, k, middle, end, unused);
+        int smooth = LEAST * (first + second) < whole && whole < MOST * (first + second);
+        found = first > UNEQUAL * second ? FIRST_HALF : second > UNEQUAL * first ? SECOND_HALF : smooth ? 0 : both;
+    }
     v->nq = nq;
-    return whole > UNSEEN && !(LEAST * halves < whole && whole < MOST * halves);
+    return found;
 }
 
-/* One step from x and S, and its stages, which may be halved so often; 1 where a mass matrix is singular. */
-static int step(Work *v, double t, double h, long k, int halvings)
+/* One step from x and S, and its stages, which may be halved so often; 1 where a mass matrix is singular.
+ * bend : whether the rates bend in it. */
+static int step(Work *v, double t, double h, long k, int halvings, int bend)
 {
     long big = NX * v->nq;
-    int stiff = v->r.method == STIFF;
+    int stiff = v->r.method == STIFF, halves = FIRST_HALF + SECOND_HALF;
     v->inside = 0;
     v->tk = t;
     memcpy(v->xk, v->x, NX * sizeof(double)); memcpy(v->sk, v->S, big * sizeof(double));
@@ -146,20 +157,23 @@ static int step(Work *v, double t, double h, long k, int halvings)
     v->inside = 1;
     if (v->r.method == EULER) return euler_step(v, h);
     for (int i = 0; i < NX; i++) v->size[i] = fmax(v->size[i], fmax(fabs(v->x[i]), h * fabs(v->k1[i])));
-    int end = CUT;
-    if (stiff && decay(NX, v->A) * h > FAST) end = implicit_step(v, t, h, k, halvings);
-    else {
+    if (stiff && decay(NX, v->A) * h > FAST) {
+        int end = implicit_step(v, t, h, k, halvings);
+        if (end != CUT) return end;
+    } else {
         double fast = 0;
         if (explicit_step(v, t, h, k, stiff ? &fast : 0)) return 1;
         int sets_in = fast * h > FAST;
         v->stiff += sets_in;
-        if (!sets_in && !(stiff && halvings && bends(v, t, h, k, halvings))) return 0;
-        if (!halvings) {
+        if (!sets_in) {
+            halves = stiff && halvings ? bends(v, t, h, k, bend) : 0;
+            if (!halves) return 0;
+        } else if (!halvings) {
             memcpy(v->x, v->xk, NX * sizeof(double)); memcpy(v->S, v->sk, big * sizeof(double));
             return implicit_step(v, t, h, k, 0);
         }
     }
-    if (end != CUT) return end;
     memcpy(v->x, v->xk, NX * sizeof(double)); memcpy(v->S, v->sk, big * sizeof(double));
-    return step(v, t, h/2, k, halvings - 1) || step(v, t + h/2, h/2, k, halvings - 1);
+    return step(v, t, h/2, k, halvings - 1, halves & FIRST_HALF)
+        || step(v, t + h/2, h/2, k, halvings - 1, halves & SECOND_HALF);
 }
