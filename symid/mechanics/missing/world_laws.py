@@ -199,7 +199,8 @@ FURTHER_WORLD_LAWS: tuple[Law, ...] = (
         ("base_acceleration",),
         (
             LawParameter("inverse_mass_1_kg", "1/kg", (0.0, 100.0), typical=0.1),  # of all that the springs carry
-            LawParameter("frequency_Hz", "Hz", (0.5, 40.0), None, (3.0, 6.0, 12.0), 5.0),
+            # Slower than twice a mechanism with the pace of a second, nobody would call it a mount.
+            LawParameter("frequency_Hz", "Hz", (2.0, 40.0), None, (3.0, 6.0, 12.0), 5.0),
             LawParameter("damping_ratio", "1", (0.0, 2.0), None, (0.05,), 0.05),
         ),
         _elastic_mount,
