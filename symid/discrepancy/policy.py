@@ -31,6 +31,9 @@ class Policy:
     never : the price of what is never named: a clock whose frequency is a multiple of the one at which a motion
         swings that nothing drives, since any bent force or bent scale makes such harmonics; a law of which a
         part came to nothing; a channel that is late by less than `skew` samples.
+    least_part : of two forces of one law neither is less than this part of the other, else the law is never named. A
+        Stribeck curve with ten times as much friction at rest as in motion lets a spring stop where it turns, and
+        imitates any period that depends on the amplitude (tests/discrepancy/test_other_machines.py).
     skew : of a sample, by which channels of one recorder may be apart: its multiplexer reads them one after the other,
         and what a model leaves out of a smooth motion looks like a hundredth of a sample.
     harmonics : multiples that count.
@@ -67,6 +70,7 @@ class Policy:
         }
     )
     never: float = 1000.0
+    least_part: float = 0.1
     skew: float = 0.05
     harmonics: int = 6
     equivalent: float = 12.0

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter, seen
+from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.refining import seen
 from symid.estimation.signals.data import Data
 
 

@@ -18,11 +18,6 @@ from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import period
 from symid.simulation import Simulator
 
-LEAST_PART = 0.1
-"""Of two forces of one law neither is less than this part of the other. Friction at rest exceeds dry friction in motion
-by up to its own size (Armstrong-Helouvry 1991, ch. 2); one that is ten times as large lets a spring stop for a while
-where it turns, and imitates any period that depends on the amplitude (tests/discrepancy/test_other_machines.py)."""
-
 
 @dataclass(frozen=True, eq=False)
 class Hypothesis:
@@ -95,7 +90,7 @@ class Hypothesis:
         at = {q: self.fit.values[suspect.term.parameter_name(q.key)] for q in suspect.law.parameters}
         at_bound = (q.null is not None and v in q.bounds and (v == q.null or q.null == 1) for q, v in at.items())
         parts = [abs(v) for q, v in at.items() if q.null == 0 and q.bounds[0] == 0 and q.unit == suspect.strength.unit]
-        return any(at_bound) or (len(parts) > 1 and min(parts) < LEAST_PART * max(parts))
+        return any(at_bound) or (len(parts) > 1 and min(parts) < POLICY.least_part * max(parts))
 
     def _is_skew(self, suspect: Suspect) -> bool:
         """Whether one channel comes later than others by less than a clock keeps to its samples."""

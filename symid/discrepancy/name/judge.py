@@ -24,6 +24,7 @@ class Judge:
     base : the model as given, fitted to `data`. pool : the suspects.
     flexible : the best flexible law at one place, made when asked for.
     unsteady : the oscillations of a hypothesis that a half of the data contradicts: what is found on top goes astray.
+    left : tests for a remainder by fit, each made once.
     """
 
     base: Fit

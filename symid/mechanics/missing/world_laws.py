@@ -199,7 +199,7 @@ FURTHER_WORLD_LAWS: tuple[Law, ...] = (
         ("base_acceleration",),
         (
             LawParameter("inverse_mass_1_kg", "1/kg", (0.0, 100.0), typical=0.1),  # of all that the springs carry
-            # Slower than twice a mechanism with the pace of a second, nobody would call it a mount.
+            # A judgement, looked at on one rig: one slower than twice the pace of the mechanism imitates its swing.
             LawParameter("frequency_Hz", "Hz", (2.0, 40.0), None, (3.0, 6.0, 12.0), 5.0),
             LawParameter("damping_ratio", "1", (0.0, 2.0), None, (0.05,), 0.05),
         ),
