@@ -82,6 +82,7 @@ long simulate(const Ode *model, Run *given)
         for (long s = 0; s < m; s++) {
             double t = r->t[k] + s * h;
             if (step(v, t, h, k, keep ? 0 : HALVINGS, 0)) goto end;
+            v->hk = 0;
             if (keep) {
                 long n = v->steps;
                 double *P = v->poly + n*4*NX, *Q = v->spoly + n*4*big;

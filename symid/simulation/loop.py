@@ -166,7 +166,7 @@ class _Simulation:
         bend : whether the rates bend in it.
         """
         x, S, past = self.x, self.S, self.past
-        past.begin(t, x, S)
+        past.begin(t, h, x, S)
         found = self._rates(t, k, x, S)
         if found is None:
             return False
@@ -261,8 +261,13 @@ class _Simulation:
         found = self._found(t + h, k, x, S)
         before, after = -np.trace(A), -np.trace(self._derivative(t + h, k, x, S, found))
         if not (after > EVEN * before and before > EVEN * after):
-            return BOTH if halvings else _straight((d, D))
+            return BOTH if halvings else self._damped(t + h, h, k, A)
         return _straight((1.5 * d + 0.5 * W @ (found[0] - 2 * d - g), 1.5 * D + 0.5 * W @ (found[1] - 2 * D - G)))
+
+    def _damped(self, t: float, h: float, k: int, A: np.ndarray) -> Stages:
+        """Stages of a step of the linearly implicit Euler method, which forgets what is fast for good."""
+        W, (d, D) = np.linalg.inv(np.eye(len(A)) - h * A), self._found(t, k, self.x, self.S)
+        return _straight((W @ d, W @ D))
 
 
 def _straight(rates: Rates) -> Stages:

@@ -48,13 +48,13 @@ class Past:
         self.steps: list[Step] = []
         self.begins: list[float] = []
         n, zero = len(run.x0), np.zeros((len(run.x0), run.nq))
-        self.start, self.x, self.S = run.t[0], run.x0, zero
+        self.start, self.span, self.x, self.S = run.t[0], 0.0, run.x0, zero
         self.rate, self.curve, self.S_rate, self.S_curve = np.zeros(n), np.zeros(n), zero, zero
         self.known = False
 
-    def begin(self, t: float, x: np.ndarray, S: np.ndarray) -> None:
-        """A step begins at t; the rates at its start are not known yet."""
-        self.start, self.x, self.S, self.known = t, x, S, False
+    def begin(self, t: float, h: float, x: np.ndarray, S: np.ndarray) -> None:
+        """A step of h begins at t; the rates at its start are not known yet."""
+        self.start, self.span, self.x, self.S, self.known = t, h, x, S, False
 
     def inside(self, rate: np.ndarray, S_rate: np.ndarray) -> None:
         """The rates at the start of the present step are known."""
@@ -62,7 +62,7 @@ class Past:
 
     def end(self, step: Step) -> None:
         """A step is finished; it is kept where signals are late."""
-        self.known = False
+        self.known, self.span = False, 0.0
         if len(self.lag):
             self.steps.append(step)
             self.begins.append(step.begin)
@@ -99,7 +99,9 @@ class Past:
             return self.lag, self.dlag
         late, lS = np.zeros(len(self.lag)), np.zeros_like(self.dlag)
         for j, (kind, i) in enumerate(zip(self.source.late_kind, self.source.late_index, strict=True)):
-            if kind:
+            if kind and self.held[i] and self.span:
+                (late[j], rate), row = self._held_mean(self.lag[j], k, i), 0.0
+            elif kind:
                 values, slopes = self.inputs_at(time - self.lag[j], k)
                 late[j], rate, row = values[i], slopes[i], 0.0
             elif self.lag[j] == 0:
@@ -108,6 +110,23 @@ class Past:
                 late[j], rate, row = self._state_at(time - self.lag[j], i)
             lS[j] = row - rate * self.dlag[j]
         return late, lS
+
+    def _held_mean(self, lag: float, k: int, i: int) -> tuple[float, float]:
+        """Mean over the present step of input i as it was `lag` ago, which is held, and its slope in time.
+
+        What it was at one moment would not answer to a small change of the lag; where a sample is met the slope is that
+        for a little more lag. k is the present interval.
+        """
+        t, u = self.run.t, self.run.u[:, i]
+        begin, end, total, met = self.start - lag, self.start - lag + self.span, 0.0, 1e-9 * self.span
+        while k > 0 and begin <= t[k] + met:
+            k -= 1
+        while k < len(t) - 1 and begin > t[k + 1] + met:
+            k += 1
+        first = u[k]
+        while k < len(t) - 1 and end > t[k + 1] + met:
+            total, begin, k = total + u[k] * (t[k + 1] - begin), t[k + 1], k + 1
+        return (total + u[k] * (end - begin)) / self.span, (u[k] - first) / self.span
 
     def _state_at(self, time: float, i: int) -> tuple[float, float, np.ndarray | float]:
         first = self.run.t[0]

@@ -49,6 +49,24 @@ static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
     }
 }
 
+/* Mean over the present step of input i as it was `lag` ago, which is held from sample to sample, and its slope in
+ * time, by a little more lag where a sample is met: what it was at one moment would not answer to a small change of the
+ * lag. k is the present interval. */
+static double held_mean(const Work *v, double lag, long k, int i, double *slope)
+{
+    const Run *r = &v->r;
+    double begin = v->tk - lag, end = begin + v->hk, met = 1e-9 * v->hk, sum = 0;
+    while (k > 0 && begin <= r->t[k] + met) k--;
+    while (k < r->N - 1 && begin > r->t[k+1] + met) k++;
+    double first = r->u[k*NU+i];
+    for (; k < r->N - 1 && end > r->t[k+1] + met; k++) {
+        sum += r->u[k*NU+i] * (r->t[k+1] - begin);
+        begin = r->t[k+1];
+    }
+    *slope = (r->u[k*NU+i] - first) / v->hk;
+    return (sum + r->u[k*NU+i] * (end - begin)) / v->hk;
+}
+
 /* out += sign * (entries of a Jacobian) S, and the same for the chosen parameters themselves. */
 static void chain(double sign, const Entries *e, const double *d, const double *S, double *out, long nq)
 {
@@ -121,9 +139,13 @@ static void late_at(Work *v, double t, long k, const double *x, const double *S,
         double *row = lS + j*nq;
         if (v->m->late_kind[j]) {
             memset(row, 0, nq * sizeof(double));
-            inputs_at(v, t - v->lag[j], k, u, slope);
-            l[j] = u[i];
-            rate = slope[i];
+            if (v->hk > 0 && v->m->input_between[i] == 1) {
+                l[j] = held_mean(v, v->lag[j], k, i, &rate);
+            } else {
+                inputs_at(v, t - v->lag[j], k, u, slope);
+                l[j] = u[i];
+                rate = slope[i];
+            }
         } else if (v->lag[j] == 0) {
             l[j] = x[i];
             rate = v->k1[i];

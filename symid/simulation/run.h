@@ -32,7 +32,8 @@ typedef struct {
     const int *column;                  /* of each parameter among the sensitivities, -1 where not asked for */
     double *when, *span, *poly, *spoly; /* stored steps: x0, k1, k2 + k3, k4 of states, then of S */
     double *lag, *dlag;                 /* NL, NL x nq */
-    double tk, *ak, *sak;                /* rate of change of x' in the last step, and of S' */
+    double tk, hk;                      /* start and length of the present step; 0 between steps */
+    double *ak, *sak;                   /* rate of change of x' in the last step, and of S' */
     double *xk, *k1, *sk, *sk1; /* start of the present step */
     double *size;                       /* the largest that each state was */
     long stiff;                         /* steps in which something was stiff */

@@ -43,6 +43,19 @@ static int euler_step(Work *v, double h)
     return 0;
 }
 
+/* One step of the linearly implicit Euler method with the matrix in A, which forgets what is fast for good, whatever it
+ * has become meanwhile; ROS2's first stage alone would amplify it. */
+static int damped_step(Work *v, double t, double h, long k)
+{
+    double W[NXX*NXX], *k1 = v->rate[0], *K1 = v->Rate[0];
+    int pivot[NXX];
+    for (int i = 0; i < NX; i++)
+        for (int j = 0; j < NX; j++) W[i*NX+j] = (i == j) - h * v->A[i*PADDED(NX)+j];
+    if (rates(v, t + h, k, v->x, v->S, k1, K1, v->lS, 0) || factor(NX, W, pivot, k1)) return 1;
+    solve(NX, W, pivot, K1, v->nq);
+    return euler_step(v, h);
+}
+
 /* One step of ROS2 from x and S, whose rates are known. Its stages become those of a straight line to its end. CUT
  * where what decays changes within it, if it may be halved. */
 static int implicit_step(Work *v, double t, double h, long k, int halvings)
@@ -66,7 +79,7 @@ static int implicit_step(Work *v, double t, double h, long k, int halvings)
     for (long i = 0; i < big; i++) v->Sx[i] = v->S[i] + h*K1[i];
     if (rates(v, t + h, k, v->xs, v->Sx, k2, K2, v->lS, A)) return 1;
     double before = decay(NX, v->A), after = decay(NX, A);
-    if (!(after > EVEN * before && before > EVEN * after)) return halvings ? CUT : euler_step(v, h);
+    if (!(after > EVEN * before && before > EVEN * after)) return halvings ? CUT : damped_step(v, t, h, k);
     for (int i = 0; i < NX; i++) d[i*WIDE] = k2[i] - 2*k1[i] - g[i];
     for (long i = 0; i < big; i++) K2[i] -= 2*K1[i] + G[i];
     solve(NX, W, pivot, d, WIDE);
@@ -150,7 +163,7 @@ static int step(Work *v, double t, double h, long k, int halvings, int bend)
     long big = NX * v->nq;
     int stiff = v->r.method == STIFF, halves = FIRST_HALF + SECOND_HALF;
     v->inside = 0;
-    v->tk = t;
+    v->tk = t; v->hk = h;
     memcpy(v->xk, v->x, NX * sizeof(double)); memcpy(v->sk, v->S, big * sizeof(double));
     if (rates(v, t, k, v->x, v->S, v->rate[0], v->Rate[0], v->lS, stiff ? v->A : 0)) return 1;
     memcpy(v->k1, v->rate[0], NX * sizeof(double)); memcpy(v->sk1, v->Rate[0], big * sizeof(double));

@@ -8,6 +8,7 @@ from driven_cart import cart, data_of, recorded
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import Hypothesis, refit
 from symid.discrepancy.name.search import Search
+from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
 from symid.mechanics import LIBRARY
 
@@ -43,3 +44,16 @@ def test_simpler_laws_are_tried_in_the_place_of_one_of_which_a_part_came_to_noth
     assert best.suspects[0] is COULOMB
     assert best.fit.values[COULOMB.term.parameter_name("torque_Nm")] == pytest.approx(0.35, abs=0.02)
     assert search._instead([with_parts(0.3, 0.3)]) == []
+
+
+def test_a_law_whose_shape_ends_at_the_bound_of_what_is_possible_is_none():
+    found, speed = with_parts(0.3, 0.2), STRIBECK.law.parameters[2]
+    at_bound = STRIBECK.named({speed.key: speed.bounds[1]})
+    assert replace(found, fit=replace(found.fit, values=found.fit.values | at_bound)).is_half(STRIBECK)
+
+
+def test_a_law_that_became_half_beside_another_loses_its_name_but_does_not_forbid_the_other():
+    found = with_parts(0.3, 0.01)
+    assert not found.established and found.doubt() == pytest.approx(POLICY.doubt)
+    alone = replace(found, suspects=(STRIBECK,))
+    assert alone.doubt() >= POLICY.never

@@ -65,3 +65,41 @@ def test_a_spring_that_stiffens_and_is_damped_although_neither_explains_much_alo
     assert found.verdict == "missing_physics"
     assert {e.name for e in found.effects} == {"viscous_friction", "cubic_stiffness"}
     assert "with the cube of its position" in found.words and "N/m³" in found.words and "deg" not in found.words
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_only_brakes_a_disc_that_runs_down_is_dry_friction(seed):
+    """A constant torque would explain its speed as well, but dry friction is in every bearing."""
+    m = si.Model("disc")
+    m.speed, m.inertia = si.State(unit="rad/s"), si.Constant(0.02, unit="kg*m^2")
+    m.damping = si.Parameter(unit="N*m*s/rad", bounds=(0, 1))
+    m.balance = si.Equation(m.inertia * m.speed.dot + m.damping * m.speed)
+    m.seen = si.Output(m.speed)
+    time, rate, most = np.arange(0, 60, 0.1), 2e-4 / 0.02, 3e-3 / 0.02
+    speed = (95 + most / rate) * np.exp(-rate * time) - most / rate
+    noise = 0.08 * np.random.default_rng(seed).standard_normal(time.size)
+    recording = Recording("disc", time, {"speed": speed + noise}, {"speed": "rad/s"})
+    suspects = [s for s in si.suspects(m) if s.kind != "clock"]
+    found = si.diagnose(m, recording, fit_window=(0, 40), held_out=(40, 60), driven=False, suspects=suspects)
+    assert [e.name for e in found.effects] == ["coulomb_friction"]
+    assert "constant_torque" in [c.suspect.term.name for c in found.equivalent]
+
+
+def test_a_held_input_that_comes_late_is_late_and_does_not_lag():
+    """A tank of which the pump answers 2.6 samples after its command, which changes each ten samples."""
+    m = si.Model("tank")
+    m.level, m.flow = si.State(unit="m"), si.Input(unit="m^3/s", hold="zero")
+    m.area, m.outlet = si.Constant(0.05, unit="m^2"), si.Parameter(unit="m^2/s", bounds=(1e-5, 1e-2))
+    m.balance = si.Equation(m.area * m.level.dot + m.outlet * m.level - m.flow)
+    m.seen = si.Output(m.level)
+    rng, time, delay = np.random.default_rng(8), np.arange(0, 900.0), 2.6
+    flow = np.repeat(4e-4 * rng.random(90), 10)
+    rate, flows = 1e-3 / 0.05, np.diff(flow, prepend=flow[0])
+    later = np.maximum(time[:, None] - time - delay, 0.0)
+    level = flow[0] / 1e-3 + flows @ (1 - np.exp(-rate * later)).T / 1e-3
+    level += 5e-4 * rng.standard_normal(time.size)
+    recording = Recording("tank", time, {"level": level, "flow": flow}, {"level": "m", "flow": "m^3/s"})
+    found = si.diagnose(m, recording, fit_window=(0, 600), held_out=(600, 900), driven=False)
+    assert [e.name for e in found.effects] == ["input_delay"]
+    value, error = found.effects[0].parameters["delay_s"]
+    assert value == pytest.approx(delay, abs=3 * error) and error < 0.1

@@ -41,3 +41,24 @@ def test_a_stiff_integrator_sees_the_same_input(hold):
     run = Simulator(lag(hold)).simulate({"rate": 5.0}, [0.2], t, {"u": u}, substeps=16)
     stiff = simulate_stiff(lag(hold), np.array([5.0]), np.array([0.2]), t, {"u": u}, {}, np.array([1.0]), 1e-10)
     np.testing.assert_allclose(stiff[:, 0], run.y[:, 0], atol=1e-7)
+
+
+@pytest.mark.parametrize("backend", ["c", "numpy"])
+@pytest.mark.parametrize("delay", [0.0, 0.013, 0.05, 0.12, 0.135])
+def test_a_held_input_that_is_late_answers_to_its_delay(backend, delay):
+    """Against the sum of what each held step has left, which is exact: x' = rate (u(t - delay) - x)."""
+    m = lag("zero")
+    m.delay = si.Parameter(unit="s", bounds=(0, 1))
+    m.substitute({m["u"].symbol: m.delayed(m["u"].symbol, m["delay"].symbol)})
+    t = np.arange(41) * 0.05
+    u, rate = np.random.default_rng(3).normal(size=41), 2.0
+
+    def exact(d: float) -> np.ndarray:
+        before, after = np.append(u[0], u[:-1]), np.maximum(t[:, None] - t - d, 0.0)  # before its first sample it is that
+        return u[0] + (u - before) @ (1 - np.exp(-rate * after)).T - u[0] * np.exp(-rate * t)
+
+    run = Simulator(m, backend).simulate({"rate": rate, "delay": delay}, [0.0], t, {"u": u}, substeps=8, sensitivity=["delay"])
+    np.testing.assert_allclose(run.y[:, 0], exact(delay), atol=1e-3)
+    h = 1e-6
+    slope = (exact(delay + h) - exact(delay)) / h  # to one side: where a sample is met the other differs
+    np.testing.assert_allclose(run.dy[:, 0, 0], slope, atol=0.05 * np.abs(slope).max())

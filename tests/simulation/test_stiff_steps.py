@@ -112,3 +112,15 @@ def test_a_stiff_motion_may_read_its_past(Simulator):
     late = TIME <= 0.4
     ramp = 0.3 * (1 - 2 * TIME) + 0.3 * np.maximum(2 * (TIME - 0.2), 0) ** 2 / 2
     np.testing.assert_allclose(found.x[late, 0], ramp[late], atol=0.004)
+
+
+@pytest.mark.parametrize("start", [0.0, 16.3, 3849.0])
+def test_what_decays_ever_faster_on_its_way_is_forgotten_at_once(Simulator, start):
+    """z' = rate (1 - z^2), a strain that yields: where a step cannot be cut further it must not be amplified."""
+    m = Model("yielding strain")
+    m.z, m.rate = State(unit="1"), Parameter(unit="1/s")
+    m.balance, m.seen = Equation(m.z.dot - m.rate * (1 - m.z.symbol**2)), Output(m.z)
+    found = Simulator(m).simulate([1e6], [start], TIME[:20], {}, method="stiff", sensitivity=["rate"])
+    np.testing.assert_allclose(found.y[1:, 0], 1.0, atol=1e-9)
+    assert np.abs(found.dy[1:]).max() < 1e-6
+    assert found.stiff < 500  # not a thousand halves of every step

@@ -10,7 +10,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis, extended
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
-from symid.estimation.fitting.path import fitted_path
+from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.signals.data import Data
 from symid.mechanics.missing.unknown_laws import unknown_force, unknown_input, unknown_sensor
 from symid.mechanics.places import ROLES
@@ -49,11 +49,6 @@ def _first(model: Model, port: Port) -> bool:
 
 def _size(x: np.ndarray) -> float:
     return float(np.sqrt(np.mean(x**2))) or 1.0
-
-
-def along(path: np.ndarray, expr, model: Model) -> np.ndarray:
-    """(N,) a linear expression of the states along a path."""
-    return sum(float(expr.coeff(s.symbol)) * path[:, i] for i, s in enumerate(model.states.values()))
 
 
 def flexible_fits(base: Fit, data: Data, terms: Sequence[Term]) -> list[Hypothesis]:

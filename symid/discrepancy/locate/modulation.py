@@ -9,10 +9,9 @@ from __future__ import annotations
 import numpy as np
 from scipy.signal import fftconvolve
 
-from symid.discrepancy.locate.flexible import along
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import Suspect
-from symid.estimation.fitting.path import fitted_path
+from symid.estimation.fitting.path import along, fitted_path
 from symid.mechanics.missing.unknown_laws import short_push
 from symid.model import Port
 from symid.simulation import simulator

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symid.discrepancy.locate.flexible import along
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.spline_parts import chosen_blocks, numbers
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.path import fitted_path
+from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.sensors.independence import independent_share
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import swing

@@ -7,11 +7,10 @@ from math import log
 
 import numpy as np
 
-from symid.discrepancy.locate.flexible import along
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.path import fitted_path
+from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.sensors.independence import independent_share
 from symid.estimation.signals.data import Data
 from symid.mechanics.missing.spline_law import Block, knots_of

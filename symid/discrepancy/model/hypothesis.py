@@ -13,10 +13,14 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.sensors.independence import independent_share
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import period
 from symid.simulation import Simulator
+
+CONSTANT = "constant_torque"
+"""The law of a force that nothing changes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +47,8 @@ class Hypothesis:
 
     @property
     def established(self) -> bool:
-        return all(s.established for s in self.suspects)
+        """Whether all laws have names, and are what their names say."""
+        return all(self.is_named(s) for s in self.suspects)
 
     @property
     def is_free(self) -> bool:
@@ -72,25 +77,49 @@ class Hypothesis:
 
     def belief(self) -> float:
         """What is to be subtracted from the evidence because of what the suspects are, and of their sizes."""
-        return self.doubt() + sum(_odds(s) + _surprise(s, self.fit) for s in self.suspects)
+        odds = sum(_odds(s) + POLICY.braking * self._only_brakes(s) for s in self.suspects)
+        return self.doubt() + odds + sum(_surprise(s, self.fit) for s in self.suspects)
 
     def doubt(self) -> float:
-        """The part of `belief` that decides whether a suspect is believed at all, however it is called."""
+        """The part of `belief` that decides whether a suspect is believed at all, however it is called.
+
+        A law that became half beside what was added after it only loses its name: what it stands for may come later.
+        """
         return sum(
-            POLICY.doubt * (not s.established)
-            + POLICY.never * (self._is_harmonic(s) or self.is_half(s) or self._is_skew(s))
+            POLICY.doubt * (not self.is_named(s))
+            + POLICY.never * (self._is_harmonic(s) or self._is_skew(s) or s is self.suspect and self.is_half(s))
             for s in self.suspects
         )
+
+    def is_named(self, suspect: Suspect) -> bool:
+        return suspect.established and not self.is_half(suspect)
 
     def is_half(self, suspect: Suspect) -> bool:
         """Whether a part of the law has come to nothing, by itself or beside another part, so that its name is wrong.
 
-        Or a sensor, a drive or a geometry ends at the bound of what is possible at all.
+        Or a sensor, a drive or a geometry ends at the bound of what is possible at all, or the shape of a law does: a
+        mount as slow and as damped as it can be is none.
         """
         at = {q: self.fit.values[suspect.term.parameter_name(q.key)] for q in suspect.law.parameters}
-        at_bound = (q.null is not None and v in q.bounds and (v == q.null or q.null == 1) for q, v in at.items())
+        at_bound = (
+            v in q.bounds and (v != 0 and not q.clock if q.null is None else v == q.null or q.null == 1)
+            for q, v in at.items()
+        )
         parts = [abs(v) for q, v in at.items() if q.null == 0 and q.bounds[0] == 0 and q.unit == suspect.strength.unit]
         return any(at_bound) or (len(parts) > 1 and min(parts) < POLICY.least_part * max(parts))
+
+    def _only_brakes(self, suspect: Suspect) -> bool:
+        """Whether a constant force takes energy from the motion all the time, as dry friction does."""
+        if suspect.term.name != CONSTANT:
+            return False
+        (joint,) = (p for p in self.fit.model.ports.values() if p.role == "joint" and p.at == suspect.term.location)
+        force = self.fit.values[suspect.term.parameter_name(suspect.law.parameters[0].key)]
+        power = force * along(self._path, joint.rate, self.fit.model)
+        return bool(np.all(power <= 0) and np.any(power < 0))
+
+    @cached_property
+    def _path(self) -> np.ndarray:
+        return fitted_path(self.fit, self.data)
 
     def _is_skew(self, suspect: Suspect) -> bool:
         """Whether one channel comes later than others by less than a clock keeps to its samples."""

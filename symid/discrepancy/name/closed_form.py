@@ -9,7 +9,6 @@ from math import log
 import numpy as np
 from scipy.optimize import minimize
 
-from symid.discrepancy.locate.flexible import along
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
@@ -18,7 +17,7 @@ from symid.discrepancy.model.hypothesis import extended
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
-from symid.estimation.fitting.path import fitted_path
+from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.sensors.independence import independent_share
 from symid.mechanics.missing.dictionary import Shape, closed_expression, closed_law, shapes_of
 from symid.model import Law, Model, Port, Term

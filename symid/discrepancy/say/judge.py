@@ -37,7 +37,7 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
     if rest is not None and not found.suspects:
         return "unexplained", (_unnamed(rest),), ()
     if not found.established:
-        unestablished = next(s for s in found.suspects if not s.established)
+        unestablished = next(s for s in found.suspects if not found.is_named(s))
         effects = tuple(
             sorted(
                 effects, key=lambda e: (e.name, e.location) != (unestablished.term.name, unestablished.term.location)
@@ -112,5 +112,5 @@ def _effect(suspect: Suspect, found: Hypothesis) -> Effect:
         window,
         found.log_ratio,
         sentence(suspect, parameters, fit.model),
-        suspect.established,
+        found.is_named(suspect),
     )

@@ -107,6 +107,7 @@ class Fitter(Refining):
     def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), near: Fit | None = None, tune: bool = True):
         super().__init__(model, data, fixed, **(near.steps if near else {}))
         self.bounds = np.array([model.parameters[p].bounds for p in self.sim.parameters], dtype=float).reshape(-1, 2)
+        self.within = np.array([model.states[x].bounds for x in self.sim.states], dtype=float).reshape(-1, 2)
         ratios = len(data.sensor_noise) - 1 if self.driven and data.ratios_free else 0
         tuned = [*range(self.noises)] if self.driven else []
         tuned += range(self.noises, self.noises + data.cutoff_free + ratios)
@@ -193,7 +194,7 @@ class Fitter(Refining):
 
     def _begin(self, start, initial, process, known) -> _Point:
         p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
-        x0, process = np.array(initial, dtype=float), np.array(process, dtype=float)
+        x0, process = np.clip(np.array(initial, dtype=float), *self.within.T), np.array(process, dtype=float)
         if len(process) != self.noises + len(self.own):  # of a fit with another error model
             process = np.append(process[: self.noises], self.own)
         path = self.path(p, x0, self.kalman_gain(p, process, x0) if known is None else known)
@@ -243,7 +244,8 @@ class Fitter(Refining):
         if self.sharpness_at is not None:
             process1[self.sharpness_at] = np.clip(process1[self.sharpness_at], 1 / SHARPEST, SHARPEST)
         process1[self.ratios_at] = np.clip(process1[self.ratios_at], 1 / FARTHEST, FARTHEST)
-        return p1, x0 + step[-E * n :].reshape(E, n), process1
+        # What is forgotten at once, such as a strain, may begin anywhere as far as the recording tells.
+        return p1, np.clip(x0 + step[-E * n :].reshape(E, n), *self.within.T), process1
 
     def _result(self, at: _Point, iterations: int, converged: bool, errors_too: bool) -> Fit:
         system = normal_equations(self, at.p, at.x0, at.kalman_gain, at.process, at.path) if errors_too else None
