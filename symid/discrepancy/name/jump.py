@@ -94,20 +94,25 @@ def with_jumps_of(fit: Fit, base: Fit, made: Sequence[str]) -> Fit:
 
 
 def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
-    model, data, near = found.base.model, found.data, replace(found.fit, substeps=1)
+    model, data, tried = found.base.model, found.data, [found]
     sharp = model.constants[name].value
     port = next(p for p in model.ports.values() if p.at == model[name].at and p.role == "joint")
     *_, widest = widths(model, port, data.segments, data.sensor_noise)
 
     @cache
     def fitted(width: float) -> Hypothesis | None:
+        # What the sharpest jump was fitted to may be wrong values of all else, which a wider one leads away from.
+        near = replace(max(tried, key=lambda h: h.log_ratio).fit, substeps=1)
         base = replace(found.base, model=model.with_constants(**{name: width}))
         fit = refit(found.suspects, near, base, data, iterations=ITERATIONS)
-        return None if fit is None else Hypothesis(found.suspects, fit, base, data)
+        if fit is None:
+            return None
+        tried.append(Hypothesis(found.suspects, fit, base, data))
+        return tried[-1]
 
     def score(width: float) -> float:
-        tried = fitted(width)
-        return -np.inf if tried is None else tried.log_ratio
+        other = fitted(width)
+        return -np.inf if other is None else other.log_ratio
 
     best, width = sharp, widest
     while width > sharp:  # from wide to sharp: sharp corners ask for short steps of the integrator
