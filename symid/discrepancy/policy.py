@@ -28,8 +28,8 @@ class Policy:
         motion (150 to 1). Drag with the square of the speed belongs to what moves through air or water, a friction with
         the speed to joints: the other way round is rarer (50 to 1). Dry friction alone is rarer than friction with
         the speed (7 to 1), which is the first term of every smooth loss.
-    braking : likewise of a constant force that takes energy from the motion all the time: a disc that runs down does not
-        tell it from dry friction, which is in every machine (8 to 1 against its odds above).
+    braking : likewise of a constant force that takes energy from the motion all the time. A disc that runs down does
+        not tell it from dry friction, which is in every bearing (7 to 1, its own odds above taken off).
     never : the price of what is never named: a clock whose frequency is a multiple of the one at which a motion
         swings that nothing drives, since any bent force or bent scale makes such harmonics; a law of which a
         part came to nothing; a channel that is late by less than `skew` samples.

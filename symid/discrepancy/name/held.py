@@ -33,7 +33,7 @@ def held(
 ) -> Hypothesis:
     """`found`, or the same with inputs held and without their delays by part of a sample, where that is believed more.
 
-    Longer delays stay as they are: a held input that is late answers to no small change of its delay.
+    Longer delays stay as they are: held or not, they differ by half a sample.
 
     Parameters
     ----------
