@@ -78,7 +78,16 @@ class Hypothesis:
     def belief(self) -> float:
         """What is to be subtracted from the evidence because of what the suspects are, and of their sizes."""
         odds = sum(_odds(s) + POLICY.braking * self._only_brakes(s) for s in self.suspects)
-        return self.doubt() + odds + sum(_surprise(s, self.fit) for s in self.suspects)
+        return self.doubt() + odds + sum(map(self.surprise, self.suspects))
+
+    def surprise(self, suspect: Suspect) -> float:
+        """Minus twice the logarithm of the Cauchy priors of its sizes, relative to none."""
+        sizes = [
+            (self.fit.values[suspect.term.parameter_name(q.key)] - q.null) / q.plausible
+            for q in suspect.law.parameters
+            if q.plausible and q.null is not None
+        ]
+        return sum(2 * log(1 + z**2) for z in sizes)
 
     def doubt(self) -> float:
         """The part of `belief` that decides whether a suspect is believed at all, however it is called.
@@ -156,16 +165,6 @@ def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, sh
     states = after.initial.size - before.initial.size
     count = sum(s.size + (s.scanned is not None) for s in suspects)
     return log(max(share * data.samples, 2.0)) * count + 2.0 * states
-
-
-def _surprise(suspect: Suspect, fit: Fit) -> float:
-    """Minus twice the logarithm of the Cauchy priors of its sizes, relative to none."""
-    sizes = [
-        (fit.values[suspect.term.parameter_name(q.key)] - q.null) / q.plausible
-        for q in suspect.law.parameters
-        if q.plausible and q.null is not None
-    ]
-    return sum(2 * log(1 + z**2) for z in sizes)
 
 
 def is_met(fit: Fit, data: Data, times: float = POLICY.far) -> bool:

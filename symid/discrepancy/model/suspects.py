@@ -156,6 +156,7 @@ class Suspect:
 FAMILIES = (
     {"viscous_friction", "coulomb_friction", "stribeck_friction", "joint_drag", "quadratic_drag", "link_drag"},
     {"coulomb_friction", "stribeck_friction", "bouc_wen_hysteresis"},
+    {"torsional_spring", "bouc_wen_hysteresis"},
     {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "constant_torque"},
     {"feedback_delay", "muscle_lag", "second_order_muscle_lag"},
     {"joint_feedback_delay", "joint_muscle_lag"},

@@ -10,6 +10,7 @@ from math import inf
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
+from symid.discrepancy.name.begun_anew import begun_anew
 from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.held import asked_again
 from symid.discrepancy.name.judge import Judge
@@ -89,7 +90,7 @@ class Search(Judge):
                 more = self._reexamined(more, single)
                 if not self._worth(more, best):
                     break
-            best = polished(more)
+            best = begun_anew(polished(more))
             if (otherwise := asked_again(best, self.data, self.unstated, self.better)) is not best:
                 return otherwise, single
             curved = with_likeliest_curves(best.fit, self.data)
@@ -116,7 +117,7 @@ class Search(Judge):
     def of_one(self) -> Hypothesis:
         """The one suspect that is believed most, fitted to the end, or nothing where none is worth its price."""
         one = self._preferred(self.nothing, self.single)
-        return polished(one) if one else self.nothing
+        return begun_anew(polished(one)) if one else self.nothing
 
     def most_of_one(self) -> float:
         """Evidence for the one suspect or flexible law that explains most; infinite where one explains everything."""
@@ -146,16 +147,17 @@ class Search(Judge):
         return by_score(found)
 
     def _instead(self, found: Sequence[Hypothesis]) -> list[Hypothesis]:
-        """The best of `found` with a simpler law, or none, for an earlier one of which a part came to nothing.
+        """The best of `found` with a simpler law for one of which a part came to nothing, or none for an earlier one.
 
-        Friction that falls with speed may have stood for plain friction there and what the new one tells.
+        Friction that falls with speed may have stood for plain friction there and what the new one tells; rubber that
+        never yields is a spring.
         """
         sets = []
         for h in sorted(found, key=lambda h: -h.log_ratio)[: POLICY.rivals]:
             taken = {s.term for s in h.suspects}
-            for half in (s for s in h.suspects[:-1] if h.is_half(s)):
+            for half in (s for s in h.suspects if h.is_half(s)):
                 rest = [s for s in h.suspects if s is not half]
-                sets.append((h, rest, {}))
+                sets += [(h, rest, {})] if half is not h.suspect else []
                 alike = (o for o in self.pool if is_alike(o, half) and o.size < half.size and o.term not in taken)
                 sets += [(h, [o, *rest], o.off) for o in alike]
         tried = in_threads(lambda s: hypothesis(s[1], s[0].fit, self.base, self.data, s[2]), sets)

@@ -49,7 +49,7 @@ def nameless(
     found: Hypothesis, data: Data, held_out: Data | None, progress: Callable[[str], None] = lambda text: None
 ) -> Nameless:
     """Describe what `found` leaves, on top of the model as given and of that with the named effects."""
-    named = [s for s in found.suspects if s.established]
+    named = [s for s in found.suspects if found.is_named(s)]
     fits = [found.base]
     if named:
         with_names = found.fit if len(named) == len(found.suspects) else refit(named, found.fit, found.base, data)

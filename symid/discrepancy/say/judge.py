@@ -48,7 +48,8 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
         return "unexplained", (*unknown, *effects), equivalent
     if rest is not None:
         unknown = _unknown(_voted(flexible(), effects[0], rest), left, rest, found)
-        return "unexplained", (unknown, *(_as_survived(e, evidence) for e in effects)), equivalent
+        told = (_as_survived(e, evidence, found.surprise(s)) for e, s in zip(effects, found.suspects, strict=True))
+        return "unexplained", (unknown, *told), equivalent
     return "missing_physics", effects, equivalent
 
 
@@ -56,10 +57,14 @@ def _unnamed(test: Test) -> Effect:
     return Effect("unknown", test.place, {}, None, test.log_ratio, test.what, established=False)
 
 
-def _as_survived(effect: Effect, evidence: Evidence) -> Effect:
-    """The effect, not established where the halves of the recording contradict it: it may only imitate the rest."""
+def _as_survived(effect: Effect, evidence: Evidence, surprise: float) -> Effect:
+    """The effect, not established where it may only imitate the rest.
+
+    That is where the halves of the recording contradict it, or its size surprises as much as a law without a name does.
+    """
     fallen = {(v.name, v.location) for v in evidence.survived if v.reason}
-    return replace(effect, established=effect.established and (effect.name, effect.location) not in fallen)
+    kept = (effect.name, effect.location) not in fallen and surprise <= POLICY.doubt
+    return replace(effect, established=effect.established and kept)
 
 
 def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> bool:
