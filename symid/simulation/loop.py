@@ -13,7 +13,7 @@ from symid.simulation.past import Past, Step
 from symid.simulation.run import METHODS, Run
 
 FAST, GAMMA, EVEN, HALVINGS = 2.0, 1 - 2**-0.5, 0.5, 10
-UNSEEN, UNEQUAL, SMOOTH, AS_USUAL = 1e-8, 10.0, (6.0, 50.0), 2.0
+UNSEEN, UNEQUAL, SMOOTH = 1e-8, 10.0, (6.0, 50.0)
 """Of stiff steps, as in `steps.c`."""
 Rates = tuple[np.ndarray, np.ndarray]
 """(n,) of the state and (n, nq) of its sensitivities."""
@@ -82,7 +82,6 @@ class _Simulation:
         self.functions, source = loop.functions, loop.source
         self.x, self.S = run.x0.copy(), np.zeros((len(run.x0), run.nq))
         self.S[run.qx, run.nqp + np.arange(run.nqx)] = 1
-        self.usual = 0.0
         self.size, self.still, zero = np.zeros(len(run.x0)), np.zeros(len(run.x0)), np.zeros(max(loop.sizes["x"], 1))
         call = (zero, self.x, zero, zero, zero, run.p, run.c, 0.0)
         late = len(source.late)
@@ -212,20 +211,14 @@ class _Simulation:
     def _bends(self, t: float, h: float, k: int, end: np.ndarray, bend: bool) -> Halves | None:
         """In which halves of an explicit step to `end` the rates bend so that it errs; both, in a known `bend`."""
         whole, middle = self._error(t, h, k, self.x, end)
-        if bend:
+        if bend or not whole > UNSEEN:
             return BOTH if whole > UNSEEN else None
-        if not whole > max(UNSEEN, AS_USUAL * self.usual):
-            self.usual = min(self.usual, whole)
-            return None
         end = self._state(t + h / 2, h / 2, k, middle)
         first, second = self._error(t, h / 2, k, self.x, middle)[0], self._error(t + h / 2, h / 2, k, middle, end)[0]
         halves = first > UNEQUAL * second, second > UNEQUAL * first
         if any(halves):
             return halves
-        if not SMOOTH[0] * (first + second) < whole < SMOOTH[1] * (first + second):
-            return BOTH
-        self.usual = whole
-        return None
+        return None if SMOOTH[0] * (first + second) < whole < SMOOTH[1] * (first + second) else BOTH
 
     def _error(self, t: float, h: float, k: int, x: np.ndarray, end: np.ndarray) -> tuple[float, np.ndarray]:
         """What a step from x to `end` errs by, of the size of each state, and where its first half ends."""

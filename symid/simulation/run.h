@@ -36,7 +36,6 @@ typedef struct {
     double *ak, *sak;                   /* rate of change of x' in the last step, and of S' */
     double *xk, *k1, *sk, *sk1; /* start of the present step */
     double *size;                       /* the largest that each state was */
-    double usual;                       /* what a smooth step erred by, of the size of each state */
     long stiff;                         /* steps in which something was stiff */
     int inside;                         /* k1 of the present step is known */
     double *x, *S, *xs, *Sx;            /* the state and its sensitivities, now and within a step */

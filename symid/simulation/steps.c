@@ -21,8 +21,6 @@
 #define UNEQUAL 10.0
 #define LEAST 6.0
 #define MOST 50.0
-/* A step that errs by no more than this many times what the last smooth ones did is as good as they, bent or not. */
-#define AS_USUAL 2.0
 #define FIRST_HALF 1
 #define SECOND_HALF 2
 
@@ -148,13 +146,12 @@ static int bends(Work *v, double t, double h, long k, int bend)
     v->nq = 0;
     double whole = error_of(v, t, h, k, v->xk, v->x, middle);
     if (bend) found = whole > UNSEEN ? both : 0;
-    else if (whole > fmax(UNSEEN, AS_USUAL * v->usual) && !state_step(v, t + h/2, h/2, k, middle, end)) {
+    else if (whole > UNSEEN && !state_step(v, t + h/2, h/2, k, middle, end)) {
         double first = error_of(v, t, h/2, k, v->xk, middle, unused);
         double second = error_of(v, t + h/2, h/2, k, middle, end, unused);
         int smooth = LEAST * (first + second) < whole && whole < MOST * (first + second);
         found = first > UNEQUAL * second ? FIRST_HALF : second > UNEQUAL * first ? SECOND_HALF : smooth ? 0 : both;
-        if (!found) v->usual = whole;
-    } else v->usual = fmin(v->usual, whole);
+    }
     v->nq = nq;
     return found;
 }
