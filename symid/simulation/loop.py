@@ -12,8 +12,7 @@ from symid.codegen.ode import OdeSource
 from symid.simulation.past import Past, Step
 from symid.simulation.run import METHODS, Run
 
-FAST, GAMMA, EVEN, HALVINGS = 2.0, 1 - 2**-0.5, 0.5, 10
-UNSEEN, UNEQUAL, SMOOTH = 1e-8, 10.0, (6.0, 50.0)
+FAST, GAMMA, EVEN, HALVINGS, UNSEEN, UNEQUAL, SMOOTH = 2.0, 1 - 2**-0.5, 0.5, 10, 1e-8, 10.0, (6.0, 50.0)
 """Of stiff steps, as in `steps.c`."""
 Rates = tuple[np.ndarray, np.ndarray]
 """(n,) of the state and (n, nq) of its sensitivities."""

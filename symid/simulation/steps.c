@@ -145,7 +145,7 @@ static int bends(Work *v, double t, double h, long k, int bend)
     double middle[NXX], end[NXX], unused[NXX];
     v->nq = 0;
     double whole = error_of(v, t, h, k, v->xk, v->x, middle);
-    if (bend) found = whole > UNSEEN ? both : 0;
+    if (whole > UNSEEN && bend) found = both;
     else if (whole > UNSEEN && !state_step(v, t + h/2, h/2, k, middle, end)) {
         double first = error_of(v, t, h/2, k, v->xk, middle, unused);
         double second = error_of(v, t + h/2, h/2, k, middle, end, unused);

@@ -6,8 +6,8 @@ import sympy as sm
 
 import symid as si
 from symid.discrepancy import Suspect
+from symid.discrepancy.model.begun_anew import begun_anew
 from symid.discrepancy.model.hypothesis import hypothesis, polished
-from symid.discrepancy.name.begun_anew import begun_anew
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between

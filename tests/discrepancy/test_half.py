@@ -1,6 +1,7 @@
 """A law of which a part came to nothing is no such law, and a simpler one is tried in its place."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from driven_cart import cart, data_of, recorded
@@ -9,6 +10,8 @@ from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import Hypothesis, refit
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
+from symid.discrepancy.say.diagnosis import Effect
+from symid.discrepancy.say.judge import _as_survived
 from symid.estimation.fitting.cold_start import fit_model
 from symid.mechanics import LIBRARY
 
@@ -50,6 +53,22 @@ def test_a_law_whose_shape_ends_at_the_bound_of_what_is_possible_is_none():
     found, speed = with_parts(0.3, 0.2), STRIBECK.law.parameters[2]
     at_bound = STRIBECK.named({speed.key: speed.bounds[1]})
     assert replace(found, fit=replace(found.fit, values=found.fit.values | at_bound)).is_half(STRIBECK)
+
+
+def test_rubber_that_never_yields_is_tried_as_a_spring():
+    rubber, spring = (Suspect(LIBRARY[name].at("cart")) for name in ("bouc_wen_hysteresis", "torsional_spring"))
+    found, size = with_parts(0.3, 0.2), rubber.law.parameters[1]
+    values = rubber.named({"force_Nm": 1.0, size.key: size.bounds[1]})
+    fit = refit([rubber], found.base, found.base, found.data, values, iterations=0)
+    stuck = Hypothesis((rubber,), replace(fit, values=fit.values | values), found.base, found.data)
+    (instead,) = Search(found.base, found.data, [rubber, spring], lambda: None)._instead([stuck])
+    assert instead.suspects == (spring,)
+
+
+def test_a_size_that_surprises_beside_a_rest_is_what_it_looks_like_only():
+    evidence, effect = SimpleNamespace(survived=()), Effect("sensor_gain", "sensor:cart", {}, None, 1.0, "")
+    assert _as_survived(effect, evidence, surprise=0.5 * POLICY.doubt).established
+    assert not _as_survived(effect, evidence, surprise=2 * POLICY.doubt).established
 
 
 def test_a_law_that_became_half_beside_another_loses_its_name_but_does_not_forbid_the_other():

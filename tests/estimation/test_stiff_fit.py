@@ -7,7 +7,7 @@ from scipy.ndimage import gaussian_filter1d
 import symid as si
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
-from symid.estimation.signals.windows import segments_of
+from symid.estimation.signals.windows import segments_between, segments_of
 from symid.simulation import simulator
 
 TRUE = {"gain": 60.0, "damping": 400.0}
@@ -62,3 +62,12 @@ def test_dry_friction_is_found_where_an_axis_sticks_most_of_the_time():
     (effect,) = found.effects
     assert (effect.name, effect.location) == ("coulomb_friction", "axis")
     assert effect.parameters["torque_Nm"][0] == pytest.approx(FRICTION, rel=0.02)
+
+
+def test_a_segment_begins_within_the_bounds_of_its_states():
+    m = si.Model("bounded")
+    m.x, m.rate = si.State(unit="m", bounds=(-1, 1)), si.Parameter(unit="1/s", bounds=(0, 10))
+    m.balance, m.seen = si.Equation(m.x.dot + m.rate * m.x), si.Output(m.x)
+    time = np.arange(0, 3, 0.02)
+    segments = segments_between(m, time, {"x": 2 * np.exp(-time)}, (0, 2.9), None)
+    assert fit_model(m, Data(segments, np.array([0.01]), False)).initial == pytest.approx(1.0)

@@ -54,11 +54,8 @@ def test_a_held_input_that_is_late_answers_to_its_delay(backend, delay):
     u, rate = np.random.default_rng(3).normal(size=41), 2.0
 
     def exact(d: float) -> np.ndarray:
-        before, after = (
-            np.append(u[0], u[:-1]),
-            np.maximum(t[:, None] - t - d, 0.0),
-        )  # before its first sample it is that
-        return u[0] + (u - before) @ (1 - np.exp(-rate * after)).T - u[0] * np.exp(-rate * t)
+        after = np.maximum(t[:, None] - t - d, 0.0)
+        return u[0] + np.diff(u, prepend=u[0]) @ (1 - np.exp(-rate * after)).T - u[0] * np.exp(-rate * t)
 
     run = Simulator(m, backend).simulate(
         {"rate": rate, "delay": delay}, [0.0], t, {"u": u}, substeps=8, sensitivity=["delay"]

@@ -17,6 +17,8 @@ from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.sensors.independence import independent_share
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import period
+from symid.mechanics.missing.laws import port_at
+from symid.model import LawParameter
 from symid.simulation import Simulator
 
 CONSTANT = "constant_torque"
@@ -101,6 +103,7 @@ class Hypothesis:
         )
 
     def is_named(self, suspect: Suspect) -> bool:
+        """Whether the suspect's law has a name, and is what that says."""
         return suspect.established and not self.is_half(suspect)
 
     def is_half(self, suspect: Suspect) -> bool:
@@ -110,24 +113,22 @@ class Hypothesis:
         mount as slow and as damped as it can be is none.
         """
         at = {q: self.fit.values[suspect.term.parameter_name(q.key)] for q in suspect.law.parameters}
-        at_bound = (
-            v in q.bounds and (v != 0 and not q.clock if q.null is None else v == q.null or q.null == 1)
-            for q, v in at.items()
-        )
         parts = [abs(v) for q, v in at.items() if q.null == 0 and q.bounds[0] == 0 and q.unit == suspect.strength.unit]
-        return any(at_bound) or (len(parts) > 1 and min(parts) < POLICY.least_part * max(parts))
+        uneven = len(parts) > 1 and min(parts) < POLICY.least_part * max(parts)
+        return uneven or any(_is_out(q, v) for q, v in at.items())
 
     def _only_brakes(self, suspect: Suspect) -> bool:
         """Whether a constant force takes energy from the motion all the time, as dry friction does."""
         if suspect.term.name != CONSTANT:
             return False
-        (joint,) = (p for p in self.fit.model.ports.values() if p.role == "joint" and p.at == suspect.term.location)
+        joint = port_at(self.fit.model, "joint", suspect.term.location)
         force = self.fit.values[suspect.term.parameter_name(suspect.law.parameters[0].key)]
         power = force * along(self._path, joint.rate, self.fit.model)
         return bool(np.all(power <= 0) and np.any(power < 0))
 
     @cached_property
     def _path(self) -> np.ndarray:
+        """(N, n) states along the fit."""
         return fitted_path(self.fit, self.data)
 
     def _is_skew(self, suspect: Suspect) -> bool:
@@ -151,6 +152,15 @@ class Hypothesis:
     def __str__(self) -> str:
         names = ", ".join(str(s.term) for s in self.suspects) or "nothing added"
         return f"{names}: log-likelihood ratio {self.log_ratio:.1f}, score {self.score:.1f}, share {self.share:.2f}"
+
+
+def _is_out(q: LawParameter, value: float) -> bool:
+    """Whether a parameter of a law ends at a bound that says that the law is not what its name says."""
+    if value not in q.bounds:
+        return False
+    if q.null is None:
+        return value != 0 and not q.clock
+    return value == q.null or q.null == 1
 
 
 def _odds(suspect: Suspect) -> float:

@@ -8,9 +8,9 @@ from functools import cached_property
 from math import inf
 
 from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.model.begun_anew import begun_anew
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
-from symid.discrepancy.name.begun_anew import begun_anew
 from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.held import asked_again
 from symid.discrepancy.name.judge import Judge
@@ -157,7 +157,8 @@ class Search(Judge):
             taken = {s.term for s in h.suspects}
             for half in (s for s in h.suspects if h.is_half(s)):
                 rest = [s for s in h.suspects if s is not half]
-                sets += [(h, rest, {})] if half is not h.suspect else []
+                if half is not h.suspect:
+                    sets.append((h, rest, {}))
                 alike = (o for o in self.pool if is_alike(o, half) and o.size < half.size and o.term not in taken)
                 sets += [(h, [o, *rest], o.off) for o in alike]
         tried = in_threads(lambda s: hypothesis(s[1], s[0].fit, self.base, self.data, s[2]), sets)
