@@ -23,11 +23,11 @@ long simulate(const Ode *model, Run *given)
     v->column = column;
     long nsteps = keep ? (r->N - 1) * m + 1 : 0;
     double *space = calloc(9 * big + 2 * NON(NL) * nq + NON(NY) * nq + 64, sizeof(double));
-    double x[NXX], xs[NXX], rate[4*NXX], y[NON(NY)], xk[NXX], first[NXX], ak[NXX], lag[NON(NL)], A[NXX*PADDED(NX)], size[NXX];
+    double x[NXX], xs[NXX], rate[4*NXX], y[NON(NY)], xk[NXX], first[NXX], ak[NXX], lag[NON(NL)], A[NXX*PADDED(NX)], size[NXX], err[2*NXX];
     long hint[NON(NL)];
     memset(ak, 0, NX * sizeof(double)); memset(first, 0, NX * sizeof(double)); memset(hint, 0, NON(NL) * sizeof(long));
-    memset(rate, 0, NX * sizeof(double)); memset(size, 0, NX * sizeof(double));
-    v->xk = xk; v->k1 = first; v->ak = ak; v->lag = lag; v->hint = hint; v->x = x; v->xs = xs; v->A = A; v->size = size;
+    memset(rate, 0, NX * sizeof(double)); memset(size, 0, NX * sizeof(double)); memset(err, 0, 2*NX * sizeof(double));
+    v->xk = xk; v->k1 = first; v->ak = ak; v->lag = lag; v->hint = hint; v->x = x; v->xs = xs; v->A = A; v->size = size; v->err = err;
     double *S = v->S = space, *room = S + big;
     v->Sx = room; room += big;
     for (int s = 0; s < 4; s++) { v->rate[s] = rate + s*NX; v->Rate[s] = room; room += big; }

@@ -12,7 +12,8 @@ from symid.codegen.ode import OdeSource
 from symid.simulation.past import Past, Step
 from symid.simulation.run import METHODS, Run
 
-FAST, GAMMA, EVEN, HALVINGS, UNSEEN, UNEQUAL, SMOOTH = 2.0, 1 - 2**-0.5, 0.5, 10, 1e-8, 10.0, (6.0, 50.0)
+FAST, GAMMA, EVEN, HALVINGS = 2.0, 1 - 2**-0.5, 0.5, 10
+UNSEEN, UNEQUAL, SMOOTH, SAME = 1e-8, 10.0, (6.0, 50.0), 1e-6
 """Of stiff steps, as in `steps.c`."""
 Rates = tuple[np.ndarray, np.ndarray]
 """(n,) of the state and (n, nq) of its sensitivities."""
@@ -82,6 +83,8 @@ class _Simulation:
         self.x, self.S = run.x0.copy(), np.zeros((len(run.x0), run.nq))
         self.S[run.qx, run.nqp + np.arange(run.nqx)] = 1
         self.size, self.still, zero = np.zeros(len(run.x0)), np.zeros(len(run.x0)), np.zeros(max(loop.sizes["x"], 1))
+        self.smooth: list[np.ndarray] = []  # what the smooth steps before this one erred by, and how long these were
+        self.span = 0.0
         call = (zero, self.x, zero, zero, zero, run.p, run.c, 0.0)
         late = len(source.late)
         lag, dlag = self.functions["lags"](*call)[0], np.zeros((late, run.nq))
@@ -204,26 +207,45 @@ class _Simulation:
             return BOTH if halvings else self._implicit(t, h, k, fast, first, 0)
         middle = stages[1][0] + stages[2][0], stages[1][1] + stages[2][1]
         end = self.x + h / 6 * (first[0] + 2 * middle[0] + stages[3][0])
-        bends = self._bends(t, h, k, end, bend) if A is not None and halvings else None
+        bends = self._bends(t, h, k, end, halvings, bend) if A is not None and halvings else None
         return bends or (first, middle, stages[3])
 
-    def _bends(self, t: float, h: float, k: int, end: np.ndarray, bend: bool) -> Halves | None:
+    def _bends(self, t: float, h: float, k: int, end: np.ndarray, halvings: int, bend: bool) -> Halves | None:
         """In which halves of an explicit step to `end` the rates bend so that it errs; both, in a known `bend`."""
-        whole, middle = self._error(t, h, k, self.x, end)
-        if bend or not whole > UNSEEN:
-            return BOTH if whole > UNSEEN else None
-        end = self._state(t + h / 2, h / 2, k, middle)
-        first, second = self._error(t, h / 2, k, self.x, middle)[0], self._error(t + h / 2, h / 2, k, middle, end)[0]
-        halves = first > UNEQUAL * second, second > UNEQUAL * first
-        if any(halves):
-            return halves
-        return None if SMOOTH[0] * (first + second) < whole < SMOOTH[1] * (first + second) else BOTH
+        error, middle = self._error(t, h, k, self.x, end)
+        whole, expected = self._largest(error), halvings == HALVINGS and self._as_before(h, error)
+        found = None
+        if bend and whole > UNSEEN:
+            found = BOTH
+        elif whole > UNSEEN and not expected:
+            end = self._state(t + h / 2, h / 2, k, middle)
+            first = self._largest(self._error(t, h / 2, k, self.x, middle)[0])
+            second = self._largest(self._error(t + h / 2, h / 2, k, middle, end)[0])
+            if first > UNEQUAL * second or second > UNEQUAL * first:
+                found = first > UNEQUAL * second, second > UNEQUAL * first
+            elif not SMOOTH[0] * (first + second) < whole < SMOOTH[1] * (first + second):
+                found = BOTH
+        if found:
+            self.smooth = []
+        return found
 
-    def _error(self, t: float, h: float, k: int, x: np.ndarray, end: np.ndarray) -> tuple[float, np.ndarray]:
-        """What a step from x to `end` errs by, of the size of each state, and where its first half ends."""
+    def _as_before(self, h: float, error: np.ndarray) -> bool:
+        """Whether a whole step errs as the two before let expect, and so is smooth as they are; it is kept too."""
+        if not abs(h - self.span) < SAME * h:
+            self.smooth = []
+        self.smooth, self.span = [*self.smooth[-2:], error], h
+        if len(self.smooth) < 3:
+            return False
+        return bool(self._largest(np.diff(self.smooth, 2, axis=0)[0]) <= UNSEEN)
+
+    def _largest(self, error: np.ndarray) -> float:
+        """Of the size of each state."""
+        return np.nanmax(np.abs(error) / self.size, initial=0.0)
+
+    def _error(self, t: float, h: float, k: int, x: np.ndarray, end: np.ndarray) -> Rates:
+        """What a step from x to `end` errs by, and where its first half ends."""
         middle = self._state(t, h / 2, k, x)
-        twice = self._state(t + h / 2, h / 2, k, middle)
-        return np.nanmax(np.abs(twice - end) / self.size, initial=0.0), middle
+        return self._state(t + h / 2, h / 2, k, middle) - end, middle
 
     def _state(self, t: float, h: float, k: int, x: np.ndarray) -> np.ndarray:
         """The state alone, one step of Runge-Kutta 4 after x."""

@@ -36,6 +36,8 @@ typedef struct {
     double *ak, *sak;                   /* rate of change of x' in the last step, and of S' */
     double *xk, *k1, *sk, *sk1; /* start of the present step */
     double *size;                       /* the largest that each state was */
+    double *err, span_err;              /* of the two steps before, the later first; how long these were */
+    int smooth;                         /* so many steps before this one were looked at, and are smooth */
     long stiff;                         /* steps in which something was stiff */
     int inside;                         /* k1 of the present step is known */
     double *x, *S, *xs, *Sx;            /* the state and its sensitivities, now and within a step */

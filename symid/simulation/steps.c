@@ -21,6 +21,8 @@
 #define UNEQUAL 10.0
 #define LEAST 6.0
 #define MOST 50.0
+/* Steps are equally long up to what rounding makes of times. */
+#define SAME 1e-6
 #define FIRST_HALF 1
 #define SECOND_HALF 2
 
@@ -128,30 +130,50 @@ static int state_step(Work *v, double t, double h, long k, const double *x, doub
     return 0;
 }
 
-/* What a step from x to `end` errs by, of the size of each state, and where its first half ends. */
-static double error_of(Work *v, double t, double h, long k, const double *x, const double *end, double *middle)
+/* What a step from x to `end` errs by, also of the size of each state, and where its first half ends. */
+static double error_of(Work *v, double t, double h, long k, const double *x, const double *end, double *middle,
+                       double *error)
 {
     double twice[NXX], worst = 0;
+    memset(error, 0, NX * sizeof(double));
     if (state_step(v, t, h/2, k, x, middle) || state_step(v, t + h/2, h/2, k, middle, twice)) return 0;
-    for (int i = 0; i < NX; i++) worst = fmax(worst, fabs(twice[i] - end[i]) / v->size[i]);
+    for (int i = 0; i < NX; i++) {
+        error[i] = twice[i] - end[i];
+        worst = fmax(worst, fabs(error[i]) / v->size[i]);
+    }
     return worst;
 }
 
+/* Whether a whole step errs as the two before let expect, and so is smooth as they are; it is kept beside them. */
+static int as_before(Work *v, double h, const double *error)
+{
+    int same = fabs(h - v->span_err) < SAME * h;
+    double *before = v->err, *earlier = v->err + NX, worst = 0;
+    for (int i = 0; i < NX; i++) worst = fmax(worst, fabs(error[i] - 2*before[i] + earlier[i]) / v->size[i]);
+    int expected = same && v->smooth > 1 && worst <= UNSEEN;
+    v->smooth = same ? v->smooth + 1 : 1;
+    v->span_err = h;
+    memcpy(earlier, before, NX * sizeof(double)); memcpy(before, error, NX * sizeof(double));
+    return expected;
+}
+
 /* In which halves of the explicit step from xk to x the rates bend so that it errs; both, in a `bend` that is known. */
-static int bends(Work *v, double t, double h, long k, int bend)
+static int bends(Work *v, double t, double h, long k, int halvings, int bend)
 {
     long nq = v->nq;
     int both = FIRST_HALF + SECOND_HALF, found = 0;
-    double middle[NXX], end[NXX], unused[NXX];
+    double middle[NXX], end[NXX], error[NXX], unused[NXX];
     v->nq = 0;
-    double whole = error_of(v, t, h, k, v->xk, v->x, middle);
+    double whole = error_of(v, t, h, k, v->xk, v->x, middle, error);
+    int expected = halvings == HALVINGS && as_before(v, h, error);
     if (whole > UNSEEN && bend) found = both;
-    else if (whole > UNSEEN && !state_step(v, t + h/2, h/2, k, middle, end)) {
-        double first = error_of(v, t, h/2, k, v->xk, middle, unused);
-        double second = error_of(v, t + h/2, h/2, k, middle, end, unused);
+    else if (whole > UNSEEN && !expected && !state_step(v, t + h/2, h/2, k, middle, end)) {
+        double first = error_of(v, t, h/2, k, v->xk, middle, unused, error);
+        double second = error_of(v, t + h/2, h/2, k, middle, end, unused, error);
         int smooth = LEAST * (first + second) < whole && whole < MOST * (first + second);
         found = first > UNEQUAL * second ? FIRST_HALF : second > UNEQUAL * first ? SECOND_HALF : smooth ? 0 : both;
     }
+    if (found) v->smooth = 0;
     v->nq = nq;
     return found;
 }
@@ -179,7 +201,7 @@ static int step(Work *v, double t, double h, long k, int halvings, int bend)
         int sets_in = fast * h > FAST;
         v->stiff += sets_in;
         if (!sets_in) {
-            halves = stiff && halvings ? bends(v, t, h, k, bend) : 0;
+            halves = stiff && halvings ? bends(v, t, h, k, halvings, bend) : 0;
             if (!halves) return 0;
         } else if (!halvings) {
             memcpy(v->x, v->xk, NX * sizeof(double)); memcpy(v->S, v->sk, big * sizeof(double));
