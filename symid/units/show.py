@@ -23,10 +23,8 @@ TINY = 1e-300
 def unit_symbol(unit: str) -> str:
     """A unit text as it is printed: ``"N*m*s/rad"`` as ``"N m s/rad"``, ``"1/m/s^2"`` as ``"1/(m s²)"``."""
     text = "" if unit in ("", "1") else unit.replace("**", "^").replace("*", " ")
-    base, *powers = text.split("^")
-    for power in powers:
-        end = next((i for i, c in enumerate(power) if not (c.isdigit() or c == "-")), len(power))
-        base += power[:end].translate(_RAISED) + power[end:]
+    # There is no raised point: a root stays m^2.5.
+    base = re.sub(r"\^(-?\d+)(?![\d.])", lambda power: power[1].translate(_RAISED), text)
     above, *below = base.split("/")
     return f"{above}/({' '.join(below)})" if len(below) > 1 and "(" not in base else base
 

@@ -31,6 +31,7 @@ _WHAT = {
     "unknown_sensor_error": "a distortion of what the sensor shows",
     "unknown_input_error": "an excitation other than the recorded one",
 }
+_FLOW = "a flow that depends on the state, the past or time"
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
             found.append(
                 Test(
                     term.location,
-                    _WHAT[term.name],
+                    _FLOW if term.law.acts_on == "balance" else _WHAT[term.name],
                     gain / _excess([projection.score(columns, r)[0] for r in nulls], size),
                     size,
                 )

@@ -16,6 +16,7 @@ from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.mechanics import CANONICAL, suspects as terms_of
 from symid.mechanics.missing.drive_laws import LAG_LAWS
+from symid.mechanics.missing.flow_laws import FLOW_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
 from symid.mechanics.missing.world_laws import GEOMETRY_LAWS
 from symid.mechanics.places import with_places
@@ -162,6 +163,8 @@ FAMILIES = (
     {"joint_feedback_delay", "joint_muscle_lag"},
     {"input_delay", "input_lag"},
     {"sensor_delay", "sensor_lag"},
+    {"proportional_loss", "orifice_loss", "quadratic_loss", "constant_flow"},
+    {"proportional_exchange", "orifice_exchange"},
 )
 """Laws that take up what one another do: each is at one amplitude, or while it is small, nearly another."""
 
@@ -226,8 +229,8 @@ PLAIN = (
     "slow_body_drag",
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
-ESTABLISHED = {*CANONICAL, *(law.name for law in (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS)), *PLAIN}
-"""Names that are an answer: of the answer files, of what may be stated wrongly, lags, and the plainest forces."""
+ESTABLISHED = {*CANONICAL, *(law.name for law in (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *FLOW_LAWS)), *PLAIN}
+"""Names that are answers: of the answer files, of what may be stated wrongly, lags, flows, and the plainest forces."""
 
 
 def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:

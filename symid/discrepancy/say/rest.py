@@ -17,7 +17,7 @@ from symid.mechanics.places import coordinate, signal_unit
 from symid.model import Model, Port
 from symid.units import quantity, reduced, same_dimension
 
-NOUNS = {"N*m": "torque", "N": "force", **dict.fromkeys(("m/s^2", "rad/s^2", "1/s^2"), "acceleration")}
+NOUNS = {"N*m": "torque", "N": "force", "W": "flow", **dict.fromkeys(("m/s^2", "rad/s^2", "1/s^2"), "acceleration")}
 AMOUNTS = ("m^3", "cm^3", "L", "mL", "kg", "g", "mol", "mmol")
 """What flows where a unit is one of these over a time."""
 LARGEST = 0.99

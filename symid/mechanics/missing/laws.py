@@ -19,6 +19,8 @@ LAG = LawParameter("time_constant_s", "s", (0.0, 1.0), 0.0, (0.03, 0.08, 0.2), 0
 """Of a first-order lag."""
 
 _ANGLES_ANYWHERE = ("phase_rad",)
+_ROLES = ("joint", "link", "balance", "exchange", "coupling")
+"""Of the ports at which forces and flows can act."""
 
 
 def parameter_name(law: str, place: str, key: str) -> str:
@@ -36,9 +38,13 @@ def port_at(model: Model, role: str, place: str) -> Port:
     return found[0]
 
 
+def _ports_at(model: Model, place: str) -> list[Port]:
+    return [c for role in _ROLES for c in model.find(role, place) if isinstance(c, Port)]
+
+
 def coordinate_unit(model: Model, place: str) -> str:
     """Unit of what moves at `place`: "rad" of a joint that turns, "m" where a force [N] acts along a displacement."""
-    ports = [c for role in ("joint", "link") for c in model.find(role, place) if isinstance(c, Port)]
+    ports = _ports_at(model, place)
     units = {s.unit for port in ports for s in model.states.values() if s.symbol in port.position.free_symbols}
     if units:
         return "rad" if "rad" in units else min(units)
@@ -51,7 +57,7 @@ def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
 
     In an equation that was divided by the mass, in m/s^2, it reads 1/s^2.
     """
-    force = next((c.unit for c in model.find("joint", place) + model.find("link", place) if isinstance(c, Port)), "")
+    force = next((port.unit for port in _ports_at(model, place)), "")
     length = coordinate_unit(model, place)
     force = force or ("N" if length == "m" else "N*m")
     if (force, length) != ("N*m", "rad"):
@@ -62,6 +68,7 @@ def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
 
 def unit_along(unit: str, force: str, length: str) -> str:
     """Unit of a law's parameter, stated for a torque [N*m] and an angle, for another kind of force and coordinate."""
+    length = f"({length})" if "/" in length else length
     if force == "N":  # reads better than what pint would make of it
         return unit.replace("N*m", "N").replace("rad", length)
     return reduced(unit.replace("rad", length).replace("N*m", f"({force})"))

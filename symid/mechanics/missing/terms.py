@@ -9,6 +9,7 @@ from symid.errors import ModelError
 from symid.mechanics.bodies import BODY_LAWS
 from symid.mechanics.missing.drive_laws import DRIVE_LAWS, LAG_LAWS
 from symid.mechanics.missing.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
+from symid.mechanics.missing.flow_laws import FLOW_LAWS
 from symid.mechanics.missing.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
 from symid.mechanics.missing.world_laws import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
@@ -32,6 +33,7 @@ LIBRARY: dict[str, Law] = {
         *DRIVE_LAWS,
         *LAG_LAWS,
         *BODY_LAWS,
+        *FLOW_LAWS,
         *STATED_LAWS,
     )
 }
