@@ -144,4 +144,4 @@ def test_a_motor_whose_model_forgets_that_its_speed_drives_its_current():
     found = si.diagnose(m, recording, fit_window=(0, 2), held_out=(2, 3), driven=False)
     assert [(e.name, e.location) for e in found.effects] == [("proportional_coupling", "clamp from tacho")]
     value, error = found.effects[0].parameters["coefficient_Nm_rad"]
-    assert value == pytest.approx(-0.05, abs=4 * error) and "V s/rad" in found.words
+    assert value == pytest.approx(-0.05, abs=4 * error) and "V/rad" in found.words
