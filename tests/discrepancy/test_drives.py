@@ -36,3 +36,21 @@ def test_an_input_that_shakes_the_ground_is_no_drive_between_the_floors_of_a_hou
     m.second = si.Equation(2.0 * m.w.dot + 40 * (m.b - m.a) + 2.0 * m.ground)
     m.y1, m.y2 = si.Output(m.a), si.Output(m.b)
     assert [p.at for p in with_places(m).ports.values()] == ["a", "b", "a-b"]
+
+
+def test_a_zero_error_is_tried_where_it_is_no_constant_force():
+    """A steering angle acts on two balances; the force of a drive on one, and an acceleration is a tilt."""
+    m = si.Model("vehicle")
+    m.slip, m.yaw, m.steering = si.State(unit="rad"), si.State(unit="rad/s"), si.Input(unit="rad")
+    m.grip = si.Parameter(unit="1/s", bounds=(0, 100))
+    m.lateral = si.Equation(m.slip.dot + m.yaw - m.grip * (m.steering - m.slip))
+    m.turning = si.Equation(m.yaw.dot - 2.0 * m.grip * (m.steering - m.slip))
+    m.gyro = si.Output(m.yaw)
+    assert "input_offset@input:steering" in {str(s.term) for s in si.suspects(m)}
+    for unit in ("N", "m/s^2"):
+        cart = si.Model("cart")
+        cart.x, cart.v, cart.push = si.State(unit="m"), si.State(unit="m/s"), si.Input(unit=unit)
+        cart.moves = si.Equation(cart.x.dot - cart.v)
+        cart.balance = si.Equation((2.0 if unit == "N" else 1.0) * cart.v.dot - cart.push)
+        cart.seen = si.Output(cart.x)
+        assert "input_offset" not in {s.term.name for s in si.suspects(cart)}

@@ -15,7 +15,7 @@ from symid.errors import ModelError
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.mechanics import CANONICAL, suspects as terms_of
-from symid.mechanics.missing.drive_laws import LAG_LAWS
+from symid.mechanics.missing.drive_laws import LAG_LAWS, OFFSET_LAWS
 from symid.mechanics.missing.flow_laws import FLOW_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
 from symid.mechanics.missing.world_laws import GEOMETRY_LAWS
@@ -229,7 +229,8 @@ PLAIN = (
     "slow_body_drag",
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
-ESTABLISHED = {*CANONICAL, *(law.name for law in (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *FLOW_LAWS)), *PLAIN}
+_NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *FLOW_LAWS)
+ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN}
 """Names that are answers: of the answer files, of what may be stated wrongly, lags, flows, and the plainest forces."""
 
 

@@ -4,15 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from math import inf
 from types import SimpleNamespace
 
 import sympy as sm
 
+from symid.errors import ModelError
 from symid.mechanics.missing.laws import LAG, give_unit, late_symbols
 from symid.model import Equation, Input, Law, LawParameter, Model, Output, State
+from symid.units import dimension
 
 INPUT_DELAY = LawParameter("delay_s", "s", (-0.3, 0.3), 0.0, (-0.1, -0.04, 0.04, 0.1), 0.05)
 """Of what was recorded of a drive, by one recorder or another: it may be early, too."""
+FORCES = "N", "N*m", "m/s^2", "rad/s^2"
+"""Units of inputs whose zero error is a constant force, or the tilt of what is shaken."""
 CORNER = 0.01
 """Roundness of a corner, as a part of the size at which it is: drives stop short, and derivatives are needed."""
 
@@ -32,6 +37,18 @@ def _bent(key: str, shape: Callable[[sm.Expr, sm.Expr], sm.Expr]) -> Callable[[M
             model.substitute({s: shape(s, size) for s in (u.symbol, *late_symbols(model, u.symbol))})
 
     return build
+
+
+def _input_offset(model: Model, place: str, p: SimpleNamespace) -> None:
+    for u in model.find("excitation", place):
+        if dimension(u.unit or "1") in [dimension(unit) for unit in FORCES]:
+            raise ModelError(f"a zero error of '{u.name}' is a constant force or a tilt, which have laws of their own")
+        late = late_symbols(model, u.symbol)
+        rows = [r for r in model.residual() if r.has(u.symbol, *late)]
+        if len(rows) < 2:
+            raise ModelError(f"a zero error of '{u.name}' is a constant force or flow in its one balance")
+        give_unit(model, p.offset_Nm, lambda _, unit=u.unit: unit)
+        model.substitute({s: s + p.offset_Nm for s in (u.symbol, *late)})
 
 
 def _input_lag(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -100,6 +117,18 @@ LAG_LAWS: tuple[Law, ...] = (
     ),
 )
 """First-order lags, as an amplifier, a valve, a servo or a filter against aliases has; two recorders out of step."""
+
+OFFSET_LAWS: tuple[Law, ...] = (
+    Law(
+        "input_offset",
+        "excitation",
+        (LawParameter("offset_Nm", "N*m", (-inf, inf), plausible=0.1),),
+        _input_offset,
+        "The true excitation is {offset_Nm} above the recorded one",
+        "Etkin 1959",
+    ),
+)
+"""Zero errors, as of a rudder that is trimmed. Their sizes are stated for a drive of 1, rms."""
 
 DRIVE_LAWS: tuple[Law, ...] = (
     Law(

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.bodies import BODY_LAWS
-from symid.mechanics.missing.drive_laws import DRIVE_LAWS, LAG_LAWS
+from symid.mechanics.missing.drive_laws import DRIVE_LAWS, LAG_LAWS, OFFSET_LAWS
 from symid.mechanics.missing.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
 from symid.mechanics.missing.flow_laws import FLOW_LAWS
 from symid.mechanics.missing.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
@@ -32,6 +32,7 @@ LIBRARY: dict[str, Law] = {
         *FURTHER_WORLD_LAWS,
         *DRIVE_LAWS,
         *LAG_LAWS,
+        *OFFSET_LAWS,
         *BODY_LAWS,
         *FLOW_LAWS,
         *STATED_LAWS,
