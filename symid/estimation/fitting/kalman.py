@@ -62,7 +62,8 @@ def _sizes(F: np.ndarray, C: np.ndarray) -> np.ndarray:
     """(n,) by which states are divided so that millimetres beside kilopascals do no harm (Parlett & Reinsch 1969)."""
     if not np.isfinite(F).all():
         return np.ones(len(F))
-    _, (size, _) = matrix_balance(F, permute=False, separate=True)
+    with np.errstate(invalid="ignore"):  # SciPy makes integers of sizes beyond all bounds, which nobody asked for
+        _, (size, _) = matrix_balance(F, permute=False, separate=True)
     return size / (np.abs(C * size).max() or 1.0)
 
 
