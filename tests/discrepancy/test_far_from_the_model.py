@@ -108,3 +108,33 @@ def test_dry_friction_is_tried_wherever_a_law_like_it_explains_more_than_it_prom
     values = {e.name: e.parameters["torque_Nm"][0] for e in found.effects}
     assert values["constant_torque"] == pytest.approx(3.2, abs=0.01)
     assert values["coulomb_friction"] == pytest.approx(20.4, abs=0.15)
+
+
+@pytest.mark.slow
+def test_a_beam_on_a_shaker_whose_stiffness_more_than_doubles():
+    """Its resonance moves with the amplitude, so that a linear model is out of step with it nearly always."""
+    rng, time = np.random.default_rng(1), np.arange(0, 14, 0.0025)
+    parts = zip(rng.uniform(0.3, 0.65, 20), rng.uniform(6, 20, 20), rng.uniform(0, 6, 20), strict=True)
+    waves = list(parts)
+
+    def shaken(t):
+        return sum(a * np.sin(2 * np.pi * f * t + p) for a, f, p in waves)
+
+    def rates(t, x):
+        return [x[1], -shaken(t) - 1.2 * x[1] - 5685.0 * x[0] - 4e9 * x[0] ** 3]
+
+    tip = solve_ivp(rates, (0, 14), [0, 0], t_eval=time, max_step=2e-3, rtol=1e-8, atol=1e-12).y[0]
+    m = si.Model("beam")
+    m.tip, m.speed, m.base = si.State(unit="m"), si.State(unit="m/s"), si.Input(unit="m/s^2")
+    m.stiffness = si.Parameter(unit="1/s^2", bounds=(100, 1e5))
+    m.damping = si.Parameter(unit="1/s", bounds=(0, 100))
+    m.moves = si.Equation(m.tip.dot - m.speed)
+    m.balance = si.Equation(m.speed.dot + m.damping * m.speed + m.stiffness * m.tip + m.base)
+    m.laser = si.Output(m.tip)
+    channels = {"tip": tip + 4e-6 * rng.standard_normal(time.size), "base": shaken(time)}
+    recording = si.Recording("beam", time, channels, {"tip": "m", "base": "m/s^2"})
+    found = si.diagnose(m, recording, fit_window=(0, 9), held_out=(9, 14), driven=False)
+    assert [e.name for e in found.effects] == ["cubic_stiffness"] and found.confirmed
+    value, error = found.effects[0].parameters["k3_Nm_rad3"]
+    assert value == pytest.approx(4e9, rel=2e-3) and abs(value - 4e9) < 4 * error + 2e-4 * 4e9
+    assert "in pieces of about" in found.words

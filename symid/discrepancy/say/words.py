@@ -152,8 +152,9 @@ def _caveats(s: Story) -> list[str]:
         )
     if s.pieces:
         out.append(
-            "In this motion small differences soon become large ones: it is compared in pieces of about "
-            f"{rough(s.pieces)} s, each from a state of its own."
+            "The model as given cannot follow this motion from one state for long, since small differences soon become "
+            f"large or it is far from it: they are compared in pieces of about {rough(s.pieces)} s, each from a state "
+            "of its own."
         )
     if s.filter is not None:
         stated = ", as stated" if s.audit.known else ""
