@@ -42,8 +42,8 @@ def with_places(model: Model) -> Model:
     is all that the model knows, as of a motor; the position of such a port is 0. A force that drives
     several joints at once is a ``joint``, too, between them. In another equation of first order, such as that of
     a tank, a force has no rate of its own, and moves the state: a ``balance``; between two of one kind, or such a
-    state and an input of its kind, something may flow: an ``exchange``; and a state that it
-    does not know may act on it: a ``coupling``. Where no port is declared at all, a
+    state and an input of its kind, something may flow: an ``exchange``; and a state that is not in it may act on it:
+    a ``coupling``. Where no port is declared at all, a
     mass that moves as no coordinate does is a ``body``, and a constant without a role is ``stated``. Outputs
     without a role become sensors, inputs without one excitations.
 
@@ -88,9 +88,8 @@ def _ports_of_balances(model: Model) -> dict[str, Port]:
         port = _port(model, name, residuals[name], state, rates)
         if name not in entered and port.unit:
             found[name] = port
-    return (
-        found | _between(found, residuals) | _of_drives(model, found, residuals) | flow_ports(model, found, residuals)
-    )
+    among = _between(found, residuals) | flow_ports(model, found, residuals)
+    return found | among | _of_drives(model, found, residuals)
 
 
 def _between(ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
@@ -198,9 +197,8 @@ def coordinate(port: Port) -> sm.Expr:
 def _unit(model: Model, residual: sm.Expr, about: sm.Expr) -> str:
     """Of an equation: that of most of its terms without a number in front, which may stand for a mass."""
     terms = [t for t in sm.Add.make_args(sm.expand(residual)) if abs(t.as_coeff_Mul()[0]) == 1]
-    units = list(filter(None, (unit_of(model, t, about) for t in terms)))
-    kind = Counter(dimension(unit) for unit in units).most_common(1)
-    return min((unit for unit in units if dimension(unit) == kind[0][0]), key=len, default="")
+    units = Counter(filter(None, (unit_of(model, t, about) for t in terms)))
+    return units.most_common(1)[0][0] if units else ""
 
 
 def _value(model: Model, expr: sm.Expr, drawn: Mapping[str, float]) -> float:

@@ -276,7 +276,9 @@ def test_a_model_alone_is_not_enough():
         diagnose(pendulum())
 
 
-def test_a_tank_without_places_where_a_force_could_act_is_diagnosed():
+def diagnosed_tank(drained_in_truth):
+    """A tank without places where a force could act, whose model says that its outflow grows with its level."""
+
     def tank(drained):
         m = Model("tank")
         m.level = State(unit="m")
@@ -288,13 +290,25 @@ def test_a_tank_without_places_where_a_force_could_act_is_diagnosed():
 
     time = np.arange(0.0, 300.0, 1.0)
     inflow = np.repeat(np.random.default_rng(7).uniform(2e-5, 2e-4, 10), 30)
-    truth = tank(lambda h: 0.4 * sm.sqrt(h))
+    truth = tank(drained_in_truth)
     run = Simulator(truth).simulate({"outlet": 1e-3}, [0.2], time, {"inflow": inflow})
     level = run.y[:, 0] + 5e-4 * np.random.default_rng(0).standard_normal(len(time))
     recording = Recording("tank", time, {"level": level, "inflow": inflow}, {"level": "m", "inflow": "m^3/s"})
-    found = diagnose(
+    return diagnose(
         tank(lambda h: h), recording, fit_window=(0, 200), held_out=(200, 299), driven=False, sensor_noise=5e-4
     )
+
+
+def test_a_tank_that_drains_as_torricelli_says():
+    found = diagnosed_tank(lambda h: 0.4 * sm.sqrt(h))
+    assert (found.verdict, found.confirmed) == ("missing_physics", True)
+    assert [(e.name, e.location) for e in found.effects] == [("orifice_loss", "level")]
+    value, error = found.effects[0].parameters["coefficient_Nm_root"]
+    assert value == pytest.approx(4e-4, abs=4 * error) and found.values["outlet"] < 1e-5
+
+
+def test_a_tank_that_drains_as_no_law_says():
+    found = diagnosed_tank(lambda h: 0.08 + 0.12 * sm.sin(18 * h) ** 2)
     # A level alone does not tell whether its sensor is bent or its outflow: the law that stands for it is a flow.
     assert found.verdict == "unexplained" and found.effects[0].location in ("level", "sensor:level")
     assert found.flexible.port.at == "level"

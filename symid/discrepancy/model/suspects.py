@@ -15,7 +15,7 @@ from symid.errors import ModelError
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.mechanics import CANONICAL, suspects as terms_of
-from symid.mechanics.missing.drive_laws import LAG_LAWS, OFFSET_LAWS
+from symid.mechanics.missing.drive_laws import LAG_LAWS, OFFSET_LAWS, has_own_zero
 from symid.mechanics.missing.flow_laws import FLOW_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
 from symid.mechanics.missing.world_laws import GEOMETRY_LAWS
@@ -199,6 +199,8 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     sizes = checked.kind(Sizes() if sizes is None else sizes, Sizes, "suspects: sizes", ModelError)
     model = with_places(checked.kind(model, Model, "suspects", ModelError))
     for term in terms_of(model):
+        if term.law in OFFSET_LAWS and not has_own_zero(model, term.location):
+            continue
         term = replace(term, law=_sized(term.law, sizes.at(term.location)))
         equations = _equations(model, term)
         if equations is not None:

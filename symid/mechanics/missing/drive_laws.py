@@ -9,7 +9,6 @@ from types import SimpleNamespace
 
 import sympy as sm
 
-from symid.errors import ModelError
 from symid.mechanics.missing.laws import LAG, give_unit, late_symbols
 from symid.model import Equation, Input, Law, LawParameter, Model, Output, State
 from symid.units import dimension
@@ -41,14 +40,18 @@ def _bent(key: str, shape: Callable[[sm.Expr, sm.Expr], sm.Expr]) -> Callable[[M
 
 def _input_offset(model: Model, place: str, p: SimpleNamespace) -> None:
     for u in model.find("excitation", place):
-        if dimension(u.unit or "1") in [dimension(unit) for unit in FORCES]:
-            raise ModelError(f"a zero error of '{u.name}' is a constant force or a tilt, which have laws of their own")
-        late = late_symbols(model, u.symbol)
-        rows = [r for r in model.residual() if r.has(u.symbol, *late)]
-        if len(rows) < 2:
-            raise ModelError(f"a zero error of '{u.name}' is a constant force or flow in its one balance")
         give_unit(model, p.offset_Nm, lambda _, unit=u.unit: unit)
-        model.substitute({s: s + p.offset_Nm for s in (u.symbol, *late)})
+        model.substitute({s: s + p.offset_Nm for s in (u.symbol, *late_symbols(model, u.symbol))})
+
+
+def has_own_zero(model: Model, place: str) -> bool:
+    """Whether a zero error of the excitations there is no constant force or flow in one balance, and no tilt."""
+    inputs = model.find("excitation", place)
+    forces = [dimension(unit) for unit in FORCES]
+    if any(dimension(u.unit or "1") in forces for u in inputs):
+        return False
+    symbols = [s for u in inputs for s in (u.symbol, *late_symbols(model, u.symbol))]
+    return sum(r.has(*symbols) for r in model.residual()) > 1
 
 
 def _input_lag(model: Model, place: str, p: SimpleNamespace) -> None:
