@@ -15,7 +15,7 @@ from symid.units import dimension
 
 INPUT_DELAY = LawParameter("delay_s", "s", (-0.3, 0.3), 0.0, (-0.1, -0.04, 0.04, 0.1), 0.05)
 """Of what was recorded of a drive, by one recorder or another: it may be early, too."""
-FORCES = "N", "N*m", "m/s^2", "rad/s^2"
+PUSHES = "N", "N*m", "m/s^2", "rad/s^2"
 """Units of inputs whose zero error is a constant force, or the tilt of what is shaken."""
 CORNER = 0.01
 """Roundness of a corner, as a part of the size at which it is: drives stop short, and derivatives are needed."""
@@ -47,7 +47,7 @@ def _input_offset(model: Model, place: str, p: SimpleNamespace) -> None:
 def has_own_zero(model: Model, place: str) -> bool:
     """Whether a zero error of the excitations there is no constant force or flow in one balance, and no tilt."""
     inputs = model.find("excitation", place)
-    forces = [dimension(unit) for unit in FORCES]
+    forces = [dimension(unit) for unit in PUSHES]
     if any(dimension(u.unit or "1") in forces for u in inputs):
         return False
     symbols = [s for u in inputs for s in (u.symbol, *late_symbols(model, u.symbol))]
