@@ -78,7 +78,7 @@ def dimensions_of_symbols(model: Model) -> dict[sm.Symbol, object]:
     return table | {late: table[d.of] for late, d in model.delays.items() if d.of in table}
 
 
-_FORCES = ("N", "m/s^2", "V", "A", "m/s", "m")
+_FORCES = ("N", "m/s^2", "V", "A", "W", "m/s", "m")
 _TORQUES = ("N*m", "rad/s^2", "V", "A", "rad/s", "rad")
 
 
@@ -92,13 +92,11 @@ def unit_of(model: Model, expr: sm.Expr, about: sm.Expr) -> str:
         found, place = dimension_of(expr, table), dimension_of(about, table)
     except (Mismatch, KeyError):
         return ""
-    usual = _TORQUES if place == dimension("1") else (*_FORCES, *_FLOWS)
+    usual = _TORQUES if place == dimension("1") else _FORCES
     known = next((unit for unit in usual if dimension(unit) == found), None)
     return known or base_unit(found)
 
 
-_FLOWS = ("W", "A", "V")
-"""Unit texts of what a balance is of where it is not of forces."""
 _FAMILIAR = ("N", "N*m", "N/m", "m", "m/s", "m/s^2", "V", "A", "W", "Pa", "K")
 """Unit texts that are preferred to products of base units; N*m stands for J, too."""
 

@@ -114,8 +114,7 @@ def test_dry_friction_is_tried_wherever_a_law_like_it_explains_more_than_it_prom
 def test_a_beam_on_a_shaker_whose_stiffness_more_than_doubles():
     """Its resonance moves with the amplitude, so that a linear model is out of step with it nearly always."""
     rng, time = np.random.default_rng(1), np.arange(0, 14, 0.0025)
-    parts = zip(rng.uniform(0.3, 0.65, 20), rng.uniform(6, 20, 20), rng.uniform(0, 6, 20), strict=True)
-    waves = list(parts)
+    waves = list(zip(rng.uniform(0.3, 0.65, 20), rng.uniform(6, 20, 20), rng.uniform(0, 6, 20), strict=True))
 
     def shaken(t):
         return sum(a * np.sin(2 * np.pi * f * t + p) for a, f, p in waves)

@@ -233,7 +233,7 @@ PLAIN = (
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
 _NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *FLOW_LAWS)
 ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN}
-"""Names that are answers: of the answer files, of what may be stated wrongly, lags, flows, and the plainest forces."""
+"""Names that are answers: of the answer files, of what may be stated wrongly, lags, zeros, flows, plain forces."""
 
 
 def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:

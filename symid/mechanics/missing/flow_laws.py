@@ -12,7 +12,8 @@ from symid.model import Law, LawParameter, Model, Port
 _POSITIVE = (0.0, inf)
 _BOTH_SIGNS = (-inf, inf)
 ROOT_WIDTH = 1e-3
-"""Within so much [unit of the level] of zero a root is straight: at zero its slope would be infinite."""
+"""Within so much [unit of the level] of zero a root is straight: at zero its slope would be infinite. A judgement: of
+levels below it the law sees a proportional loss."""
 
 
 def _root(model: Model, port: Port, law: str) -> sm.Expr:
