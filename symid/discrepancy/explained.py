@@ -27,8 +27,10 @@ from symid.estimation.free_run import free_run
 from symid.estimation.measurement import fits_of, settled, sharpened_filter
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.data import Data
+from symid.estimation.signals.known_past import with_known_past
 from symid.estimation.signals.pieces import free_pieces, joined
 from symid.estimation.signals.segment import Segment
+from symid.estimation.signals.swings import pace_of
 from symid.estimation.signals.windows import segments_of
 
 CLEARER = 0.7
@@ -72,6 +74,7 @@ def explained(
     DiagnosisError : the model cannot be fitted.
     """
     pieces = segments_of(task.model, task.recording, task.fit_window, task.segment_length)
+    pieces = with_known_past(pieces, pace_of(pieces))
     whole = pieces if task.moved else joined(pieces)
     checked = audit(task.model, task.recording, whole, sensor_noise, filter)
     pieces = pieces if task.moved else tuple(free_pieces(pieces, len(task.model.states)))

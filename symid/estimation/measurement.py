@@ -19,6 +19,7 @@ from symid.estimation.sensors.smoothing import Smoothing
 from symid.estimation.sensors.whitening import longest_memory, remembered, whitening_of
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.data import Data
+from symid.estimation.signals.known_past import with_known_past
 from symid.estimation.signals.pieces import free_pieces
 from symid.estimation.signals.segment import FEWEST, Segment
 from symid.estimation.signals.windows import segments_of
@@ -192,7 +193,7 @@ def _undone(
         pieces = [
             replace(e, undone=a.recorded) for e, a in zip(pieces, segments_of(model, added, part, length), strict=True)
         ]
-    pieces = away_from_ends(pieces, recording, filter)
+    pieces = away_from_ends(with_known_past(pieces, plain.pace), recording, filter)
     pieces = pieces if plain.driven else free_pieces(pieces, len(model.states))
     sparse = tuple(s for s in (e.sparser(ratio) for e in pieces) if len(s.time) >= FEWEST)
     if not sparse:
@@ -212,7 +213,7 @@ def of_window(model: Model, recording: Recording, part, length: float | None, da
     DiagnosisError : too little of it is left where a filter is undone.
     """
     if data.filter is None:
-        return data.with_segments(segments_of(model, recording, part, length))
+        return data.with_segments(with_known_past(segments_of(model, recording, part, length), data.pace))
     ratio, known = data.segments[0].ratio, not data.cutoff_free
     fine = replace(data, sensor_noise=data.sensor_noise * np.sqrt(ratio))
     return _undone(model, recording, part, length, fine, data.filter, data.inputs_filtered, known, ratio)

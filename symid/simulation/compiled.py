@@ -12,7 +12,7 @@ from symid.codegen.build import load_library
 from symid.codegen.ode import TABLE, OdeSource
 from symid.simulation.run import Run
 
-_SIZES = ("N", "substeps", "method", "nq", "nqp", "nqx", "nh", "npast")
+_SIZES = ("N", "early", "substeps", "method", "nq", "nqp", "nqx", "nh", "npast")
 _ARRAYS = ("t", "u", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "ht", "hx")
 _RESULTS = ("X", "Y", "SX", "SY")
 

@@ -39,12 +39,13 @@ class Past:
 
     def __init__(self, run: Run, source: OdeSource, lag: np.ndarray, dlag: np.ndarray):
         self.run, self.source, self.lag, self.dlag = run, source, lag, dlag
-        between = np.zeros(run.u.shape[1], dtype=int)
+        between = np.zeros(run.given.shape[1], dtype=int)
         between[: len(source.input_between)] = source.input_between
         self.held, self.cubic = (between == BETWEEN.index(k) for k in ("zero", "cubic"))
         self.any_held, self.any_cubic = bool(self.held.any()), bool(self.cubic.any())
-        self.slopes, self.lines, self.flat = slopes(run.t, run.u), np.zeros_like(run.u), np.zeros(run.u.shape[1])
-        self.lines[:-1] = np.diff(run.u, axis=0) / np.diff(run.t)[:, None]
+        self.slopes, self.lines = slopes(run.times, run.given), np.zeros_like(run.given)
+        self.lines[:-1] = np.diff(run.given, axis=0) / np.diff(run.times)[:, None]
+        self.flat = np.zeros(run.given.shape[1])
         self.steps: list[Step] = []
         self.begins: list[float] = []
         n, zero = len(run.x0), np.zeros((len(run.x0), run.nq))
@@ -74,8 +75,8 @@ class Past:
 
         k is the present interval: at its end a held input still has the value of its start.
         """
-        t, u, present = self.run.t, self.run.u, k
-        k = min(max(k, 0), len(t) - 2)
+        t, u, present = self.run.times, self.run.given, k + self.run.early
+        k = min(max(present, 0), len(t) - 2)
         while k > 0 and time < t[k]:
             k -= 1
         while k < len(t) - 2 and time > t[k + 1]:
@@ -117,7 +118,7 @@ class Past:
         What it was at one moment would not answer to a small change of the lag; where a sample is met the slope is that
         for a little more lag. k is the present interval.
         """
-        t, u = self.run.t, self.run.u[:, i]
+        t, u, k = self.run.times, self.run.given[:, i], k + self.run.early
         begin, end, total, met = self.start - lag, self.start - lag + self.span, 0.0, 1e-9 * self.span
         while k > 0 and begin <= t[k] + met:
             k -= 1

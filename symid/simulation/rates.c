@@ -6,8 +6,8 @@
 static double slope_at(const Work *v, long k, int i)
 {
     const Run *r = &v->r;
-    if (r->N == 2) return (r->u[NU+i] - r->u[i]) / (r->t[1] - r->t[0]);
-    long middle = k == 0 ? 1 : k == r->N - 1 ? k - 1 : k;
+    if (r->early + r->N == 2) return (r->u[NU+i] - r->u[i]) / (r->t[1] - r->t[0]);
+    long middle = k == -r->early ? k + 1 : k == r->N - 1 ? k - 1 : k;
     const double *u = r->u + middle*NU + i, *t = r->t + middle;
     double before = (u[0] - u[-NU]) / (t[0] - t[-1]), after = (u[NU] - u[0]) / (t[1] - t[0]);
     double bend = (after - before) / (t[1] - t[-1]);
@@ -22,8 +22,8 @@ static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
     if (NU == 0) return;
     long present = k;
     if (k > r->N - 2) k = r->N - 2;
-    if (k < 0) k = 0;
-    while (k > 0 && s < r->t[k]) k--;
+    if (k < -r->early) k = -r->early;
+    while (k > -r->early && s < r->t[k]) k--;
     while (k < r->N - 2 && s > r->t[k+1]) k++;
     double h = r->N > 1 ? r->t[k+1] - r->t[k] : 1.0, f = (s - r->t[k]) / h;
     int out = f < 0 || f > 1 || r->N < 2;
@@ -56,7 +56,7 @@ static double held_mean(const Work *v, double lag, long k, int i, double *slope)
 {
     const Run *r = &v->r;
     double begin = v->tk - lag, end = begin + v->hk, met = 1e-9 * v->hk, sum = 0;
-    while (k > 0 && begin <= r->t[k] + met) k--;
+    while (k > -r->early && begin <= r->t[k] + met) k--;
     while (k < r->N - 1 && begin > r->t[k+1] + met) k++;
     double first = r->u[k*NU+i];
     for (; k < r->N - 1 && end > r->t[k+1] + met; k++) {

@@ -14,7 +14,7 @@
 #define PADDED(n) (((n) + WIDE - 1) / WIDE * WIDE)
 
 typedef struct {
-    long N, substeps, method, nq, nqp, nqx, nh, npast;
+    long N, early, substeps, method, nq, nqp, nqx, nh, npast; /* rows of t and u from -early to N - 1 */
     const double *t, *u, *w, *p, *c, *x0;
     const int *qp, *qx;             /* which parameters, which initial states */
     const double *gain, *recorded;  /* (1 + npast) x NX x NY corrections at the samples, or null: of the

@@ -17,7 +17,9 @@ class Run:
     ----------
     substeps, method : of the integrator, a value of `METHODS`.
     limit : a state larger than this ends the run.
-    t : (N,) [s]. u : (N, inputs), w : (N, noises), at least one column each. p, c, x0 : values.
+    early : rows of `times` and `given` before the start, for inputs that act late.
+    times : (early + N,) [s], of which `t` are the last N. given : (early + N, inputs), of which `u` are.
+    w : (N, noises), as `given` with at least one column. p, c, x0 : values.
     qp, qx : (nqp,), (nqx,) parameters and initial states to differentiate by; nq of both.
     gain : (npast + 1, n, m) or (n, m) corrections at the samples and recorded : (N, m), or None.
     ht, hx : (nh,) and (nh, n) history before the start, or None.
@@ -28,8 +30,9 @@ class Run:
     substeps: int
     method: int
     limit: float
-    t: np.ndarray
-    u: np.ndarray
+    early: int
+    times: np.ndarray
+    given: np.ndarray
     w: np.ndarray
     p: np.ndarray
     c: np.ndarray
@@ -47,8 +50,16 @@ class Run:
     stiff: int = 0
 
     @property
+    def t(self) -> np.ndarray:
+        return self.times[self.early :]
+
+    @property
+    def u(self) -> np.ndarray:
+        return self.given[self.early :]
+
+    @property
     def N(self) -> int:
-        return len(self.t)
+        return len(self.times) - self.early
 
     @property
     def nqp(self) -> int:

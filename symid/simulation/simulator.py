@@ -68,6 +68,7 @@ class Simulator:
         substeps: int = 1,
         method: str = "rk4",
         history: tuple[np.ndarray, np.ndarray] | None = None,
+        earlier: tuple[np.ndarray, Mapping[str, np.ndarray]] | None = None,
         gain: np.ndarray | None = None,
         recorded: np.ndarray | None = None,
         limit: float = LARGEST,
@@ -87,6 +88,8 @@ class Simulator:
             needed (at most ten times; in a model with late signals not at all).
         history : (K,) times before ``time[0]`` and (K, n) states, for delayed signals; without it
             the initial state held before the start.
+        earlier : (E,) times before ``time[0]`` and name -> (E,) inputs there, for delayed inputs; without it, and for
+            names that it lacks, the first input held before the start.
         gain, recorded : (n, m) and (N, m): after each sample the state is moved by
             gain @ (recorded - y), as in an observer or Kalman filter; NaN is skipped. With
             (1 + k, n, m), what the state was 1 ... k samples before is moved too, for delayed signals.
@@ -104,13 +107,15 @@ class Simulator:
             raise SymidError(
                 f"simulation of '{self.model.name}': time needs at least two increasing samples, found {n}"
             )
-        corrected = gain is not None
+        corrected, early = gain is not None, 0 if earlier is None else len(earlier[0])
+        given = self._columns("input", self.source.inputs, inputs, n)
         run = Run(
             substeps,
             METHODS[method],
             limit,
-            time,
-            self._columns("input", self.source.inputs, inputs, n),
+            early,
+            time if earlier is None else np.concatenate([earlier[0], time]),
+            given if earlier is None else np.vstack([self._before(given[0], earlier), given]),
             self._columns("noise", self.source.noises, noise, n, missing=0.0),
             self._vector("parameter", self.parameters, parameters),
             self.constants,
@@ -207,6 +212,11 @@ class Simulator:
                 )
             table[:, i] = column
         return table
+
+    def _before(self, first: np.ndarray, earlier: tuple[np.ndarray, Mapping[str, np.ndarray]]) -> np.ndarray:
+        """(E, inputs) before a run that begins with the inputs `first`."""
+        held = {u: np.full(len(earlier[0]), v) for u, v in zip(self.source.inputs, first, strict=False)}
+        return self._columns("input", self.source.inputs, held | dict(earlier[1]), len(earlier[0]))
 
     def _indices(self, kind: str, names, chosen) -> np.ndarray:
         for c in chosen:

@@ -124,6 +124,26 @@ def test_delayed_input_is_the_shifted_input(Simulator):
         np.testing.assert_allclose(x, exact, atol=1e-4)
 
 
+@pytest.mark.parametrize("hold", ["smooth", "cubic", "zero"])
+def test_a_run_that_knows_the_earlier_inputs_goes_on_as_one_that_began_earlier(Simulator, hold):
+    m = Model("integrator")
+    m.x, m.u, m.shift = State(unit="m"), Input(unit="m/s", hold=hold), Parameter(unit="s")
+    m.flow = Equation(m.x.dot - m.delayed(m.u, m.shift))
+    m.seen = Output(m.x)
+    t = np.linspace(-1, 2, 151) ** 3 / 4 + np.linspace(-1, 2, 151)
+    u, k = np.sin(3 * t), 40
+    for shift in (0.13, 0.0, -0.13):
+        long = Simulator(m).simulate({"shift": shift}, [0.0], t, {"u": u}, sensitivity=["shift"])
+        late = Simulator(m).simulate(
+            {"shift": shift}, long.x[k], t[k:], {"u": u[k:]}, sensitivity=["shift"], earlier=(t[:k], {"u": u[:k]})
+        )
+        np.testing.assert_allclose(late.x, long.x[k:], atol=1e-13)
+        np.testing.assert_allclose(late.dx, long.dx[k:] - long.dx[k], atol=1e-12)
+    unknown = Simulator(m).simulate({"shift": 0.13}, [0.0], t[k:], {"u": u[k:]}, earlier=(t[:k], {}))
+    before = Simulator(m).simulate({"shift": 0.13}, [0.0], t[k:], {"u": u[k:]})
+    np.testing.assert_allclose(unknown.x, before.x, atol=1e-3)
+
+
 @pytest.mark.elsewhere
 def test_pendulum_keeps_its_energy(Simulator):
     t = np.linspace(0, 10, 1001)

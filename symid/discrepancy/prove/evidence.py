@@ -23,6 +23,7 @@ from symid.estimation.free_run import FreeRun
 from symid.estimation.measurement import away_from_ends, of_window, restored
 from symid.estimation.prediction import predictions
 from symid.estimation.signals.data import Data
+from symid.estimation.signals.known_past import with_known_past
 from symid.estimation.signals.windows import segments_of
 from symid.threads import in_threads
 
@@ -129,7 +130,9 @@ def _windows(task: Task, plain: Data, data: Data) -> dict[str, Data]:
     recording = task.recording if data.filter is None else restored(task.model, task.recording, data)
     windows = {"train": task.fit_window, "heldout": task.held_out}
     found = {
-        key: segments_of(task.model, recording, w, None if isinstance(w, str) else task.segment_length)
+        key: with_known_past(
+            segments_of(task.model, recording, w, None if isinstance(w, str) else task.segment_length), plain.pace
+        )
         for key, w in windows.items()
         if w is not None
     }

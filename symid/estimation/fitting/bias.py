@@ -76,6 +76,7 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
             noise=noise,
             substeps=-(-fitter.substeps // holds),
             method=fitter.method,
+            earlier=e.earlier,
             keep="outputs",
         )
         if run.diverged:

@@ -71,7 +71,9 @@ def _bends(time: np.ndarray, x: np.ndarray) -> np.ndarray:
 def _sum(a: Segment, b: Segment) -> Segment:
     inputs = {k: np.concatenate([a.inputs[k], b.inputs[k]]) for k in a.inputs}
     undone = None if a.undone is None or b.undone is None else np.vstack([a.undone, b.undone])
-    return Segment(np.concatenate([a.time, b.time]), np.vstack([a.recorded, b.recorded]), inputs, undone=undone)
+    return Segment(
+        np.concatenate([a.time, b.time]), np.vstack([a.recorded, b.recorded]), inputs, undone=undone, earlier=a.earlier
+    )
 
 
 def cut(segment: Segment, length: float) -> list[Segment]:

@@ -23,6 +23,7 @@ class Segment:
     recorded : (N, m) in the order of the model's outputs, SI.
     inputs : channel -> ((N - 1) ratio + 1,) SI.
     ratio : samples of the inputs for each of the outputs, more than one where only some outputs are compared.
+    earlier : (E,) times and channel -> (E,) inputs of the recording before this stretch, for inputs that act late.
     undone : (N, m) the part of `recorded` that undoing a filter added, where its cutoff is to be estimated.
     """
 
@@ -31,6 +32,7 @@ class Segment:
     inputs: Mapping[str, np.ndarray]
     ratio: int = 1
     undone: np.ndarray | None = None
+    earlier: tuple[np.ndarray, Mapping[str, np.ndarray]] | None = None
 
     @property
     def step(self) -> float:
@@ -51,7 +53,17 @@ class Segment:
             {k: keep(v[fine]) for k, v in self.inputs.items()},
             self.ratio,
             None if self.undone is None else keep(self.undone[rows]),
+            self._before(first * self.ratio, len(self.time[rows]) * self.ratio),
         )
+
+    def _before(self, first: int, most: int) -> tuple[np.ndarray, Mapping[str, np.ndarray]] | None:
+        """At most so many samples of the inputs before their sample `first`."""
+        if first == 0 or not self.inputs:
+            return self.earlier
+        time, before = self.earlier or (np.zeros(0), {k: np.zeros(0) for k in self.inputs})
+        fine = np.interp(np.arange(first) / self.ratio, np.arange(len(self.time)), self.time)
+        inputs = {k: np.concatenate([u, self.inputs[k][:first]])[-most:] for k, u in before.items()}
+        return np.concatenate([time, fine])[-most:], inputs
 
     def sparser(self, every: int) -> Segment:
         """Every so-many-th sample of the outputs, all samples of the inputs."""
@@ -64,6 +76,7 @@ class Segment:
             {k: v[:fine] for k, v in self.inputs.items()},
             every * self.ratio,
             None if self.undone is None else np.ascontiguousarray(self.undone[rows]),
+            self.earlier,
         )
 
     def sharpened(self, sharpness: float) -> Segment:
@@ -98,6 +111,7 @@ class Segment:
                 gain=gain,
                 recorded=self.recorded,
                 substeps=substeps,
+                earlier=self.earlier,
                 **options,
             )
         n = (len(self.time) - 1) * self.ratio + 1
@@ -112,6 +126,7 @@ class Segment:
             gain=_between(gain, self.ratio),
             recorded=recorded,
             substeps=-(-substeps // self.ratio),
+            earlier=self.earlier,
             **options,
         )
         return run.every(self.ratio)

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from symid.errors import DiagnosisError
+from symid.estimation.signals.known_past import earlier_inputs
 from symid.estimation.signals.segment import FEWEST, Segment
 from symid.model import Model
 from symid.recording import Recording
@@ -98,6 +99,7 @@ def segments_between(
                     time[rows],
                     np.ascontiguousarray(recorded),
                     {k: np.ascontiguousarray(channels[u.channel][rows]) for k, u in model.inputs.items()},
+                    earlier=earlier_inputs(model, time, channels, int(np.argmax(rows))),
                 )
             )
     if not found:
