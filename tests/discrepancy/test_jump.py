@@ -6,6 +6,7 @@ from driven_cart import SENSOR, TRUE, cart, data_of, recorded
 
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.dry import with_friction_speeds
+from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name import jump
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.name.jump import with_fitted_jumps
@@ -19,8 +20,9 @@ DRY = Suspect(LIBRARY["coulomb_friction"].at("cart"))
 MADE = "cart_friction_speed"
 
 
-@pytest.mark.parametrize("part", [0.3, 1.0, 8.0])
-def test_friction_sets_in_as_it_did_sharper_or_wider_than_the_jump_that_was_made(part):
+def dry_cart(part: float) -> tuple[Hypothesis, float]:
+    """A cart with dry friction that is found, and so many times the friction speed that was made, its true one."""
+
     def segments(recording):
         return segments_between(cart(), recording.time, dict(recording.channels), (0.0, 10.0), None)
 
@@ -31,14 +33,23 @@ def test_friction_sets_in_as_it_did_sharper_or_wider_than_the_jump_that_was_made
         )
 
     given = with_friction_speeds(cart(), segments(moving(cart(), TRUE)), np.array([100 * SENSOR]))
-    made = given.constants[MADE].value
-    true = given.with_constants(**{MADE: part * made}).with_term(DRY.term)
+    true = given.with_constants(**{MADE: part * given.constants[MADE].value}).with_term(DRY.term)
     recording = moving(true, TRUE | {DRY.term.parameter_name("torque_Nm"): 0.4})
     data = Data(segments(recording), np.array([SENSOR]), False)
     base = fit_model(given, data)
     (found,) = explore(base, data, [DRY])
-    told = with_fitted_jumps(found, [MADE], given)
-    assert told.base.model.constants[MADE].value == pytest.approx(part * made, rel=0.3)
+    return found, true.constants[MADE].value
+
+
+def speed(found: Hypothesis) -> float:
+    return found.base.model.constants[MADE].value
+
+
+@pytest.mark.parametrize("part", [0.3, 1.0, 8.0])
+def test_friction_sets_in_as_it_did_sharper_or_wider_than_the_jump_that_was_made(part):
+    found, true = dry_cart(part)
+    told = with_fitted_jumps(found, [MADE], cart())
+    assert speed(told) == pytest.approx(true, rel=0.3)
     assert told.log_ratio >= found.log_ratio
 
 
@@ -50,12 +61,27 @@ def test_each_width_is_fitted_from_the_best_of_those_before(monkeypatch):
     (found,) = explore(fit_model(given, data), data, [DRY])
     best, refitted = [found.log_ratio], jump.refit
 
-    def seen(suspects, near, base, data, **options):
+    def seen(suspects, near, base, data, *more, **options):
         assert near.loglik2 - base.loglik2 == pytest.approx(max(best))
-        fit = refitted(suspects, near, base, data, **options)
+        fit = refitted(suspects, near, base, data, *more, **options)
         best.append(fit.loglik2 - base.loglik2)
         return fit
 
     monkeypatch.setattr(jump, "refit", seen)
     with_fitted_jumps(found, [MADE], given)
     assert len(best) > 3
+
+
+def test_another_law_at_the_joint_begins_from_the_width_that_was_told(monkeypatch):
+    found, _ = dry_cart(8.0)
+    scanned = with_fitted_jumps(found, [MADE], cart())
+    widths, refitted = [], jump.refit
+
+    def seen(suspects, near, base, *others, **options):
+        widths.append(base.model.constants.get(MADE))
+        return refitted(suspects, near, base, *others, **options)
+
+    monkeypatch.setattr(jump, "refit", seen)
+    told = with_fitted_jumps(found, [MADE], cart(), {MADE: speed(scanned)})
+    assert speed(told) == pytest.approx(speed(scanned), rel=0.02)
+    assert widths[0].value == speed(scanned) and len(widths) == 3  # itself, as an unknown, and what that came to

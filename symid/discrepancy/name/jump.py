@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache
-from math import log
-
-import numpy as np
-from scipy.optimize import minimize_scalar
+from math import inf, log
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.dry import PARTS, WIDER, widths
@@ -23,9 +20,9 @@ from symid.simulation import simulator
 
 FINER = 1.7, 1.3, 1.15
 """Factors by which neighbours of the best width are tried, one after the other: it ends within a tenth."""
-COARSE, SHARP = 10.0, 0.003
-"""Factor between the widths that are fitted first once friction is found, and the part of itself to which the best is
-found then: where a sensor is very good a few percent leave an error that can be seen."""
+COARSE = 10.0
+"""Factor between the widths that are fitted once friction is found. From the best of them it is one more unknown: where
+a sensor is very good a few percent leave an error that can be seen."""
 NEARBY = 1.5
 """Factor at which a likelihood that rises from the width that was made shows it, to a wider one or a sharper."""
 ITERATIONS = 10
@@ -68,7 +65,9 @@ def _likeliest(width: Constant, projection: Projection) -> float:
     return best if score(best) > score(sharp) + POLICY.accept else sharp
 
 
-def with_fitted_jumps(found: Hypothesis, made: Sequence[str], known: Model) -> Hypothesis:
+def with_fitted_jumps(
+    found: Hypothesis, made: Sequence[str], known: Model, told: Mapping[str, float] | None = None
+) -> Hypothesis:
     """The same suspects with dry friction that sets in as abruptly as the recording likes best, of a free motion.
 
     Another jump than the one that was made must be worth an unknown.
@@ -76,12 +75,13 @@ def with_fitted_jumps(found: Hypothesis, made: Sequence[str], known: Model) -> H
     Parameters
     ----------
     made : the friction speeds that nobody stated. known : those count on which this model does not yet depend.
+    told : what another law at their joint likes best, from which this one begins.
     """
     if found.fit.kalman_gain is not None:
         return found
     model = found.fit.model
     for name in (n for n in made if model[n].symbol in _symbols(model) - _symbols(known)):
-        found = _with_fitted_jump(found, name)
+        found = _Widths(found, name).best((told or {}).get(name))
     return found
 
 
@@ -93,57 +93,65 @@ def with_jumps_of(fit: Fit, base: Fit, made: Sequence[str]) -> Fit:
     return replace(base, model=base.model.with_constants(**other))
 
 
-def _with_fitted_jump(found: Hypothesis, name: str) -> Hypothesis:
-    model, data, tried = found.base.model, found.data, [found]
-    sharp = model.constants[name].value
-    port = next(p for p in model.ports.values() if p.at == model[name].at and p.role == "joint")
-    *_, widest = widths(model, port, data.segments, data.sensor_noise)
+class _Widths:
+    """A hypothesis fitted with other values of one friction speed."""
 
-    @cache
-    def fitted(width: float) -> Hypothesis | None:
-        # What the sharpest jump was fitted to may be wrong values of all else, which a wider one leads away from.
-        near = replace(max(tried, key=lambda h: h.log_ratio).fit, substeps=1)
-        base = replace(found.base, model=model.with_constants(**{name: width}))
-        fit = refit(found.suspects, near, base, data, iterations=ITERATIONS)
-        if fit is None:
-            return None
-        tried.append(Hypothesis(found.suspects, fit, base, data))
-        return tried[-1]
+    def __init__(self, found: Hypothesis, name: str):
+        self.found, self.name, self.model = found, name, found.base.model
+        port = next(p for p in self.model.ports.values() if p.at == self.model[name].at and p.role == "joint")
+        self.sharp = self.model.constants[name].value
+        *_, self.widest = widths(self.model, port, found.data.segments, found.data.sensor_noise)
+        self.tried: dict[float, Hypothesis | None] = {self.sharp: found}
 
-    def score(width: float) -> float:
-        other = fitted(width)
-        return -np.inf if other is None else other.log_ratio
+    def best(self, told: float | None) -> Hypothesis:
+        """The hypothesis with the likeliest width if that is worth an unknown."""
+        found = self.found
+        if told is None or self.score(told) <= found.log_ratio:
+            told = self._scanned()
+        if told == self.sharp:
+            return found
+        free = self._freed(told)
+        if free is not None:
+            width = free.values[self.name]
+            self.tried.setdefault(width, self._fitted(width, free))
+        price = POLICY.accept + log(max(found.share * found.data.samples, 2.0))
+        wider = self.tried[max(self.tried, key=self.score)]
+        return polished(wider) if found.share * (wider.log_ratio - found.log_ratio) > price else found
 
-    best, width = sharp, widest
-    while width > sharp:  # from wide to sharp: sharp corners ask for short steps of the integrator
-        value, before = score(width), found.log_ratio if best == sharp else score(best)
-        if best != sharp and value < before:
-            break
-        best, width = (width if value > before else best), width / COARSE
-    least = sharp
-    if best == sharp and score(NEARBY * sharp) > found.log_ratio:  # it may lie before the last that was wider
-        best = NEARBY * sharp
-    elif best == sharp and score(sharp / NEARBY) > found.log_ratio:  # or sensors, many samples together, see more
-        best, least = sharp / NEARBY, PARTS[0] * widest / WIDER[-1]  # that part of the usual speed
-    if best == sharp:
-        return found
-    ends = log(max(best / COARSE, least)), log(min(best * COARSE, widest))
-    options = {"xatol": SHARP}
-    found_at = minimize_scalar(lambda w: -score(float(np.exp(w))), bounds=ends, method="bounded", options=options).x
-    best = max((float(np.exp(w)) for w in (found_at, _vertex(score, float(found_at)))), key=score)
-    price = POLICY.accept + log(max(found.share * data.samples, 2.0))
-    wider = fitted(best)
-    return polished(wider) if wider is not None and found.share * (score(best) - found.log_ratio) > price else found
+    def fitted(self, width: float) -> Hypothesis | None:
+        if width not in self.tried:
+            # What the sharpest jump was fitted to may be wrong values of all else, which a wider one leads away from.
+            nearest = self.tried[max(self.tried, key=self.score)]
+            self.tried[width] = self._fitted(width, nearest.fit)
+        return self.tried[width]
 
+    def score(self, width: float) -> float:
+        fitted = self.fitted(width)
+        return -inf if fitted is None else fitted.log_ratio
 
-def _vertex(score: Callable[[float], float], at: float) -> float:
-    """Logarithm of the width at which the parabola through `score` at and beside a logarithm is highest.
+    def _fitted(self, width: float, near: Fit) -> Hypothesis | None:
+        suspects, data = self.found.suspects, self.found.data
+        base = replace(self.found.base, model=self.model.with_constants(**{self.name: width}))
+        fit = refit(suspects, replace(near, substeps=1), base, data, iterations=ITERATIONS)
+        return None if fit is None else Hypothesis(suspects, fit, base, data)
 
-    Of a likelihood it is exact to far less than the distance of its three points.
-    """
-    below, here, above = (score(float(np.exp(at + d))) for d in (-SHARP, 0.0, SHARP))
-    bend = below - 2 * here + above
-    return at - SHARP * (above - below) / (2 * bend) if bend < 0 and abs(above - below) < -4 * bend else at
+    def _scanned(self) -> float:
+        """The best of a few widths, from wide to sharp: sharp corners ask for short steps of the integrator."""
+        best, width = self.sharp, self.widest
+        while width > self.sharp and (best == self.sharp or self.score(width) >= self.score(best)):
+            best, width = max(best, width, key=self.score), width / COARSE
+        if best != self.sharp:
+            return best
+        # It may lie before the last that was wider; or sensors, many samples together, see more than was thought.
+        return next((w for w in (NEARBY * best, best / NEARBY) if self.score(w) > self.score(best)), best)
+
+    def _freed(self, width: float) -> Fit | None:
+        """The fit with the width as one more unknown, from one that was fitted."""
+        least = PARTS[0] * self.widest / WIDER[-1] if width < self.sharp else self.sharp  # that part of the usual speed
+        bounds = max(width / COARSE, least), min(width * COARSE, self.widest)
+        free = self.model.with_constants(**{self.name: width}).free(**{self.name: bounds})
+        base = replace(self.found.base, model=free)
+        return refit(self.found.suspects, self.tried[width].fit, base, self.found.data, {self.name: width})
 
 
 def _symbols(model: Model) -> set:

@@ -166,10 +166,17 @@ class Search(Judge):
 
     def _with_jumps(self, found: list[Hypothesis], less: Hypothesis) -> list[Hypothesis]:
         """`found` on top of `less`, with dry friction that is new there as abrupt as the recording likes it."""
-        enough = POLICY.beam_share * max((h.log_ratio for h in found), default=0.0)
+        most = max(found, key=lambda h: h.log_ratio, default=None)
+        if most is None:
+            return found
+        first = with_fitted_jumps(most, self.jumps, less.fit.model)
+        told = {n: first.base.model.constants[n].value for n in self.jumps if first.base is not most.base}
+        enough = POLICY.beam_share * most.log_ratio
 
         def with_jumps(h: Hypothesis) -> Hypothesis:
-            return with_fitted_jumps(h, self.jumps, less.fit.model) if h.log_ratio > enough else h
+            if h is most or h.log_ratio <= enough:
+                return first if h is most else h
+            return with_fitted_jumps(h, self.jumps, less.fit.model, told)
 
         return in_threads(with_jumps, found)
 
