@@ -83,6 +83,7 @@ class _Simulation:
         self.x, self.S = run.x0.copy(), np.zeros((len(run.x0), run.nq))
         self.S[run.qx, run.nqp + np.arange(run.nqx)] = 1
         self.size, self.still, zero = np.zeros(len(run.x0)), np.zeros(len(run.x0)), np.zeros(max(loop.sizes["x"], 1))
+        self.calm = 0.0  # what steps erred by before the rates bent, of the sizes
         self.smooth: list[np.ndarray] = []  # what the smooth steps before this one erred by, and how long these were
         self.span = 0.0
         call = (zero, self.x, zero, zero, zero, run.p, run.c, 0.0)
@@ -213,9 +214,9 @@ class _Simulation:
     def _bends(self, t: float, h: float, k: int, end: np.ndarray, halvings: int, bend: bool) -> Halves | None:
         """In which halves of an explicit step to `end` the rates bend so that it errs; both, in a known `bend`."""
         error, middle = self._error(t, h, k, self.x, end)
-        whole, expected = self._largest(error), halvings == HALVINGS and self._as_before(h, error)
-        found = None
-        if bend and whole > UNSEEN:
+        whole, uncut, found = self._largest(error), halvings == HALVINGS, None
+        expected, sudden = uncut and self._as_before(h, error), uncut and self._is_sudden(whole)
+        if whole > UNSEEN and (bend or sudden):
             found = BOTH
         elif whole > UNSEEN and not expected:
             end = self._state(t + h / 2, h / 2, k, middle)
@@ -237,6 +238,12 @@ class _Simulation:
         if len(self.smooth) < 3:
             return False
         return bool(self._largest(np.diff(self.smooth, 2, axis=0)[0]) <= UNSEEN)
+
+    def _is_sudden(self, whole: float) -> bool:
+        """Whether a whole step errs far more than calm ones. Each that does makes the next less sudden."""
+        sudden = 0 < UNEQUAL * self.calm < whole
+        self.calm = UNEQUAL * self.calm if sudden else max(whole, UNSEEN)
+        return sudden
 
     def _largest(self, error: np.ndarray) -> float:
         """Of the size of each state."""

@@ -37,6 +37,7 @@ typedef struct {
     double *xk, *k1, *sk, *sk1; /* start of the present step */
     double *size;                       /* the largest that each state was */
     double *err, span_err;              /* of the two steps before, the later first; how long these were */
+    double calm;                        /* what steps erred by before the rates bent, of the sizes; 0 at the start */
     int smooth;                         /* so many steps before this one were looked at, and are smooth */
     long stiff;                         /* steps in which something was stiff */
     int inside;                         /* k1 of the present step is known */

@@ -17,7 +17,8 @@
  * a motion that cannot be followed for long makes 100 times as much of it. */
 #define UNSEEN 1e-8
 /* Where rates are smooth, both halves of a step err alike, and a step between these many times as much as both together,
- * 16 of very short ones. Where they bend in one half, that errs so many times as much as the other. */
+ * 16 of very short ones. Where they bend in one half, that errs so many times as much as the other. Where they bend in
+ * the middle all this may look smooth by chance, but the step errs so many times as much as the calm ones before it. */
 #define UNEQUAL 10.0
 #define LEAST 6.0
 #define MOST 50.0
@@ -157,6 +158,14 @@ static int as_before(Work *v, double h, const double *error)
     return expected;
 }
 
+/* Whether a whole step errs far more than calm ones. Each that does makes the next less sudden: a motion may begin. */
+static int is_sudden(Work *v, double whole)
+{
+    int sudden = v->calm > 0 && whole > UNEQUAL * v->calm;
+    v->calm = sudden ? UNEQUAL * v->calm : fmax(whole, UNSEEN);
+    return sudden;
+}
+
 /* In which halves of the explicit step from xk to x the rates bend so that it errs; both, in a `bend` that is known. */
 static int bends(Work *v, double t, double h, long k, int halvings, int bend)
 {
@@ -165,8 +174,8 @@ static int bends(Work *v, double t, double h, long k, int halvings, int bend)
     double middle[NXX], end[NXX], error[NXX], unused[NXX];
     v->nq = 0;
     double whole = error_of(v, t, h, k, v->xk, v->x, middle, error);
-    int expected = halvings == HALVINGS && as_before(v, h, error);
-    if (whole > UNSEEN && bend) found = both;
+    int uncut = halvings == HALVINGS, expected = uncut && as_before(v, h, error), sudden = uncut && is_sudden(v, whole);
+    if (whole > UNSEEN && (bend || sudden)) found = both;
     else if (whole > UNSEEN && !expected && !state_step(v, t + h/2, h/2, k, middle, end)) {
         double first = error_of(v, t, h/2, k, v->xk, middle, unused, error);
         double second = error_of(v, t + h/2, h/2, k, middle, end, unused, error);

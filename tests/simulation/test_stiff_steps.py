@@ -124,3 +124,20 @@ def test_what_decays_ever_faster_on_its_way_is_forgotten_at_once(Simulator, star
     np.testing.assert_allclose(found.y[1:, 0], 1.0, atol=1e-9)
     assert np.abs(found.dy[1:]).max() < 1e-6
     assert found.stiff < 500  # not a thousand halves of every step
+
+
+@pytest.mark.parametrize(("creep", "substeps", "error"), [(3e-3, 1, 1e-7), (3e-3, 2, 1e-7), (0.01, 1, 1e-5)])
+def test_a_step_is_halved_wherever_in_it_friction_changes_its_sign(creep, substeps, error):
+    """In the middle of a step both of its halves err alike, as those of a smooth one do."""
+    m = Model("slide")
+    m.v, m.push = State(unit="m/s"), Input(unit="m/s^2", hold="linear")
+    m.friction, m.creep = Constant(0.5, unit="m/s^2"), Constant(creep, unit="m/s")
+    m.balance = Equation(m.v.dot + m.friction * sm.tanh(m.v.symbol / m.creep.symbol) - m.push)
+    m.seen = Output(m.v)
+    time = STEP * np.arange(30)
+    push = {"push": np.full(30, 2.0)}
+    for part in np.linspace(0, 1, 41):
+        start = [-2.0 * STEP * (12 + part)]
+        found = AnySimulator(m).simulate([], start, time, push, method="stiff", substeps=substeps)
+        exact = AnySimulator(m).simulate([], start, time, push, substeps=1024)
+        np.testing.assert_allclose(found.x, exact.x, atol=error)
