@@ -13,6 +13,7 @@ from dataclasses import replace
 
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, refit
 from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.name.jump import with_jumps_again
 from symid.errors import SymidError
 from symid.estimation.between_samples import with_likeliest_curves
 from symid.estimation.fitting.fit import Fit, Fitter
@@ -29,7 +30,11 @@ slow signal is nearly the same held or not, and chance would tell."""
 
 
 def held(
-    found: Hypothesis, data: Data, unstated: Sequence[str], better: Callable[[Hypothesis, Hypothesis], Hypothesis]
+    found: Hypothesis,
+    data: Data,
+    unstated: Sequence[str],
+    better: Callable[[Hypothesis, Hypothesis], Hypothesis],
+    jumps: Sequence[str] = (),
 ) -> Hypothesis:
     """`found`, or the same with inputs held and without their delays by part of a sample, where that is believed more.
 
@@ -38,7 +43,7 @@ def held(
     Parameters
     ----------
     unstated : inputs of which nobody said what they do between their samples. better : the one of two that is believed
-        more.
+        more. jumps : constants that say how abruptly dry friction sets in and that nobody stated.
     """
     step = data.segments[0].step / data.segments[0].ratio
     for name in (k for k in unstated if found.base.model.inputs[k].hold != "zero"):
@@ -46,18 +51,22 @@ def held(
         late = [s for s in found.suspects if s.term.name == DELAY and s.term.location == place]
         if all(0 < _delay(found, s) < step for s in late):
             rest = tuple(s for s in found.suspects if s not in late)
-            found = _likelier(found, rest, name, place, step, data, better)
+            found = _likelier(found, rest, name, place, step, data, better, jumps)
     return found
 
 
 def asked_again(
-    found: Hypothesis, data: Data, unstated: Sequence[str], better: Callable[[Hypothesis, Hypothesis], Hypothesis]
+    found: Hypothesis,
+    data: Data,
+    unstated: Sequence[str],
+    better: Callable[[Hypothesis, Hypothesis], Hypothesis],
+    jumps: Sequence[str],
 ) -> Hypothesis:
     """`found`, or it with inputs held that were not, or else with inputs free that were held, where this is likelier.
 
     Parameters as of `held`.
     """
-    if (without := held(found, data, unstated, better)) is not found:
+    if (without := held(found, data, unstated, better, jumps)) is not found:
         return without
     free = unheld(found.fit, data, unstated)
     return found if free is found.fit else replace(found, fit=free)
@@ -86,7 +95,14 @@ def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
 
 
 def _likelier(
-    found: Hypothesis, rest: tuple[Suspect, ...], name: str, place: str, step: float, data: Data, better: Callable
+    found: Hypothesis,
+    rest: tuple[Suspect, ...],
+    name: str,
+    place: str,
+    step: float,
+    data: Data,
+    better: Callable,
+    jumps: Sequence[str],
 ) -> Hypothesis:
     """The `rest` of what was found with one input held, if that is believed more than `found`, and than any delay."""
     model = found.base.model.with_holds(**{name: "zero"})
@@ -106,7 +122,7 @@ def _likelier(
         return other
     if fit.loglik2 <= found.fit.loglik2 + STRONG:
         return found
-    if fit.kalman_gain is None and not is_met(fit, data):
+    if fit.kalman_gain is None and not is_met(with_jumps_again(Hypothesis(rest, fit, base, data), jumps).fit, data):
         return found  # of a motion that is not met half a sample more or less may be better by chance
     late = Suspect(LIBRARY[DELAY].at(place))
     delayed = hypothesis([*rest, late], found.fit, found.base, data, late.named({DELAY_KEY: step / 2}))

@@ -79,9 +79,18 @@ def with_fitted_jumps(
     """
     if found.fit.kalman_gain is not None:
         return found
-    model = found.fit.model
-    for name in (n for n in made if model[n].symbol in _symbols(model) - _symbols(known)):
+    for name in _used(found, made, known):
         found = _Widths(found, name).best((told or {}).get(name))
+    return found
+
+
+def with_jumps_again(found: Hypothesis, made: Sequence[str]) -> Hypothesis:
+    """The same suspects with dry friction that sets in as the recording likes best near its present abruptness.
+
+    Other inputs between their samples ask for another one. Parameters as of `with_fitted_jumps`.
+    """
+    for name in _used(found, made, found.base.model):
+        found = _Widths(found, name).best(found.base.model.constants[name].value)
     return found
 
 
@@ -106,10 +115,10 @@ class _Widths:
     def best(self, told: float | None) -> Hypothesis:
         """The hypothesis with the likeliest width if that is worth an unknown."""
         found = self.found
-        if told is None or self.score(told) <= found.log_ratio:
+        if told is None or (told != self.sharp and self.score(told) <= found.log_ratio):
             told = self._scanned()
-        if told == self.sharp:
-            return found
+            if told == self.sharp:
+                return found
         free = self._freed(told)
         if free is not None:
             width = free.values[self.name]
@@ -147,11 +156,17 @@ class _Widths:
 
     def _freed(self, width: float) -> Fit | None:
         """The fit with the width as one more unknown, from one that was fitted."""
-        least = PARTS[0] * self.widest / WIDER[-1] if width < self.sharp else self.sharp  # that part of the usual speed
+        least = self.sharp if width > self.sharp else PARTS[0] * self.widest / WIDER[-1]  # that part of the usual speed
         bounds = max(width / COARSE, least), min(width * COARSE, self.widest)
         free = self.model.with_constants(**{self.name: width}).free(**{self.name: bounds})
         base = replace(self.found.base, model=free)
         return refit(self.found.suspects, self.tried[width].fit, base, self.found.data, {self.name: width})
+
+
+def _used(found: Hypothesis, made: Sequence[str], known: Model) -> list[str]:
+    """Those of the friction speeds on which the model of a fit depends, and a `known` one does not."""
+    model = found.fit.model
+    return [n for n in made if model[n].symbol in _symbols(model) - _symbols(known)]
 
 
 def _symbols(model: Model) -> set:

@@ -91,7 +91,7 @@ class Search(Judge):
                 if not self._worth(more, best):
                     break
             best = begun_anew(polished(more))
-            if (otherwise := asked_again(best, self.data, self.unstated, self.better)) is not best:
+            if (otherwise := asked_again(best, self.data, self.unstated, self.better, self.jumps)) is not best:
                 return otherwise, single
             curved = with_likeliest_curves(best.fit, self.data)
             if curved is not best.fit:
