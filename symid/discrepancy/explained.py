@@ -102,7 +102,10 @@ def _clearer(
     if not found:
         raise problem
     with_filter, without = found[0], found[-1]
-    return without if _error(without, without.plain) < CLEARER * _error(with_filter, without.plain) else with_filter
+    # A filter colours noise: where undoing one leaves colour that is not there without, there was none.
+    whiter = without.search.data.memory == 0 < with_filter.search.data.memory
+    enough = (1.0 if whiter else CLEARER) * _error(with_filter, without.plain)
+    return without if _error(without, without.plain) < enough else with_filter
 
 
 def _error(of: Explained, plain: Data) -> float:

@@ -22,8 +22,8 @@ from symid.mechanics import LIBRARY
 from symid.model import Model
 
 DELAY = "input_delay"
-"""The law that may be none."""
-DELAY_KEY = LIBRARY[DELAY].parameters[0].key
+LATE = {law: LIBRARY[law].parameters[0].key for law in (DELAY, "input_lag")}
+"""The laws that may be none where they come to less than a sample: a lag that short looks like a delay."""
 STRONG = 6.0
 """What a held input must be likelier by, twice in the logarithm: strong evidence (Kass & Raftery 1995, section 3.2). A
 slow signal is nearly the same held or not, and chance would tell."""
@@ -36,7 +36,7 @@ def held(
     better: Callable[[Hypothesis, Hypothesis], Hypothesis],
     jumps: Sequence[str] = (),
 ) -> Hypothesis:
-    """`found`, or the same with inputs held and without their delays by part of a sample, where that is believed more.
+    """`found`, or the same with inputs held and without their lags of part of a sample, where that is believed more.
 
     Longer delays stay as they are: held or not, they differ by half a sample.
 
@@ -48,8 +48,8 @@ def held(
     step = data.segments[0].step / data.segments[0].ratio
     for name in (k for k in unstated if found.base.model.inputs[k].hold != "zero"):
         place = found.base.model.inputs[name].at
-        late = [s for s in found.suspects if s.term.name == DELAY and s.term.location == place]
-        if all(0 < _delay(found, s) < step for s in late):
+        late = [s for s in found.suspects if s.term.name in LATE and s.term.location == place]
+        if all(0 < _seconds(found, s) < step for s in late):
             rest = tuple(s for s in found.suspects if s not in late)
             found = _likelier(found, rest, name, place, step, data, better, jumps)
     return found
@@ -125,7 +125,7 @@ def _likelier(
     if fit.kalman_gain is None and not is_met(with_jumps_again(Hypothesis(rest, fit, base, data), jumps).fit, data):
         return found  # of a motion that is not met half a sample more or less may be better by chance
     late = Suspect(LIBRARY[DELAY].at(place))
-    delayed = hypothesis([*rest, late], found.fit, found.base, data, late.named({DELAY_KEY: step / 2}))
+    delayed = hypothesis([*rest, late], found.fit, found.base, data, late.named({LATE[DELAY]: step / 2}))
     return found if delayed is not None and better(delayed, other) is delayed else other
 
 
@@ -137,5 +137,6 @@ def _promise(found: Hypothesis, rest: tuple[Suspect, ...], model: Model, data: D
     return fitter.promise({k: fit.values[k] for k in fitter.sim.parameters}, fit.initial, fit.process)
 
 
-def _delay(found: Hypothesis, suspect: Suspect) -> float:
-    return found.fit.values[suspect.term.parameter_name(DELAY_KEY)]
+def _seconds(found: Hypothesis, suspect: Suspect) -> float:
+    """How late an input is by one of the laws `LATE`."""
+    return found.fit.values[suspect.term.parameter_name(LATE[suspect.term.name])]
