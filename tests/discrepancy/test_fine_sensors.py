@@ -15,10 +15,10 @@ from symid.estimation.signals.windows import segments_of
 STEP_m, DRY_N, MASS_kg, VISCOUS = 1e-6, 20.3, 95.0, 203.0
 
 
-def positioning() -> si.Model:
+def positioning(hold: str = "zero") -> si.Model:
     m = si.Model("positioning")
     m.q, m.v = si.State(unit="m"), si.State(unit="m/s")
-    m.force = si.Input(channel="force", unit="N", hold="zero")
+    m.force = si.Input(channel="force", unit="N", hold=hold)
     m.mass, m.viscous = si.Parameter(unit="kg", bounds=(1, 1000)), si.Parameter(unit="N*s/m", bounds=(0, 5000))
     m.kinematics = si.Equation(m.q.dot - m.v)
     m.balance = si.Equation(m.mass * m.v.dot + m.viscous * m.v - m.force)
@@ -29,7 +29,11 @@ def positioning() -> si.Model:
 
 @pytest.fixture(scope="module")
 def driven() -> si.Recording:
-    """A slide that follows a smooth reference against dry friction, 100 samples per second."""
+    return slid(0.0)
+
+
+def slid(pull: float) -> si.Recording:
+    """A slide that follows a smooth reference against dry friction and a `pull` [N], 100 samples per second."""
     time = np.arange(0, 16, 0.01)
     steps = 0.12 * np.sin(0.5 * np.pi * time) * np.clip(time / 3, 0, 1) + 0.05 * np.sign(np.sin(0.45 * time))
     reference = gaussian_filter1d(steps, 12)
@@ -39,7 +43,7 @@ def driven() -> si.Recording:
         force.append(MASS_kg * (1600 * (r - q) + 80 * (dr - v)))
         recorded.append(q)
         for _ in range(20):
-            q, v = _later(q, v, force[-1], time[1] / 20)
+            q, v = _later(q, v, force[-1] + pull, time[1] / 20)
     noise = 0.5 * STEP_m * np.random.default_rng(0).standard_normal(len(time))
     position = np.round((np.array(recorded) + noise) / STEP_m) * STEP_m
     return si.Recording(
@@ -76,6 +80,18 @@ def test_dry_friction_of_a_drive_is_found_with_its_encoder(driven):
     assert "filtered" not in str(found)
     value, error = found.effects[0].parameters["torque_Nm"]
     assert abs(value - DRY_N) < max(3 * error, 0.01 * DRY_N)
+
+
+def test_dry_friction_and_a_pull_of_a_drive_whose_input_may_be_held_are_found_together():
+    """Either alone explains little, a stiffness more; how abruptly friction sets in hangs on what the input does."""
+    model, asked = positioning("either"), ("coulomb_friction", "constant_torque", "cubic_stiffness")
+    suspects = [s for s in si.suspects(model) if s.term.name in (*asked, "quadratic_stiffness", "asymmetric_damping")]
+    found = si.diagnose(model, slid(8.0), fit_window=(0, 10), held_out=(10, 16), suspects=suspects, threads=1)
+    told = {e.name: e.parameters["torque_Nm"] for e in found.effects}
+    assert found.verdict == "missing_physics" and told.keys() == {"coulomb_friction", "constant_torque"}
+    for name, true in (("coulomb_friction", DRY_N), ("constant_torque", 8.0)):
+        value, error = told[name]
+        assert value == pytest.approx(true, abs=3 * error) and error < 1e-4 * true
 
 
 def test_a_file_with_digits_after_a_filter_stays_filtered():

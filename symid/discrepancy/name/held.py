@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, refit
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.jump import with_jumps_again
 from symid.errors import SymidError
@@ -107,26 +107,35 @@ def _likelier(
     """The `rest` of what was found with one input held, if that is believed more than `found`, and than any delay."""
     model = found.base.model.with_holds(**{name: "zero"})
     same = len(rest) == len(found.suspects)
-    if same and _promise(found, rest, model, data) <= found.fit.loglik2 + STRONG:
-        return found
+    met = found.fit.kalman_gain is not None or is_met(found.fit, data)
+    if same and met and _promise(found, rest, model, data) <= found.fit.loglik2 + STRONG:
+        return found  # far from a motion one step promises little
     try:
         base = Fitter(model, data, near=found.base).again(found.base)
     except SymidError:
         return found  # what cannot be followed is not likelier
-    fit = refit(rest, found.fit, base, data) if rest else base
-    # All against one base: how much likelier a held input is by itself must count.
-    other = None if fit is None else Hypothesis(rest, fit, found.base, data)
-    if other is None or better(found, other) is found:
+    near = hypothesis(rest, found.fit, base, data) if rest else Hypothesis((), base, base, data)
+    if near is None:
+        return found
+    fit = _met(near, jumps).fit
+    other = Hypothesis(rest, fit, found.base, data)  # against one base: that a held input is likelier must count
+    if better(found, other) is found:
         return found
     if not same:
         return other
     if fit.loglik2 <= found.fit.loglik2 + STRONG:
         return found
-    if fit.kalman_gain is None and not is_met(with_jumps_again(Hypothesis(rest, fit, base, data), jumps).fit, data):
+    if fit.kalman_gain is None and not is_met(fit, data):
         return found  # of a motion that is not met half a sample more or less may be better by chance
     late = Suspect(LIBRARY[DELAY].at(place))
     delayed = hypothesis([*rest, late], found.fit, found.base, data, late.named({LATE[DELAY]: step / 2}))
-    return found if delayed is not None and better(delayed, other) is delayed else other
+    return found if delayed is not None and better(_met(delayed, jumps), other) is not other else other
+
+
+def _met(found: Hypothesis, jumps: Sequence[str]) -> Hypothesis:
+    """The same; where it does not meet a free motion yet, with dry friction as abrupt as its inputs ask for."""
+    met = found.fit.kalman_gain is not None or is_met(found.fit, found.data)
+    return found if met else with_jumps_again(found, jumps)
 
 
 def _promise(found: Hypothesis, rest: tuple[Suspect, ...], model: Model, data: Data) -> float:

@@ -85,12 +85,14 @@ def with_fitted_jumps(
 
 
 def with_jumps_again(found: Hypothesis, made: Sequence[str]) -> Hypothesis:
-    """The same suspects with dry friction that sets in as the recording likes best near its present abruptness.
+    """The same suspects with another abruptness of dry friction, wherever it is, or else near its present one.
 
     Other inputs between their samples ask for another one. Parameters as of `with_fitted_jumps`.
     """
     for name in _used(found, made, found.base.model):
-        found = _Widths(found, name).best(found.base.model.constants[name].value)
+        widths_of = _Widths(found, name)
+        other = widths_of.best(None)
+        found = widths_of.best(widths_of.sharp) if other is found else other
     return found
 
 

@@ -80,14 +80,15 @@ class Search(Judge):
         best, single = self.nothing, self.single
         while len(best.suspects) < POLICY.most_effects:
             more = self._steady(best, self._added(best) if best.suspects else single)
-            if more is None and not best.suspects and not self.explained(best):
+            if more is None and len(best.suspects) < 2 and not self.explained(best):
                 more = self._preferred(best, self._other_pairs(best, single, alone=False))
             if more is None:
                 break
             if len(more.suspects) == 2 and not self.quiet(more) and not self.beaten(more):
                 more = self._preferred(best, [more, *self._other_pairs(best, single, above=more.log_ratio)])
             if len(more.suspects) > 1:
-                more = self._reexamined(more, single)
+                again = self._reexamined(more, single)
+                more = more if again is more else self._with_jumps([again], best)[0]
                 if not self._worth(more, best):
                     break
             best = begun_anew(polished(more))
@@ -216,10 +217,11 @@ class Search(Judge):
         alone : whether the first of a pair must be worth its price by itself. A stiffness that grows shows only where
             the motion also dies away, and that it dies away only where the frequency that goes with it is right.
         """
-        rivals = [h for h in single if h.established and h.suspect.kind != "clock"]
+        others = [h for h in single if h.suspect not in best.suspects]
+        rivals = [h for h in others if h.established and h.suspect.kind != "clock"]
         if alone:
             enough = POLICY.beam_share * best.score
-            rivals = [h for h in rivals if h.suspect not in best.suspects and h.score > enough]
+            rivals = [h for h in rivals if h.score > enough]
             rivals = [h for h in rivals if self._worth(h, self.nothing)]
         pairs = []
         for h in rivals[: POLICY.beam]:
