@@ -38,16 +38,22 @@ def found() -> Audit:
     return audit(swing(), recording, segments_of(swing(), recording, recording.interval), None)
 
 
-def explained(monkeypatch, found: Audit, errors: tuple, driven: bool = False):
-    """What is chosen and the filters that it was explained under; each error is that of a free run, None unfitted."""
-    asked, left = [], iter(errors)
+def explained(monkeypatch, found: Audit, errors: tuple, driven: bool = False, memories: tuple = (0, 0)):
+    """What is chosen and the filters that it was explained under; each error is that of a free run, None unfitted.
+
+    memories : samples that the noise remembers under each.
+    """
+    asked, left, memory = [], iter(errors), iter(memories)
 
     def under(possible, *_):
         asked.append(possible.filter)
         error = next(left)
         if error is None:
             raise DiagnosisError(f"explanation {len(asked)} cannot be fitted")
-        return SimpleNamespace(filter=possible.filter, plain="as it is", found=SimpleNamespace(fit=error))
+        search = SimpleNamespace(data=SimpleNamespace(memory=next(memory)))
+        return SimpleNamespace(
+            filter=possible.filter, plain="as it is", found=SimpleNamespace(fit=error), search=search
+        )
 
     def run(fit, data):
         assert data == "as it is"
@@ -81,6 +87,22 @@ def test_a_smoothing_is_doubted_unless_it_was_stated(found):
 def test_free_runs_choose_between_a_doubted_filter_and_none(monkeypatch, found, errors, filtered):
     chosen, asked = explained(monkeypatch, found, errors)
     assert [f is not None for f in asked] == [True, False]
+    assert (chosen.filter is not None) == filtered
+
+
+@pytest.mark.parametrize(
+    ("memories", "errors", "filtered"),
+    [
+        ((1, 0), (0.1, 0.09), False),
+        ((1, 0), (0.1, 0.11), True),
+        ((0, 1), (0.1, 0.09), True),
+        ((1, 1), (0.1, 0.09), True),
+    ],
+)
+def test_noise_that_is_coloured_only_where_a_filter_is_undone_speaks_against_it(
+    monkeypatch, found, memories, errors, filtered
+):
+    chosen, _ = explained(monkeypatch, found, errors, memories=memories)
     assert (chosen.filter is not None) == filtered
 
 
