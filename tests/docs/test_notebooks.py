@@ -29,7 +29,7 @@ def test_runs_from_a_clean_kernel(path, monkeypatch):
     for cell in code_cells(notebook):
         cell.outputs, cell.execution_count = [], None
     NotebookClient(
-        notebook, timeout=300, kernel_name="python3", resources={"metadata": {"path": str(FOLDER)}}
+        notebook, timeout=900, kernel_name="python3", resources={"metadata": {"path": str(FOLDER)}}
     ).execute()
     shown = [
         output.data

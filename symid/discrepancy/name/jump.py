@@ -91,8 +91,8 @@ def with_jumps_again(found: Hypothesis, made: Sequence[str]) -> Hypothesis:
     """
     for name in _used(found, made, found.base.model):
         widths_of = _Widths(found, name)
-        other = widths_of.best(None)
-        found = widths_of.best(widths_of.sharp) if other is found else other
+        scanned = widths_of.best(None)
+        found = widths_of.best(widths_of.sharp) if scanned is found else scanned
     return found
 
 
@@ -115,7 +115,7 @@ class _Widths:
         self.tried: dict[float, Hypothesis | None] = {self.sharp: found}
 
     def best(self, told: float | None) -> Hypothesis:
-        """The hypothesis with the likeliest width if that is worth an unknown."""
+        """The hypothesis with the likeliest width if that is worth an unknown; from the width `told`, else from a scan."""
         found = self.found
         if told is None or (told != self.sharp and self.score(told) <= found.log_ratio):
             told = self._scanned()
