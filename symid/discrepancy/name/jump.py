@@ -115,7 +115,7 @@ class _Widths:
         self.tried: dict[float, Hypothesis | None] = {self.sharp: found}
 
     def best(self, told: float | None) -> Hypothesis:
-        """The hypothesis with the likeliest width if that is worth an unknown; from `told`, else from a scan of widths."""
+        """The hypothesis with the likeliest width if that is worth an unknown; from `told`, else from a scan."""
         found = self.found
         if told is None or (told != self.sharp and self.score(told) <= found.log_ratio):
             told = self._scanned()
