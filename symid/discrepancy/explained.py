@@ -103,7 +103,7 @@ def _clearer(
         raise problem
     with_filter, without = found[0], found[-1]
     # A filter colours noise: where undoing one leaves colour that is not there without, there was none.
-    whiter = without.search.data.memory == 0 < with_filter.search.data.memory
+    whiter = without.search.data.memory == 0 and with_filter.search.data.memory > 0
     enough = (1.0 if whiter else CLEARER) * _error(with_filter, without.plain)
     return without if _error(without, without.plain) < enough else with_filter
 

@@ -11,9 +11,10 @@ import numpy as np
 from symid.codegen.ode import OdeSource
 from symid.simulation.past import Past, Step
 from symid.simulation.run import METHODS, Run
+from symid.simulation.step_errors import UNEQUAL, UNSEEN, StepErrors
 
 FAST, GAMMA, EVEN, HALVINGS = 2.0, 1 - 2**-0.5, 0.5, 10
-UNSEEN, UNEQUAL, SMOOTH, SAME = 1e-8, 10.0, (6.0, 50.0), 1e-6
+SMOOTH = 6.0, 50.0
 """Of stiff steps, as in `steps.c`."""
 Rates = tuple[np.ndarray, np.ndarray]
 """(n,) of the state and (n, nq) of its sensitivities."""
@@ -82,10 +83,11 @@ class _Simulation:
         self.functions, source = loop.functions, loop.source
         self.x, self.S = run.x0.copy(), np.zeros((len(run.x0), run.nq))
         self.S[run.qx, run.nqp + np.arange(run.nqx)] = 1
-        self.size, self.still, zero = np.zeros(len(run.x0)), np.zeros(len(run.x0)), np.zeros(max(loop.sizes["x"], 1))
-        self.calm = 0.0  # what steps erred by before the rates bent, of the sizes
-        self.smooth: list[np.ndarray] = []  # what the smooth steps before this one erred by, and how long these were
-        self.span = 0.0
+        self.errors, self.still, zero = (
+            StepErrors(len(run.x0)),
+            np.zeros(len(run.x0)),
+            np.zeros(max(loop.sizes["x"], 1)),
+        )
         call = (zero, self.x, zero, zero, zero, run.p, run.c, 0.0)
         late = len(source.late)
         lag, dlag = self.functions["lags"](*call)[0], np.zeros((late, run.nq))
@@ -175,7 +177,7 @@ class _Simulation:
         if found is None:
             return False
         past.inside(*found)
-        self.size = np.maximum(self.size, np.maximum(np.abs(x), h * np.abs(found[0])))
+        self.errors.size = np.maximum(self.errors.size, np.maximum(np.abs(x), h * np.abs(found[0])))
         try:
             stages = self._stages(t, h, k, found, halvings, bend)
         except np.linalg.LinAlgError:
@@ -214,40 +216,21 @@ class _Simulation:
     def _bends(self, t: float, h: float, k: int, end: np.ndarray, halvings: int, bend: bool) -> Halves | None:
         """In which halves of an explicit step to `end` the rates bend so that it errs; both, in a known `bend`."""
         error, middle = self._error(t, h, k, self.x, end)
-        whole, uncut, found = self._largest(error), halvings == HALVINGS, None
-        expected, sudden = uncut and self._as_before(h, error), uncut and self._is_sudden(whole)
+        whole, uncut, found = self.errors.largest(error), halvings == HALVINGS, None
+        expected, sudden = uncut and self.errors.as_before(h, error), uncut and self.errors.is_sudden(whole)
         if whole > UNSEEN and (bend or sudden):
             found = BOTH
         elif whole > UNSEEN and not expected:
             end = self._state(t + h / 2, h / 2, k, middle)
-            first = self._largest(self._error(t, h / 2, k, self.x, middle)[0])
-            second = self._largest(self._error(t + h / 2, h / 2, k, middle, end)[0])
+            first = self.errors.largest(self._error(t, h / 2, k, self.x, middle)[0])
+            second = self.errors.largest(self._error(t + h / 2, h / 2, k, middle, end)[0])
             if first > UNEQUAL * second or second > UNEQUAL * first:
                 found = first > UNEQUAL * second, second > UNEQUAL * first
             elif not SMOOTH[0] * (first + second) < whole < SMOOTH[1] * (first + second):
                 found = BOTH
         if found:
-            self.smooth = []
+            self.errors.smooth = []
         return found
-
-    def _as_before(self, h: float, error: np.ndarray) -> bool:
-        """Whether a whole step errs as the two before let expect, and so is smooth as they are; it is kept too."""
-        if not abs(h - self.span) < SAME * h:
-            self.smooth = []
-        self.smooth, self.span = [*self.smooth[-2:], error], h
-        if len(self.smooth) < 3:
-            return False
-        return bool(self._largest(np.diff(self.smooth, 2, axis=0)[0]) <= UNSEEN)
-
-    def _is_sudden(self, whole: float) -> bool:
-        """Whether a whole step errs far more than calm ones. Each that does makes the next less sudden."""
-        sudden = 0 < UNEQUAL * self.calm < whole
-        self.calm = UNEQUAL * self.calm if sudden else max(whole, UNSEEN)
-        return sudden
-
-    def _largest(self, error: np.ndarray) -> float:
-        """Of the size of each state."""
-        return np.nanmax(np.abs(error) / self.size, initial=0.0)
 
     def _error(self, t: float, h: float, k: int, x: np.ndarray, end: np.ndarray) -> Rates:
         """What a step from x to `end` errs by, and where its first half ends."""

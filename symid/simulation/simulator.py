@@ -102,19 +102,21 @@ class Simulator:
         """
         check()
         time = _array(time)
+        times = time if earlier is None else np.concatenate([_array(earlier[0]), time])
         n, q = len(time), len(sensitivity) + len(initial_sensitivity)
-        if n < 2 or not np.all(np.diff(time) > 0):
+        if n < 2 or not np.all(np.diff(times) > 0):
             raise SymidError(
-                f"simulation of '{self.model.name}': time needs at least two increasing samples, found {n}"
+                f"simulation of '{self.model.name}': time needs at least two increasing samples, found {n}, and any "
+                "earlier ones before them"
             )
-        corrected, early = gain is not None, 0 if earlier is None else len(earlier[0])
+        corrected = gain is not None
         given = self._columns("input", self.source.inputs, inputs, n)
         run = Run(
             substeps,
             METHODS[method],
             limit,
-            early,
-            time if earlier is None else np.concatenate([earlier[0], time]),
+            len(times) - n,
+            times,
             given if earlier is None else np.vstack([self._before(given[0], earlier), given]),
             self._columns("noise", self.source.noises, noise, n, missing=0.0),
             self._vector("parameter", self.parameters, parameters),

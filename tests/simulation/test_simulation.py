@@ -229,6 +229,8 @@ def test_linearisation_and_pade(Simulator):
         ({"inputs": None}, "needs the input 'push'"),
         ({"inputs": {"push": np.full(11, np.nan)}}, "11 not finite"),
         ({"time": np.zeros(11)}, "increasing"),
+        ({"earlier": (np.array([-0.1, 0.5]), {})}, "earlier ones before them"),
+        ({"earlier": (np.array([-0.1]), {"push": np.zeros(2)})}, "'push' must be 1 finite"),
         ({"sensitivity": ["stifness"]}, "did you mean 'stiffness'"),
     ],
 )

@@ -8,10 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from symid.estimation.signals.segment import Segment
+from symid.mechanics.missing.drive_laws import INPUT_DELAY
 from symid.model import Model
 
-LATEST = 0.3
-"""Recorded inputs may act so late [s], in motions of the pace of one second: the bound of the law `input_delay`."""
+LATEST = INPUT_DELAY.bounds[1]
+"""Recorded inputs may act so late [s], in motions of the pace of one second."""
 AT_REST = 0.01
 """Inputs that stay within this part of their range at the start of a recording have rested before, too."""
 GIVEN_UP = 0.1
