@@ -21,9 +21,8 @@ from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.kalman import HOLD, kalman_gain
 from symid.estimation.signals.windows import segments_between
 from symid.mechanics import LIBRARY
-from symid.model import Equation, Input, Law, LawParameter, Model, Output, Parameter, State
-from symid.recording import Recording
-from symid.simulation import Linearised, Simulator
+from symid.model import Equation, Law, LawParameter, Model, Output, State
+from symid.simulation import Linearised
 
 
 @cache
@@ -274,41 +273,3 @@ def test_a_solution_brings_its_model_recording_window_and_values():
 def test_a_model_alone_is_not_enough():
     with pytest.raises(DiagnosisError, match="give the recording"):
         diagnose(pendulum())
-
-
-def diagnosed_tank(drained_in_truth):
-    """A tank without places where a force could act, whose model says that its outflow grows with its level."""
-
-    def tank(drained):
-        m = Model("tank")
-        m.level = State(unit="m")
-        m.inflow = Input(unit="m^3/s", channel="inflow", role="excitation", at="input")
-        m.outlet = Parameter(unit="m^2/s", bounds=(0, 1), guess=1e-3)
-        m.balance = Equation(0.02 * m.level.dot - m.inflow.symbol + m.outlet * drained(m.level.symbol))
-        m.shown = Output(m.level, channel="level", role="sensor", at="sensor:level")
-        return m
-
-    time = np.arange(0.0, 300.0, 1.0)
-    inflow = np.repeat(np.random.default_rng(7).uniform(2e-5, 2e-4, 10), 30)
-    truth = tank(drained_in_truth)
-    run = Simulator(truth).simulate({"outlet": 1e-3}, [0.2], time, {"inflow": inflow})
-    level = run.y[:, 0] + 5e-4 * np.random.default_rng(0).standard_normal(len(time))
-    recording = Recording("tank", time, {"level": level, "inflow": inflow}, {"level": "m", "inflow": "m^3/s"})
-    return diagnose(
-        tank(lambda h: h), recording, fit_window=(0, 200), held_out=(200, 299), driven=False, sensor_noise=5e-4
-    )
-
-
-def test_a_tank_that_drains_as_torricelli_says():
-    found = diagnosed_tank(lambda h: 0.4 * sm.sqrt(h))
-    assert (found.verdict, found.confirmed) == ("missing_physics", True)
-    assert [(e.name, e.location) for e in found.effects] == [("orifice_loss", "level")]
-    value, error = found.effects[0].parameters["coefficient_Nm_root"]
-    assert value == pytest.approx(4e-4, abs=4 * error) and found.values["outlet"] < 1e-5
-
-
-def test_a_tank_that_drains_as_no_law_says():
-    found = diagnosed_tank(lambda h: 0.08 + 0.12 * sm.sin(18 * h) ** 2)
-    # A level alone does not tell whether its sensor is bent or its outflow: the law that stands for it is a flow.
-    assert found.verdict == "unexplained" and found.effects[0].location in ("level", "sensor:level")
-    assert found.flexible.port.at == "level"
