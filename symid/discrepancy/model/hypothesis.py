@@ -179,8 +179,7 @@ def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, sh
 
 def is_met(fit: Fit, data: Data, times: float = POLICY.far) -> bool:
     """Whether the rms error of every output is less than so many times its sensor's noise."""
-    errors = np.sqrt(np.mean(np.vstack(fit.innovations) ** 2, axis=0))
-    return bool(np.all(errors < times * data.sensor_noise))
+    return bool(np.all(fit.rms_errors < times * data.sensor_noise))
 
 
 # ---- fits ------------------------------------------------------------------------------------

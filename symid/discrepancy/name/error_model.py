@@ -14,9 +14,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
+from functools import reduce
 from math import inf, log
 
 from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.name.equivalents import equivalents
 from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
 from symid.errors import SymidError
@@ -80,13 +82,17 @@ def _again(
     searched: Callable[[Fit, Data], Search],
     to_end: bool = False,
 ) -> tuple[Search, Hypothesis, list[Hypothesis]]:
-    """A search under the error model of `data`, and the better of what it finds and what was found before.
+    """A search under the error model of `data`, and the best of what it finds and what explained as much before.
 
     Noise with a memory may take up so much of what is missing that a search which begins anew goes astray.
     """
+    likes = equivalents(found, search.tried)
     search = searched(_refitted(search.base, explained, data), data)
     again, ranking = search.run(to_end)
-    return search, search.better(again, Hypothesis(found.suspects, explained, search.base, data)), ranking
+    kept = Hypothesis(found.suspects, explained, search.base, data)
+    known = [kept, *search.together([(h.suspects, h.fit.values) for h in likes], kept)]
+    search.tried += known
+    return search, reduce(search.better, known, again), ranking
 
 
 def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:

@@ -184,9 +184,9 @@ class Search(Judge):
     def _known_clocks(self, best: Hypothesis, taken: set) -> list[Hypothesis]:
         """`best` with each clock that explained something alone, from where that was found."""
         known = [h for h in self.clocks if h.suspect.term not in taken]
-        return self._together([([*best.suspects, h.suspect], h.fit.values) for h in known], best)
+        return self.together([([*best.suspects, h.suspect], h.fit.values) for h in known], best)
 
-    def _together(
+    def together(
         self, sets: Sequence[tuple[Sequence[Suspect], dict[str, float] | None]], near: Hypothesis
     ) -> list[Hypothesis]:
         """Sets of suspects, each refitted together from where `near` ended and, of what that lacks, from its values."""
@@ -242,7 +242,7 @@ class Search(Judge):
                 for other in (o for o in alike if o.established >= s.established):
                     sets.append([other if t is s else t for t in found.suspects])
                     off |= other.off
-            tried = [found, *self._together([(chosen, off) for chosen in sets], found)]
+            tried = [found, *self.together([(chosen, off) for chosen in sets], found)]
             self.tried += tried[1:]
             share = max(tried, key=lambda h: h.log_ratio).share
             best = max(tried, key=lambda h: self.value(h, share))
@@ -256,7 +256,7 @@ class Search(Judge):
         sets = [([s for s in found.suspects if s is not earlier], None) for earlier in found.suspects[:-1]]
         rivals = [h for h in single if h.suspect.term not in taken and h.established >= found.suspects[0].established]
         sets += [([h.suspect, *kept], h.fit.values) for h in rivals[: POLICY.rivals]]
-        tried = [found, *self._together(sets, found)]
+        tried = [found, *self.together(sets, found)]
         self.tried += tried
         share = max(tried, key=lambda h: h.log_ratio).share
         return max(tried, key=lambda h: self.value(h, share))

@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from symid.discrepancy.locate.remainder import Test, located, remainder
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
-from symid.estimation.free_run import FreeRun, with_states_of
+from symid.estimation.free_run import with_states_of
 from symid.estimation.signals.data import Data
 
 ITERATIONS = 40
 """Of the fit to the held-out data, as of any complete refit."""
 
 
-def elsewhere(fit: Fit, held_out: Data, runs: Mapping[str, FreeRun]) -> Test | None:
+def elsewhere(fit: Fit, held_out: Data) -> Test | None:
     """What a model that explains the fitted data does not explain in the held-out ones; None where it explains both.
 
     Asked of free motion whose error is much larger there: the model is refitted to the held-out data alone. Either it
     leaves something systematic there, too, or it needs values that those of the fitted data exclude.
     """
-    before, after = runs["augmented_train"].errors, runs["augmented_heldout"].errors
-    if fit.kalman_gain is not None or np.all(after < POLICY.sensors * np.maximum(before, held_out.sensor_noise)):
-        return None
-    begin = with_states_of(fit, held_out)
-    if begin is None:
+    begin = with_states_of(fit, held_out) if fit.kalman_gain is None else None
+    if begin is None or np.all(begin.rms_errors < POLICY.sensors * np.maximum(fit.rms_errors, held_out.sensor_noise)):
         return None
     try:
         own = Fitter.of(fit, held_out).fit(fit.values, begin.initial, fit.process, ITERATIONS)

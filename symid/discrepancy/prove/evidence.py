@@ -24,6 +24,7 @@ from symid.estimation.measurement import away_from_ends, of_window, restored
 from symid.estimation.prediction import predictions
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.known_past import with_known_past
+from symid.estimation.signals.pieces import free_pieces
 from symid.estimation.signals.windows import segments_of
 from symid.threads import in_threads
 
@@ -86,7 +87,17 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
         _proof(final, base, task, data, runs),
         unnamed,
         final,
-        elsewhere(found.fit, windows["heldout"], runs) if "heldout" in windows and not nameless_too else None,
+        None if nameless_too else _elsewhere(found.fit, windows, data, task),
+    )
+
+
+def _elsewhere(fit: Fit, windows: dict[str, Data], data: Data, task: Task) -> Test | None:
+    """What only the held-out data show, under the error model of `data` and cut as these, however they were given."""
+    if "heldout" not in windows:
+        return None
+    held = windows["heldout"].remembering(data.memory)
+    return elsewhere(
+        fit, held if task.moved else held.with_segments(free_pieces(held.segments, len(task.model.states)))
     )
 
 

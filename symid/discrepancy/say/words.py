@@ -95,10 +95,10 @@ def _losses(s: Story) -> list[str]:
     alone = next((c for c in s.ranking if c.suspect.term.name in LOSSES), None)
     if alone is None:
         return [f"{text}."]
-    left = np.sqrt(np.mean(np.vstack(alone.fit.innovations) ** 2, axis=0))
     name = law_name(alone.suspect.term.name, alone.suspect.term.location)
+    left = s.error(alone.fit.rms_errors)
     return [
-        f"{text}, and one law is not enough: the best alone, {name}, leaves an error of {s.error(left)} in the fit "
+        f"{text}, and one law is not enough: the best alone, {name}, leaves an error of {left} in the fit "
         f"window, all that was found together {s.error(s.runs['augmented_train'].errors)}."
     ]
 

@@ -77,6 +77,11 @@ class Fit:
         return self.whitening.covariance
 
     @property
+    def rms_errors(self) -> np.ndarray:
+        """(m,) root mean square of each output's innovations."""
+        return np.sqrt(np.mean(np.vstack(self.innovations) ** 2, axis=0))
+
+    @property
     def remaining(self) -> tuple[np.ndarray, ...]:
         """Per segment (N, m), the innovations made white and of unit covariance."""
         return tuple(self.whitening(s[:, :, None]).reshape(s.shape) for s in self.innovations)

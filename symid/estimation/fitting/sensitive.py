@@ -96,7 +96,7 @@ def _shortest(grows: float, data: Data) -> float:
 def lost(fit: Fit, data: Data) -> bool:
     """Whether a fit leaves more than the part `LOST` of what an output moves."""
     moves = np.vstack([e.recorded for e in data.segments]).std(axis=0)
-    return bool(np.any(np.sqrt(np.mean(np.vstack(fit.innovations) ** 2, axis=0)) > LOST * moves))
+    return bool(np.any(fit.rms_errors > LOST * moves))
 
 
 def largest_growth(fit: Fit, data: Data) -> float:
