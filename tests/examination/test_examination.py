@@ -16,6 +16,7 @@ pytestmark = pytest.mark.slow
         pytest.param("spoilt", 12, id="one effect, filtered"),
         pytest.param("spoilt", 15, id="one effect, short"),
         pytest.param("weak", 7, id="a weak effect"),
+        pytest.param("three", 2, id="three effects, one a load that looks like a wrong center of mass"),
         pytest.param("machine", 0, id="a slide with a smooth input"),
         pytest.param("machine", 6, id="a rod, filtered near half the rate"),
         pytest.param("machine", 9, id="gliders, filtered"),
