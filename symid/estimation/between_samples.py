@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.fitting.refining import seen
 from symid.estimation.signals.data import Data
+from symid.model import Model
 
 
 def with_likeliest_curves(fit: Fit, data: Data) -> Fit:
@@ -16,14 +19,27 @@ def with_likeliest_curves(fit: Fit, data: Data) -> Fit:
     Straight lines lose the part (w h)^2 / 12 of an input of angular frequency w that is sampled every h: 0.4 % at 30
     samples a period. With good sensors that is enough to look like a wrong gain or mass.
     """
-    for name in [k for k, u in fit.model.inputs.items() if u.hold == "either"]:
-        curved = Fitter(fit.model.with_holds(**{name: "cubic"}), data, near=fit)
+    for names in groups(fit.model, [k for k, u in fit.model.inputs.items() if u.hold == "either"]):
+        if any(fit.model.inputs[k].hold != "either" for k in names):
+            continue
+        curved = Fitter(fit.model.with_holds(**dict.fromkeys(names, "cubic")), data, near=fit)
         if _differs(Fitter.of(fit, data), curved, fit):
             try:
                 fit = max(fit, curved.again(fit), key=lambda f: f.loglik2)
             except SymidError:
                 pass  # what cannot be followed is not likelier
     return fit
+
+
+def groups(model: Model, names: Sequence[str]) -> list[tuple[str, ...]]:
+    """Inputs that may do the same between their samples: all of them, those of one unit, each alone.
+
+    One computer puts out all of its commands in one way. Of two rotors that are held one after the other looks late.
+    """
+    of_unit = [
+        tuple(k for k in names if model.inputs[k].unit == unit) for unit in {model.inputs[k].unit: 0 for k in names}
+    ]
+    return list(dict.fromkeys([tuple(names), *of_unit, *((k,) for k in names)])) if names else []
 
 
 def holds_of(fit: Fit, base: Fit) -> dict[str, str]:

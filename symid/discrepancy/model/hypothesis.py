@@ -179,7 +179,12 @@ def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, sh
 
 def is_met(fit: Fit, data: Data, times: float = POLICY.far) -> bool:
     """Whether the rms error of every output is less than so many times its sensor's noise."""
-    return bool(np.all(fit.rms_errors < times * data.sensor_noise))
+    return is_near(fit.innovations, data, times)
+
+
+def is_near(errors: Sequence[np.ndarray], data: Data, times: float = POLICY.far) -> bool:
+    """Likewise of errors (N, m) of each segment."""
+    return bool(np.all(np.sqrt(np.mean(np.vstack(errors) ** 2, axis=0)) < times * data.sensor_noise))
 
 
 # ---- fits ------------------------------------------------------------------------------------

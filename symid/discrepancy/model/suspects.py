@@ -165,6 +165,7 @@ FAMILIES = (
     {"feedback_delay", "muscle_lag", "second_order_muscle_lag"},
     {"joint_feedback_delay", "joint_muscle_lag"},
     {"input_delay", "input_lag"},
+    {"inputs_delay", "inputs_lag"},
     {"sensor_delay", "sensor_lag"},
     {"proportional_loss", "orifice_loss", "quadratic_loss", "constant_flow"},
     {"proportional_exchange", "orifice_exchange"},

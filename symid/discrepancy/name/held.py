@@ -9,73 +9,100 @@ likelier than straight lines that may be late, too.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from math import inf
 
-from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, is_near
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.jump import with_jumps_again
 from symid.errors import SymidError
-from symid.estimation.between_samples import with_likeliest_curves
+from symid.estimation.between_samples import groups, with_likeliest_curves
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.signals.data import Data
 from symid.mechanics import LIBRARY
-from symid.model import Model
+from symid.model import Model, Term
 
-DELAY = "input_delay"
-LATE = {law: LIBRARY[law].parameters[0].key for law in (DELAY, "input_lag")}
+DELAY, ALL_DELAY = "input_delay", "inputs_delay"
+"""The laws of one input that is late, and of all of them."""
+LATE = {law: LIBRARY[law].parameters[0].key for law in (DELAY, ALL_DELAY, "input_lag", "inputs_lag")}
 """The laws that may be none where they come to less than a sample: a lag that short looks like a delay."""
 STRONG = 6.0
 """What a held input must be likelier by, twice in the logarithm: strong evidence (Kass & Raftery 1995, section 3.2). A
 slow signal is nearly the same held or not, and chance would tell."""
 
 
-def held(
-    found: Hypothesis,
-    data: Data,
-    unstated: Sequence[str],
-    better: Callable[[Hypothesis, Hypothesis], Hypothesis],
-    jumps: Sequence[str] = (),
-) -> Hypothesis:
-    """`found`, or the same with inputs held and without their lags of part of a sample, where that is believed more.
+@dataclass(frozen=True, eq=False)
+class Holds:
+    """Whether inputs are held, asked of one hypothesis after the other.
 
-    Longer delays stay as they are: held or not, they differ by half a sample.
-
-    Parameters
+    Attributes
     ----------
     unstated : inputs of which nobody said what they do between their samples. better : the one of two that is believed
         more. jumps : constants that say how abruptly dry friction sets in and that nobody stated.
     """
-    step = data.segments[0].step / data.segments[0].ratio
-    for name in (k for k in unstated if found.base.model.inputs[k].hold != "zero"):
-        place = found.base.model.inputs[name].at
-        late = [s for s in found.suspects if s.term.name in LATE and s.term.location == place]
-        if all(0 < _seconds(found, s) < step for s in late):
-            rest = tuple(s for s in found.suspects if s not in late)
-            found = _likelier(found, rest, name, place, step, data, better, jumps)
-    return found
 
+    data: Data
+    unstated: Sequence[str]
+    better: Callable[[Hypothesis, Hypothesis], Hypothesis]
+    jumps: Sequence[str] = ()
 
-def asked_again(
-    found: Hypothesis,
-    data: Data,
-    unstated: Sequence[str],
-    better: Callable[[Hypothesis, Hypothesis], Hypothesis],
-    jumps: Sequence[str],
-) -> Hypothesis:
-    """`found`, or it with inputs held that were not, or else with inputs free that were held, where this is likelier.
+    def asked_again(self, found: Hypothesis) -> Hypothesis:
+        """`found`, or it with inputs held that were not, or else with inputs free that were held, if likelier."""
+        if (without := self.held(found)) is not found:
+            return without
+        free = unheld(found.fit, self.data, self.unstated)
+        return found if free is found.fit else replace(found, fit=free)
 
-    Parameters as of `held`.
-    """
-    if (without := held(found, data, unstated, better, jumps)) is not found:
-        return without
-    free = unheld(found.fit, data, unstated)
-    return found if free is found.fit else replace(found, fit=free)
+    def held(self, found: Hypothesis) -> Hypothesis:
+        """`found`, or the same with inputs held and without lags of part of a sample, where that is believed more.
+
+        Longer delays stay as they are: held or not, they differ by half a sample. Longer lags may be of held inputs.
+        """
+        step = self.data.segments[0].step / self.data.segments[0].ratio
+        for names in groups(found.base.model, self.unstated):
+            if any(found.base.model.inputs[k].hold == "zero" for k in names):
+                continue
+            laws = _delays(found.base.model, names)
+            places = {t.location for t in laws} | {found.base.model.inputs[k].at for k in names}
+            late = [s for s in found.suspects if s.term.name in LATE and s.term.location in places]
+            short = [s for s in late if 0 < _seconds(found, s) < step]
+            if all(s in short or s.term.name not in (DELAY, ALL_DELAY) for s in late):
+                rest = tuple(s for s in found.suspects if s not in short)
+                found = self._likelier(found, rest, names, [Suspect(t) for t in laws], step)
+        return found
+
+    def _likelier(
+        self, found: Hypothesis, rest: tuple[Suspect, ...], names: Sequence[str], late: list[Suspect], step: float
+    ) -> Hypothesis:
+        """The `rest` of what was found with inputs held, if that is believed more than `found`, and than any delay."""
+        model = found.base.model.with_holds(**dict.fromkeys(names, "zero"))
+        same = len(rest) == len(found.suspects)
+        if same and _follows(found) and _promise(found, rest, model, self.data) <= found.fit.loglik2 + STRONG:
+            return found  # far from a motion one step promises little
+        try:
+            base = Fitter(model, self.data, near=found.base).again(found.base)
+        except SymidError:
+            return found  # what cannot be followed is not likelier
+        near = hypothesis(rest, found.fit, base, self.data) if rest else Hypothesis((), base, base, self.data)
+        if near is None:
+            return found
+        fit = _met(near, self.jumps).fit
+        other = Hypothesis(rest, fit, found.base, self.data)  # against one base: that held inputs are likelier counts
+        if self.better(found, other) is found:
+            return found
+        if not same:
+            return other
+        if fit.loglik2 <= found.fit.loglik2 + STRONG or not _follows(other):
+            return found  # of a motion that is not met half a sample more or less may be better by chance
+        begin = dict(v for s in late for v in s.named({LATE[s.term.name]: step / 2}).items())
+        delayed = hypothesis([*rest, *late], found.fit, found.base, self.data, begin)
+        return found if delayed and self.better(_met(delayed, self.jumps), other) is not other else other
 
 
 def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
     """The fit of a model as given, or that with inputs held where this is likelier."""
     nothing = Hypothesis((), fit, fit, data)
-    return held(nothing, data, unstated, lambda *two: max(two, key=lambda h: h.evidence(1.0))).fit
+    return Holds(data, unstated, lambda *two: max(two, key=lambda h: h.evidence(1.0))).held(nothing).fit
 
 
 def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
@@ -84,9 +111,11 @@ def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
     Noise with a memory that was taken for white makes half a sample more or less look likely, and so does a lag that
     the model as given leaves out.
     """
-    for name in (k for k in unstated if fit.model.inputs[k].hold == "zero"):
+    for names in groups(fit.model, unstated):
+        if any(fit.model.inputs[k].hold != "zero" for k in names):
+            continue
         try:
-            free = Fitter(fit.model.with_holds(**{name: "either"}), data, near=fit).again(fit)
+            free = Fitter(fit.model.with_holds(**dict.fromkeys(names, "either")), data, near=fit).again(fit)
         except SymidError:
             continue  # what cannot be followed is not likelier
         free = with_likeliest_curves(free, data)
@@ -94,56 +123,37 @@ def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
     return fit
 
 
-def _likelier(
-    found: Hypothesis,
-    rest: tuple[Suspect, ...],
-    name: str,
-    place: str,
-    step: float,
-    data: Data,
-    better: Callable,
-    jumps: Sequence[str],
-) -> Hypothesis:
-    """The `rest` of what was found with one input held, if that is believed more than `found`, and than any delay."""
-    model = found.base.model.with_holds(**{name: "zero"})
-    same = len(rest) == len(found.suspects)
-    met = found.fit.kalman_gain is not None or is_met(found.fit, data)
-    if same and met and _promise(found, rest, model, data) <= found.fit.loglik2 + STRONG:
-        return found  # far from a motion one step promises little
-    try:
-        base = Fitter(model, data, near=found.base).again(found.base)
-    except SymidError:
-        return found  # what cannot be followed is not likelier
-    near = hypothesis(rest, found.fit, base, data) if rest else Hypothesis((), base, base, data)
-    if near is None:
-        return found
-    fit = _met(near, jumps).fit
-    other = Hypothesis(rest, fit, found.base, data)  # against one base: that a held input is likelier must count
-    if better(found, other) is found:
-        return found
-    if not same:
-        return other
-    if fit.loglik2 <= found.fit.loglik2 + STRONG:
-        return found
-    if fit.kalman_gain is None and not is_met(fit, data):
-        return found  # of a motion that is not met half a sample more or less may be better by chance
-    late = Suspect(LIBRARY[DELAY].at(place))
-    delayed = hypothesis([*rest, late], found.fit, found.base, data, late.named({LATE[DELAY]: step / 2}))
-    return found if delayed is not None and better(_met(delayed, jumps), other) is not other else other
+def _delays(model: Model, names: Sequence[str]) -> list[Term]:
+    """The laws by which these inputs are late together."""
+    if set(names) == set(model.inputs):
+        return [LIBRARY[ALL_DELAY].at("global")]
+    return [LIBRARY[DELAY].at(model.inputs[k].at) for k in names]
+
+
+def _follows(found: Hypothesis) -> bool:
+    """Whether a fit is near the motion, as one that is corrected at each sample is."""
+    return found.fit.kalman_gain is not None or is_met(found.fit, found.data)
 
 
 def _met(found: Hypothesis, jumps: Sequence[str]) -> Hypothesis:
     """The same; where it does not meet a free motion yet, with dry friction as abrupt as its inputs ask for."""
-    met = found.fit.kalman_gain is not None or is_met(found.fit, found.data)
-    return found if met else with_jumps_again(found, jumps)
+    return found if _follows(found) else with_jumps_again(found, jumps)
 
 
 def _promise(found: Hypothesis, rest: tuple[Suspect, ...], model: Model, data: Data) -> float:
-    """Twice the log-likelihood that one step promises for the `rest` of what was found, on top of another `model`."""
+    """Twice the log-likelihood that one step promises for the `rest` of what was found, on top of another `model`.
+
+    Infinite where that begins far from the motion, as where a part of a sample runs away in what nothing holds back:
+    such a step tells little.
+    """
     for s in rest:
         model = model.with_term(s.term)
     fitter, fit = Fitter(model, data, near=found.fit, tune=False), found.fit
-    return fitter.promise({k: fit.values[k] for k in fitter.sim.parameters}, fit.initial, fit.process)
+    values = {k: fit.values[k] for k in fitter.sim.parameters}
+    begin = fitter.run(values, fit.initial, fit.kalman_gain, False, process=fit.process)
+    if begin is None or not is_near(fitter.innovations(begin, fit.process), data):
+        return inf
+    return fitter.promise(values, fit.initial, fit.process)
 
 
 def _seconds(found: Hypothesis, suspect: Suspect) -> float:

@@ -12,7 +12,7 @@ from symid.discrepancy.model.begun_anew import begun_anew
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
-from symid.discrepancy.name.held import asked_again
+from symid.discrepancy.name.held import Holds
 from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_of
 from symid.discrepancy.name.starts import Start
@@ -78,6 +78,7 @@ class Search(Judge):
         to_end : whether it goes on where the cutoff of a filter moves with what was found. All else hangs on that, too.
         """
         best, single = self.nothing, self.single
+        holds = Holds(self.data, self.unstated, self.better, self.jumps)
         while len(best.suspects) < POLICY.most_effects:
             more = self._steady(best, self._added(best) if best.suspects else single)
             if more is None and len(best.suspects) < 2 and not self.explained(best):
@@ -92,7 +93,7 @@ class Search(Judge):
                 if not self._worth(more, best):
                     break
             best = begun_anew(polished(more))
-            if (otherwise := asked_again(best, self.data, self.unstated, self.better, self.jumps)) is not best:
+            if (otherwise := holds.asked_again(best)) is not best:
                 return otherwise, single
             curved = with_likeliest_curves(best.fit, self.data)
             if curved is not best.fit:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from symid.discrepancy.locate.remainder import Test
@@ -136,19 +138,23 @@ def left_beside_noise(s: Story) -> list[str]:
     ]
 
 
+def _are(names: Sequence[str]) -> str:
+    return "is" if len(names) == 1 else "are"
+
+
 def _caveats(s: Story) -> list[str]:
     out = []
     curved = [u.channel for u in s.model.inputs.values() if u.hold == "cubic"]
     if curved:
         out.append(
-            f"Between its samples {listed(curved)} is taken to follow a smooth curve; straight lines would lose "
-            "some of it."
+            f"Between samples {listed(curved)} {_are(curved)} taken to follow a smooth curve; straight lines would "
+            "lose some of it."
         )
     held = [u.channel for u in s.model.inputs.values() if u.hold == "zero"]
     if held:
         out.append(
-            f"Between its samples {listed(held)} is taken to be held, as a computer's output is; straight lines would "
-            "look like a delay of half a sample."
+            f"Between samples {listed(held)} {_are(held)} taken to be held, as a computer's output is; straight lines "
+            "would look like a delay of half a sample."
         )
     if s.pieces:
         out.append(

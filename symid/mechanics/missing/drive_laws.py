@@ -55,11 +55,20 @@ def has_own_zero(model: Model, place: str) -> bool:
 
 
 def _input_lag(model: Model, place: str, p: SimpleNamespace) -> None:
-    for u in model.find("excitation", place):
+    _let_follow(model, model.find("excitation", place), p.time_constant_s, "input_lag")
+
+
+def _inputs_lag(model: Model, place: str, p: SimpleNamespace) -> None:
+    _let_follow(model, model.find("excitation"), p.time_constant_s, "inputs_lag")
+
+
+def _let_follow(model: Model, inputs: Sequence[Input], time_constant: sm.Expr, law: str) -> None:
+    """Let each of these inputs follow what was recorded of it with a lag [s]; its new state is called after the law."""
+    for u in inputs:
         late = {s: model.delays[s].lag for s in late_symbols(model, u.symbol)}
-        x = _lagging(model, u, f"input_lag_{u.name}")
+        x = _lagging(model, u, f"{law}_{u.name}")
         model.substitute({u.symbol: x} | {s: model.delayed(x, lag) for s, lag in late.items()})
-        _follow(model, x, p.time_constant_s, u.symbol)
+        _follow(model, x, time_constant, u.symbol)
 
 
 def _sensor_lag(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -109,6 +118,15 @@ LAG_LAWS: tuple[Law, ...] = (
         _input_lag,
         "The true excitation follows the recorded one with a lag of {time_constant_s}",
         "Ljung 1999",
+    ),
+    Law(
+        "inputs_lag",
+        "excitation",
+        (LAG,),
+        _inputs_lag,
+        "The true excitations all follow the recorded ones with a lag of {time_constant_s}",
+        "Ljung 1999",
+        "global",
     ),
     Law(
         "sensor_lag",
