@@ -236,14 +236,15 @@ class Search(Judge):
         Of several losses the first takes up what the others lose, and so may be the wrong law at the right place.
         """
         while True:
-            taken, off = {s.term for s in found.suspects}, dict[str, float]()
-            sets = [[t for t in found.suspects if t is not s] for s in found.suspects] if len(taken) > 2 else []
+            taken, sets = {s.term for s in found.suspects}, []
+            if len(taken) > 2:
+                sets = [([t for t in found.suspects if t is not s], None) for s in found.suspects]
             for s in found.suspects:
                 alike = [o for o in self.pool if is_alike(o, s) and o.term not in taken]
                 for other in (o for o in alike if o.established >= s.established):
-                    sets.append([other if t is s else t for t in found.suspects])
-                    off |= other.off
-            tried = [found, *self.together([(chosen, off) for chosen in sets], found)]
+                    chosen = [other if t is s else t for t in found.suspects]
+                    sets += [(chosen, other.named(start)) for start in other.starts()]
+            tried = [found, *self.together(sets, found)]
             self.tried += tried[1:]
             share = max(tried, key=lambda h: h.log_ratio).share
             best = max(tried, key=lambda h: self.value(h, share))
