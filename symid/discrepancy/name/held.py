@@ -127,7 +127,7 @@ def _delays(model: Model, names: Sequence[str]) -> list[Term]:
     """The laws by which these inputs are late together."""
     if set(names) == set(model.inputs):
         return [LIBRARY[ALL_DELAY].at("global")]
-    return [LIBRARY[DELAY].at(model.inputs[k].at) for k in names]
+    return list(dict.fromkeys(LIBRARY[DELAY].at(model.inputs[k].at) for k in names))
 
 
 def _follows(found: Hypothesis) -> bool:
