@@ -27,7 +27,8 @@ class Policy:
         stated geometry or a sensor is checked by whoever builds the machine (7 to 1), a clock explains any regular
         motion (150 to 1). Drag with the square of the speed belongs to what moves through air or water, a friction with
         the speed to joints: the other way round is rarer (50 to 1). Dry friction alone is rarer than friction with
-        the speed (7 to 1), which is the first term of every smooth loss.
+        the speed (7 to 1), which is the first term of every smooth loss. That all drives have one lag is a chance
+        where they are of different make, which one sensor's lag imitates if it is the only one (150 to 1).
     braking : likewise of a constant force that takes energy from the motion all the time. A disc that runs down does
         not tell it from dry friction, which is in every bearing (7 to 1, its own odds above taken off).
     never : the price of what is never named: a clock whose frequency is a multiple of the one at which a motion
@@ -69,6 +70,7 @@ class Policy:
             "joint_drag": 8.0,
             "link_drag": 8.0,
             "slow_body_drag": 8.0,
+            "inputs_lag": 10.0,
         }
     )
     braking: float = 8.0
