@@ -27,8 +27,8 @@ class Policy:
         stated geometry or a sensor is checked by whoever builds the machine (7 to 1), a clock explains any regular
         motion (150 to 1). Drag with the square of the speed belongs to what moves through air or water, a friction with
         the speed to joints: the other way round is rarer (50 to 1). Dry friction alone is rarer than friction with
-        the speed (7 to 1), which is the first term of every smooth loss. That all drives have one lag is a chance
-        where they are of different make, which one sensor's lag imitates if it is the only one (150 to 1).
+        the speed (7 to 1), which is the first term of every smooth loss. One lag of all
+        drives is the same in the data as that of an only sensor, which is one fault and not several (150 to 1).
     braking : likewise of a constant force that takes energy from the motion all the time. A disc that runs down does
         not tell it from dry friction, which is in every bearing (7 to 1, its own odds above taken off).
     never : the price of what is never named: a clock whose frequency is a multiple of the one at which a motion

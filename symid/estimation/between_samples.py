@@ -19,7 +19,7 @@ def with_likeliest_curves(fit: Fit, data: Data) -> Fit:
     Straight lines lose the part (w h)^2 / 12 of an input of angular frequency w that is sampled every h: 0.4 % at 30
     samples a period. With good sensors that is enough to look like a wrong gain or mass.
     """
-    for names in groups(fit.model, [k for k, u in fit.model.inputs.items() if u.hold == "either"]):
+    for names in input_groups(fit.model, [k for k, u in fit.model.inputs.items() if u.hold == "either"]):
         if any(fit.model.inputs[k].hold != "either" for k in names):
             continue
         curved = Fitter(fit.model.with_holds(**dict.fromkeys(names, "cubic")), data, near=fit)
@@ -31,13 +31,14 @@ def with_likeliest_curves(fit: Fit, data: Data) -> Fit:
     return fit
 
 
-def groups(model: Model, names: Sequence[str]) -> list[tuple[str, ...]]:
+def input_groups(model: Model, names: Sequence[str]) -> list[tuple[str, ...]]:
     """Inputs that may do the same between their samples: all of them, those of one unit, each alone.
 
-    One computer puts out all of its commands in one way. Of two rotors that are held one after the other looks late.
+    One computer puts out all of its commands in one way: of two rotors one alone held is worse than none.
     """
     of_unit = [
-        tuple(k for k in names if model.inputs[k].unit == unit) for unit in {model.inputs[k].unit: 0 for k in names}
+        tuple(k for k in names if model.inputs[k].unit == unit)
+        for unit in dict.fromkeys(model.inputs[k].unit for k in names)
     ]
     return list(dict.fromkeys([tuple(names), *of_unit, *((k,) for k in names)])) if names else []
 

@@ -83,11 +83,8 @@ class _Simulation:
         self.functions, source = loop.functions, loop.source
         self.x, self.S = run.x0.copy(), np.zeros((len(run.x0), run.nq))
         self.S[run.qx, run.nqp + np.arange(run.nqx)] = 1
-        self.errors, self.still, zero = (
-            StepErrors(len(run.x0)),
-            np.zeros(len(run.x0)),
-            np.zeros(max(loop.sizes["x"], 1)),
-        )
+        self.errors, self.still = StepErrors(len(run.x0)), np.zeros(len(run.x0))
+        zero = np.zeros(max(loop.sizes["x"], 1))
         call = (zero, self.x, zero, zero, zero, run.p, run.c, 0.0)
         late = len(source.late)
         lag, dlag = self.functions["lags"](*call)[0], np.zeros((late, run.nq))

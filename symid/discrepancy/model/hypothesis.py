@@ -12,7 +12,7 @@ import numpy as np
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit, Fitter, rms_of
 from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.sensors.independence import independent_share
 from symid.estimation.signals.data import Data
@@ -184,7 +184,7 @@ def is_met(fit: Fit, data: Data, times: float = POLICY.far) -> bool:
 
 def is_near(errors: Sequence[np.ndarray], data: Data, times: float = POLICY.far) -> bool:
     """Likewise of errors (N, m) of each segment."""
-    return bool(np.all(np.sqrt(np.mean(np.vstack(errors) ** 2, axis=0)) < times * data.sensor_noise))
+    return bool(np.all(rms_of(errors) < times * data.sensor_noise))
 
 
 # ---- fits ------------------------------------------------------------------------------------

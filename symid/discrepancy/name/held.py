@@ -16,7 +16,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, i
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.jump import with_jumps_again
 from symid.errors import SymidError
-from symid.estimation.between_samples import groups, with_likeliest_curves
+from symid.estimation.between_samples import input_groups, with_likeliest_curves
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.signals.data import Data
 from symid.mechanics import LIBRARY
@@ -59,7 +59,7 @@ class Holds:
         Longer delays stay as they are: held or not, they differ by half a sample. Longer lags may be of held inputs.
         """
         step = self.data.segments[0].step / self.data.segments[0].ratio
-        for names in groups(found.base.model, self.unstated):
+        for names in input_groups(found.base.model, self.unstated):
             if any(found.base.model.inputs[k].hold == "zero" for k in names):
                 continue
             laws = _delays(found.base.model, names)
@@ -111,7 +111,7 @@ def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
     Noise with a memory that was taken for white makes half a sample more or less look likely, and so does a lag that
     the model as given leaves out.
     """
-    for names in groups(fit.model, unstated):
+    for names in input_groups(fit.model, unstated):
         if any(fit.model.inputs[k].hold != "zero" for k in names):
             continue
         try:

@@ -30,6 +30,11 @@ FARTHEST = 10.0
 """The noise of a sensor is within this factor of what the highest frequencies show."""
 
 
+def rms_of(errors: Sequence[np.ndarray]) -> np.ndarray:
+    """(m,) root mean square of the errors (N, m) of all segments."""
+    return np.sqrt(np.mean(np.vstack(errors) ** 2, axis=0))
+
+
 @dataclass(frozen=True, eq=False)
 class Fit:
     """A model with all of its unknowns fitted.
@@ -79,7 +84,7 @@ class Fit:
     @property
     def rms_errors(self) -> np.ndarray:
         """(m,) root mean square of each output's innovations."""
-        return np.sqrt(np.mean(np.vstack(self.innovations) ** 2, axis=0))
+        return rms_of(self.innovations)
 
     @property
     def remaining(self) -> tuple[np.ndarray, ...]:
