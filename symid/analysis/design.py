@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -14,9 +14,20 @@ from symid import checked
 from symid.checked import nearest
 from symid.errors import ModelError
 from symid.model import Model
-from symid.model.information import RATE, information_name, with_information
+from symid.model.information import RATE, information_name, limited, unknowns, with_information
 from symid.optimization import Optimization, Plan
+from symid.progress import say
 from symid.units import with_error
+
+LEAST = 1e-12
+"""Information below this share of what one unit of relative change would tell, if every sample saw it, is none."""
+GROWTH, LEAST_GROWTH = 4.0, 1.1
+"""A round may divide standard errors by this; by its root after a round that did not end, until it is the second."""
+ROUND, ROUNDS = 100, 20
+"""Iterations of one round, of which those that end take 10 to 90, and rounds, of which 4 to 8 are needed (a driven
+pendulum; D, A and E)."""
+AT_LIMIT = 0.999
+"""Share of a limit from which on it holds the search back."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,21 +38,24 @@ class Design:
     ----------
     plan : the motion, with what was chosen. values : the parameters that it was made for [SI].
     criterion : "D", "A" or "E".
+    sizes : parameter -> value / standard error of the motion from which the search began, which scales the plan's
+        information.
+    is_optimum : False where the search ended before nothing near told more, as it does where the information grows
+        without end: beside a motion that decides which way it falls.
     """
 
     plan: Plan
     values: Mapping[str, float]
     criterion: str
+    sizes: Mapping[str, float]
+    is_optimum: bool
 
     @cached_property
     def covariance(self) -> pd.DataFrame:
         """Least covariance of the parameters [SI] (Cramer & Rao): the inverse of the information at the end."""
-        names, p = list(self.values), np.array(list(self.values.values()))
-        matrix = np.zeros((len(names),) * 2)
-        for a, one in enumerate(names):
-            for b, other in enumerate(names[: a + 1]):
-                matrix[a, b] = matrix[b, a] = self.plan[information_name(one, other)][-1]
-        return pd.DataFrame(np.linalg.pinv(matrix, hermitian=True) * np.outer(p, p), index=names, columns=names)
+        names, scale = list(self.values), [self.values[n] / self.sizes[n] for n in self.values]
+        inverse = np.linalg.pinv(_information(self.plan, names), hermitian=True)
+        return pd.DataFrame(inverse * np.outer(scale, scale), index=names, columns=names)
 
     @property
     def std_errors(self) -> pd.Series:
@@ -56,7 +70,9 @@ class Design:
 
     def __repr__(self) -> str:
         errors = ", ".join(f"{k} {with_error(self.values[k], e, 5)}" for k, e in self.std_errors.items())
-        return f"Design ({self.criterion}-optimal): {errors}\n{self.plan}"
+        kind = f"{self.criterion}-optimal" if self.is_optimum else f"criterion {self.criterion}, not an optimum"
+        about_plan = repr(self.plan).splitlines()[:2]  # without the unknowns of the criterion, which no user knows
+        return "\n".join([f"Design ({kind}): {errors}", *about_plan])
 
 
 def design(
@@ -105,10 +121,67 @@ def design(
     >>> print(f"{best.plan['volt'].min():.2f} {best.std_errors['gain']:.4f}")
     1.00 0.0548
     """
+    _refuse(model, values, noise, criterion)
+    duration = checked.number(duration, "design: duration", ModelError, least=0)
+    rate = checked.number(rate, "design: rate", ModelError, least=0)
+    samples = samples if samples is None else checked.number(samples, "design: samples", ModelError, least=0)
+    values, names = dict(values), list(values)
+
+    def problem(sizes: Mapping[str, float], *criterion_and_limits: Any) -> Optimization:
+        carried = with_information(model, values, noise, sizes, rate, samples, *criterion_and_limits)
+        return Optimization(carried, duration=duration, nodes=nodes)
+
+    most = duration * rate if samples is None else samples
+    sizes = dict.fromkeys(names, np.sqrt(most) / min(abs(s) for s in noise.values()))
+    first = problem(sizes).feasible(start, **solver)
+    return _improved(Design(first, values, criterion, sizes, False), problem, solver)
+
+
+def _improved(design: Design, problem: Callable[..., Optimization], solver: dict[str, Any]) -> Design:
+    """Round by round: what may grow without limit grows first where no motion is, and does not come back."""
+    growth, solver = GROWTH, {"max_iterations": ROUND} | solver
+    for _ in range(ROUNDS):
+        if design.is_optimum or growth < LEAST_GROWTH:
+            break
+        sizes, start = _start(design)
+        limits = {n: growth * start[n] for n in limited(list(sizes), design.criterion)}
+        plan = problem(sizes, design.criterion, limits).solve(start, **solver)
+        if plan.solved:
+            free = all(plan.values[n] < AT_LIMIT * most for n, most in limits.items())
+            design = Design(plan, design.values, design.criterion, sizes, free)
+            say(f"Design: {', '.join(f'{k} within {e:.3g}' for k, e in design.std_errors.items())}")
+        else:
+            growth = np.sqrt(growth)
+    return design
+
+
+def _start(design: Design) -> tuple[dict[str, float], dict[str, Any]]:
+    """The sizes of what the design tells, and a start from it with its information scaled by them."""
+    plan, names = design.plan, list(design.values)
+    matrix = _information(plan, names)
+    told = np.sqrt(np.maximum(np.diag(matrix), LEAST))
+    sizes = {n: design.sizes[n] * t for n, t in zip(names, told, strict=True)}
+    start = plan.as_start()
+    for a, one in enumerate(names):
+        for b, other in enumerate(names[: a + 1]):
+            own = information_name(one, other)
+            start[own] = plan[own] / (told[a] * told[b])
+    return sizes, start | unknowns(matrix / np.outer(told, told), sizes, design.criterion)
+
+
+def _information(plan: Plan, names: list[str]) -> np.ndarray:
+    """(names, names) at the end, scaled as the plan's model has it."""
+    matrix = np.zeros((len(names),) * 2)
+    for a, one in enumerate(names):
+        for b, other in enumerate(names[: a + 1]):
+            matrix[a, b] = matrix[b, a] = plan[information_name(one, other)][-1]
+    return matrix
+
+
+def _refuse(model: Model, values: Mapping[str, float], noise: Mapping[str, float], criterion: str) -> None:
+    """Raise where no experiment can be designed."""
     checked.kind(model, Model, "design", ModelError)
     checked.choice(criterion, ("D", "A", "E"), "design: criterion", ModelError)
-    rate = checked.number(rate, "design: rate", ModelError)
-    samples = samples if samples is None else checked.number(samples, "design: samples", ModelError)
     for what, given, parts in (("values", values, model.parameters), ("noise", noise, model.outputs)):
         checked.kind(given, Mapping, f"design: {what}", ModelError)
         for name in given.keys() - parts.keys():
@@ -131,6 +204,3 @@ def design(
             raise ModelError(
                 f"design: '{name}' holds {', '.join(map(str, own))}: initial states must not depend on them"
             )
-    carried = with_information(model, dict(values), noise, criterion, rate, samples)
-    plan = Optimization(carried, duration=duration, nodes=nodes).solve(start, **solver)
-    return Design(plan, dict(values), criterion)

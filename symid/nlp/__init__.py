@@ -6,7 +6,7 @@ Knows no time, no mechanics and no solver; NumPy and SciPy alone.
 from symid.nlp.derivatives import DerivativeReport, check_derivatives
 from symid.nlp.filling import Filling
 from symid.nlp.hurwitz import with_hurwitz
-from symid.nlp.objective import with_unit_objective
+from symid.nlp.objective import with_unit_objective, without_objective
 from symid.nlp.optimality import OptimalityReport, check_optimality
 from symid.nlp.places import Places
 from symid.nlp.program import NonlinearProgram
@@ -26,4 +26,5 @@ __all__ = [
     "with_ridge",
     "with_tilt",
     "with_unit_objective",
+    "without_objective",
 ]

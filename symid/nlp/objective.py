@@ -1,9 +1,11 @@
-"""A nonlinear program whose objective is divided by its typical size."""
+"""A nonlinear program whose objective is divided by its typical size, or taken away."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+
+import numpy as np
 
 from symid.nlp.filling import Filling
 from symid.nlp.program import NonlinearProgram
@@ -35,3 +37,14 @@ def _scaled(hessian: Callable | None, size: float) -> Callable | None:
             hessian.size, lambda out, z, multipliers, factor: hessian.fill(out, z, multipliers, factor / size)
         )
     return lambda z, multipliers, factor: hessian(z, multipliers, factor / size)
+
+
+def without_objective(nlp: NonlinearProgram) -> NonlinearProgram:
+    """`nlp` with zero as objective: what is left are its constraints and bounds."""
+    return replace(
+        nlp,
+        objective=lambda z: 0.0,
+        gradient=np.zeros_like,
+        hessian=None if nlp.hessian is None else lambda z, multipliers, factor: nlp.hessian(z, multipliers, 0.0),
+        objective_scale=1.0,
+    )

@@ -10,6 +10,7 @@ import numpy as np
 from symid import checked
 from symid.checked import nearest
 from symid.errors import SolveError
+from symid.nlp import NonlinearProgram, with_ridge, without_objective
 from symid.optimization.plan import Plan
 from symid.transcription.demands import end_bounds
 
@@ -91,3 +92,11 @@ def shaken(problem: Optimization, z: np.ndarray, seed: int, number: int) -> np.n
         middle = np.where(bounded, 0.5 * (lower + upper), np.clip(0.0, lower, upper))
         spread = np.where(bounded, 0.25 * (upper - lower), t.layout.node_scale)
     return t.start(t.layout.parameters(z), [middle + spread * rng.standard_normal((len(problem.shares), len(middle)))])
+
+
+def nearest_motion(problem: Optimization, z: np.ndarray) -> NonlinearProgram:
+    """The program whose optimum meets all constraints with the sum of (control - control in `z`)^2 least, scaled."""
+    layout, chosen = problem.transcription.layout, np.zeros(len(z))
+    layout.node_view(chosen, 0)[:, np.isin(layout.node_names, list(problem.model.controls))] = 1.0
+    controls = np.flatnonzero(chosen)
+    return with_ridge(without_objective(problem.transcription.nonlinear_program(z)), controls, 1.0, z[controls])

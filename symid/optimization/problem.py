@@ -17,7 +17,7 @@ from symid.errors import SolveError, TranscriptionError
 from symid.ipopt_solver import Iteration, refuse_unknown_options, solve_nlp
 from symid.model import Model, Parameter
 from symid.optimization.duration import Free, with_duration
-from symid.optimization.guess import shaken, start_vector
+from symid.optimization.guess import nearest_motion, shaken, start_vector
 from symid.optimization.plan import Plan
 from symid.transcription import Episodes, HermiteSimpson, Measured, Scheme, Transcription, transcribe
 
@@ -188,6 +188,22 @@ class Optimization:
             nlp = self.transcription.nonlinear_program(z)
             plans.append(Plan(self, solve_nlp(nlp, on_iteration=on_iteration, **solver)))
         return min(plans, key=lambda plan: (not plan.solved, plan.objective))
+
+    def feasible(self, start: Mapping[str, Any] | Plan | None = None, **solver: Any) -> Plan:
+        """The motion that meets the equations and conditions with controls as near to those of `start` as can be.
+
+        The model's objective does not count. It is a good start for `solve` where that does not find its way.
+
+        Parameters
+        ----------
+        start, solver : as for `solve`.
+
+        Raises
+        ------
+        SymidError : as `solve` does.
+        """
+        refuse_unknown_options(solver)
+        return Plan(self, solve_nlp(nearest_motion(self, self.start(start)), **solver))
 
     def __repr__(self) -> str:
         return (

@@ -88,3 +88,68 @@ def test_what_cannot_be_designed_is_refused():
     m.late = si.Equation(m.a - m.delayed(m.b, sm.Float(0.1)))
     with pytest.raises(ModelError, match="delayed signals"):
         si.design(m, {"k1": 1.0, "k2": 1.0}, duration=1, noise={"seen": 0.1}, rate=1)
+
+
+def swung() -> si.Model:
+    """A rod on a motor shaft: the nearer it comes to standing upright, the more every parameter matters."""
+    m = si.Model("driven pendulum")
+    m.angle, m.rate = si.State(unit="rad"), si.State(unit="rad/s")
+    m.drive, m.weight = si.Control(unit="N*m", bounds=(-0.2, 0.2)), si.Constant(0.49, unit="N*m")
+    m.inertia = si.Parameter(unit="kg*m^2", bounds=(0.001, 0.1))
+    m.damping = si.Parameter(unit="N*m*s/rad", bounds=(0, 0.1))
+    m.kinematics = si.Equation(m.angle.dot - m.rate)
+    m.balance = si.Equation(m.inertia * m.rate.dot + m.damping * m.rate + m.weight * sm.sin(m.angle) - m.drive)
+    m.begin = si.Boundary(initial={m.angle: 0, m.rate: 0})
+    m.seen = si.Output(m.angle)
+    return m
+
+
+SWUNG = {"duration": 4, "noise": {"seen": 0.002}, "rate": 100, "nodes": 81, "start": {"drive": 0.1}}
+VALUES = {"inertia": 0.0125, "damping": 0.006}
+
+
+@pytest.mark.parametrize("criterion", ["D", "A", "E"])
+def test_an_experiment_within_a_path_constraint_is_found(criterion):
+    m = swung()
+    m.cage = si.Constraint(abs(m.angle) <= 2)
+    best = si.design(m, VALUES, criterion=criterion, **SWUNG)
+    assert best.is_optimum and best.plan.solved and abs(best.plan["angle"]).max() <= 2 + 1e-6
+    times = best.plan.trajectories.index.to_numpy()
+    drive = np.interp(np.arange(0, 4.001, 0.01), times, best.plan["drive"])
+    assert simulated_errors(m, drive) == pytest.approx(best.std_errors.to_numpy(), rel=0.05)
+
+
+def simulated_errors(m: si.Model, drive: np.ndarray) -> np.ndarray:
+    """Standard errors by central differences of simulations, every sample seen."""
+    from scipy.integrate import solve_ivp
+
+    time = np.arange(0, 4.001, 0.01)
+
+    def angle(inertia, damping):
+        def rates(t, x):
+            return [x[1], (np.interp(t, time, drive) - damping * x[1] - 0.49 * np.sin(x[0])) / inertia]
+
+        return solve_ivp(rates, (0, 4), [0, 0], t_eval=time, rtol=1e-9, atol=1e-11, max_step=0.05).y[0]
+
+    p, h = np.array([VALUES["inertia"], VALUES["damping"]]), 1e-4
+    slopes = [(angle(*(p * (1 + h * e))) - angle(*(p * (1 - h * e)))) / (2 * h * 0.002) for e in np.eye(2)]
+    return p * np.sqrt(np.diag(np.linalg.inv(np.array(slopes) @ np.transpose(slopes))))
+
+
+def test_an_information_without_limit_is_no_optimum():
+    best = si.design(swung(), VALUES, **SWUNG)
+    assert not best.is_optimum and best.plan.solved and "not an optimum" in repr(best)
+    assert best.std_errors["inertia"] < 1e-6
+
+
+def test_a_feasible_motion_keeps_the_controls_of_its_start():
+    """Where only the initial state is given any controls are feasible; with an end the nearest ones are the least."""
+    m = swung().fixed(**VALUES)
+    kept = si.Optimization(m, duration=2, nodes=41).feasible({"drive": lambda t: 0.1 * np.sin(t)})
+    assert kept.solved and kept["drive"] == pytest.approx(0.1 * np.sin(np.linspace(0, 2, 41)), abs=1e-6)
+    m.end = si.Boundary(terminal={m.angle: 0.5})
+    near = si.Optimization(m, duration=2, nodes=41).feasible()
+    m.effort = si.Objective(running=m.drive**2)
+    least = si.Optimization(m, duration=2, nodes=41).solve()
+    assert near.solved and near["angle"][-1] == pytest.approx(0.5)
+    assert near["drive"][1:-1] == pytest.approx(least["drive"][1:-1], abs=0.02)
