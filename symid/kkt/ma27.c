@@ -58,6 +58,17 @@ static Slot *slot_for(int n, int64_t nz, uint64_t pattern, int *known) {
     return oldest;
 }
 
+static int all_finite(const double *a, int64_t count) {
+    const int64_t exponent = (int64_t)0x7ff << 52;
+    int64_t strange = 0;
+    for (int64_t i = 0; i < count; i++) {
+        int64_t bits;
+        memcpy(&bits, a + i, 8);
+        strange |= (bits & exponent) == exponent;
+    }
+    return !strange;
+}
+
 void ma27id_(int *icntl, double *cntl) {
     memset(icntl, 0, 30 * sizeof(int));
     memset(cntl, 0, 5 * sizeof(double));
@@ -104,7 +115,7 @@ void ma27bd_(const int *n, const int *nz, const int *irn, const int *jcn, double
     *maxfrt = 1;
     s->last = ++clock_of_slots;
     iw[0] = ikeep[0], iw[1] = ++s->generation;
-    if (!isfinite(largest(a, 0, *nz))) info[0] = -5;
+    if (!all_finite(a, *nz)) info[0] = -5;
     else {
         f->threshold = fmax(cntl[0], least_threshold);
         if (!factorise(f, *nz, irn, jcn, a)) info[0] = -7;

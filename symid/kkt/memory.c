@@ -11,7 +11,7 @@
 
 #define SHARE 16 /* part of what is expected that is added where it does not suffice */
 #define WORTH_FORGETTING (1 << 26) /* bytes; less is not worth the time in which pages are taken and cleared anew */
-#define LANES 8 /* doubles in a vector; columns of fronts are padded to it */
+#define LANES 8 /* doubles in the widest vector; columns of fronts are padded to it */
 
 typedef struct Chunk {
     struct Chunk *next;

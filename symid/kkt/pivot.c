@@ -8,8 +8,6 @@
    What a solve needs of a panel is kept packed, once its pivots are taken: of every pivot's column
    the fully summed rows below it, then the chain's and the border's, without the zeros. */
 
-typedef double Vector __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
-
 #define GOOD 1e-3        /* a pivot whose multipliers are below the inverse of this is taken at once */
 #define NOTHING 2e-15     /* a column brought down to this part of itself is rounding: zero */
 
@@ -30,28 +28,6 @@ typedef struct {
     int a, b; /* b of a pair only */
     double quality;
 } Pivot;
-
-static inline double largest(const double *x, int from, int to) {
-    int64_t most = 0;
-    for (int i = from; i < to; i++) {
-        int64_t bits;
-        memcpy(&bits, x + i, 8);
-        bits &= INT64_MAX; /* absolute values order like their bits */
-        most = bits > most ? bits : most;
-    }
-    double out;
-    memcpy(&out, &most, 8);
-    return out;
-}
-
-/* The largest entry of column j beside those of rows a and b. */
-static inline double largest_beside(double *x, int a, int b, int from, int to) {
-    double xa = x[a], xb = x[b];
-    x[a] = x[b] = 0;
-    double out = largest(x, from, to);
-    x[a] = xa, x[b] = xb;
-    return out;
-}
 
 static Pivot better(Pivot x, Pivot y) { return y.quality > x.quality ? y : x; }
 
@@ -88,9 +64,9 @@ static Pivot choose(const Part *p, int k, double threshold) {
 static void exchange(Part *p, int a, int b) {
     if (a == b) return;
     double *x = p->panel + (size_t)a * p->stride, *y = p->panel + (size_t)b * p->stride;
-    for (int i = 0; i < p->stride; i++) {
-        double t = x[i];
-        x[i] = y[i], y[i] = t;
+    for (int i = 0; i < p->stride; i += WIDTH) {
+        Vector t = load(x + i);
+        *at(x + i) = load(y + i), *at(y + i) = t;
     }
     for (int j = 0; j < p->size; j++) {
         double *c = p->panel + (size_t)j * p->stride, t = c[a];
@@ -103,13 +79,12 @@ static void exchange(Part *p, int a, int b) {
 }
 
 static inline void subtract(double *restrict x, const double *restrict l, double c, int from, int to) {
-    for (int i = from; i < to; i += LANES) *(Vector *)(x + i) -= *(const Vector *)(l + i) * c;
+    for (int i = from; i < to; i += WIDTH) *at(x + i) -= load(l + i) * c;
 }
 
 static inline void subtract_pair(double *restrict x, const double *restrict l, const double *restrict m, double c,
                                  double d, int from, int to) {
-    for (int i = from; i < to; i += LANES)
-        *(Vector *)(x + i) -= *(const Vector *)(l + i) * c + *(const Vector *)(m + i) * d;
+    for (int i = from; i < to; i += WIDTH) *at(x + i) -= load(l + i) * c + load(m + i) * d;
 }
 
 /* What a pivot leaves behind: `columns`, its columns before division, keep the rows from `base` on. */
@@ -118,7 +93,7 @@ static void eliminate_single(Part *p, int k, double *column, double *columns, in
     int from = k & ~(LANES - 1);
     memcpy(column + from, x + from, sizeof(double) * (p->stride - from));
     memcpy(columns + (size_t)k * columns_stride, x + p->base, sizeof(double) * (p->stride - p->base));
-    for (int i = from; i < p->stride; i++) x[i] *= inverse;
+    for (int i = from; i < p->stride; i += WIDTH) *at(x + i) *= inverse;
     for (int i = 0; i <= k; i++) x[i] = 0;
     for (int j = k + 1; j < p->size; j++) {
         double *y = p->panel + (size_t)j * p->stride;
@@ -137,9 +112,9 @@ static void eliminate_pair(Part *p, int k, double *column, double *columns, int 
     memcpy(other + from, y + from, sizeof(double) * (s - from));
     memcpy(columns + (size_t)k * columns_stride, x + p->base, sizeof(double) * (s - p->base));
     memcpy(columns + (size_t)(k + 1) * columns_stride, y + p->base, sizeof(double) * (s - p->base));
-    for (int i = from; i < s; i++) {
-        double v = x[i], w = y[i];
-        x[i] = v * ia + w * ib, y[i] = v * ib + w * ic;
+    for (int i = from; i < s; i += WIDTH) {
+        Vector v = load(x + i), w = load(y + i);
+        *at(x + i) = v * ia + w * ib, *at(y + i) = v * ib + w * ic;
     }
     for (int i = 0; i <= k + 1; i++) x[i] = y[i] = 0;
     for (int j = k + 2; j < p->size; j++) {

@@ -7,17 +7,6 @@ static inline double *home(double *x, double *outside, int inner, int p) {
 
 static inline int position_of(int row) { return row < 0 ? ~row : row; }
 
-typedef int64_t Bits __attribute__((vector_size(8 * LANES), aligned(8), may_alias));
-
-static const int64_t KEPT[3 * LANES] = {[LANES] = -1, -1, -1, -1, -1, -1, -1, -1};
-
-/* The vector at x, zero but for its lanes from `low` (at most LANES) up to, without, `high` (above zero). */
-static inline Vector lanes(const double *x, int low, int high) {
-    Bits above = *(const Bits *)(KEPT + LANES - (low > 0 ? low : 0));
-    Bits below = *(const Bits *)(KEPT + 2 * LANES - (high < LANES ? high : LANES));
-    return (Vector)(*(const Bits *)x & above & below);
-}
-
 /* A front's unknowns are y: the fully summed, the chain's, the border's. Column k of the factor is packed: its rows from
    k + 1 on. It is loaded where the vectors of y are, so that these are stored and loaded as the same ones. */
 
@@ -32,11 +21,12 @@ static void forward_front(const Factor *s, int f, double *x, double *outside, do
     for (int k = 0; k < p->pivots; k++) y[k] = *home(x, outside, t->inner, position_of(p->rows[k]));
     for (int k = 0; k < p->pivots; k++) {
         double a = y[k];
-        for (int i = (k + 1) & ~(LANES - 1); i < all; i += LANES)
-            *(Vector *)(y + i) -= lanes(packed + i - k - 1, k + 1 - i, all - i) * a;
+        *home(x, outside, t->inner, position_of(p->rows[k])) = a;
+        /* Vectors begin before row k + 1 and end behind the last row: nobody reads there any more. */
+        for (int i = (k + 1) & ~(WIDTH - 1); i < all; i += WIDTH)
+            *at(y + i) -= load(packed + i - k - 1) * a;
         packed += all - 1 - k;
     }
-    for (int k = 0; k < p->pivots; k++) *home(x, outside, t->inner, position_of(p->rows[k])) = y[k];
     for (int k = p->pivots; k < p->size; k++) *home(x, outside, t->inner, position_of(p->rows[k])) += y[k];
     const int *c = t->chain + v->chain_at;
     for (int k = 0; k < chain; k++) *home(x, outside, t->inner, c[k]) += y[p->size + k];
@@ -46,7 +36,19 @@ static void forward_front(const Factor *s, int f, double *x, double *outside, do
     for (int b = 0; b < border; b++) to[plan->touched[b]] += y[p->size + chain + b];
 }
 
-static inline double sum(Vector x) { return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7])); }
+/* Of column k of the factor and y; only the first and the last lanes hold what does not belong to them. */
+static inline double product_below(const double *packed, const double *y, int k, int all) {
+    Vector product[WORDS] = {{0}};
+    int i = (k + 1) & ~(LANES - 1);
+    const double *x = packed - k - 1;
+    for (int h = 0; i < all && h < WORDS; h++)
+        product[h] += masked(x + i + h * WIDTH, k + 1 - i - h * WIDTH, all - i - h * WIDTH) * load(y + i + h * WIDTH);
+    for (i += LANES; i + LANES <= all; i += LANES)
+        for (int h = 0; h < WORDS; h++) product[h] += load(x + i + h * WIDTH) * load(y + i + h * WIDTH);
+    for (int h = 0; i < all && h < WORDS; h++)
+        product[h] += masked(x + i + h * WIDTH, 0, all - i - h * WIDTH) * load(y + i + h * WIDTH);
+    return sum(product);
+}
 
 static void backward_front(const Factor *s, int f, double *x, double *y) {
     const Tree *t = &s->tree;
@@ -71,11 +73,8 @@ static void backward_front(const Factor *s, int f, double *x, double *y) {
         }
     }
     for (int k = p->pivots - 1; k >= 0; k--) {
-        Vector product = {0};
         packed -= all - 1 - k;
-        for (int i = (k + 1) & ~(LANES - 1); i < all; i += LANES)
-            product += lanes(packed + i - k - 1, k + 1 - i, all - i) * *(const Vector *)(y + i);
-        y[k] -= sum(product);
+        y[k] -= product_below(packed, y, k, all);
     }
     for (int k = 0; k < p->pivots; k++) x[position_of(p->rows[k])] = y[k];
 }
