@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import mmap
+import sys
 import threading
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import cache, wraps
+from functools import cache, lru_cache, wraps
 from inspect import isgeneratorfunction
 from pathlib import Path
 from typing import TypeVar, cast
 
-from threadpoolctl import threadpool_limits
+from threadpoolctl import ThreadpoolController
 
 Function = TypeVar("Function", bound=Callable[..., object])
 Item, Result = TypeVar("Item"), TypeVar("Result")
@@ -53,7 +54,7 @@ def one_blas_thread(function: Function) -> Function:
     @wraps(function)
     def call(*arguments, **options):
         hold_blas_memory(1)
-        with threadpool_limits(limits=1, user_api="blas"):
+        with _libraries(len(sys.modules)).limit(limits=1, user_api="blas"):
             return function(*arguments, **options)
 
     @wraps(function)
@@ -64,6 +65,12 @@ def one_blas_thread(function: Function) -> Function:
             yield item
 
     return cast("Function", steps if isgeneratorfunction(function) else call)
+
+
+@lru_cache(maxsize=1)
+def _libraries(modules: int) -> ThreadpoolController:
+    """The libraries that compute in threads, looked for again when modules were imported: a search takes 10 ms."""
+    return ThreadpoolController()
 
 
 @cache

@@ -13,7 +13,7 @@ import numpy as np
 
 from symid.codegen.build import compiled, load
 
-SOURCES = ("memory", "graph", "order", "tree", "entries", "scale", "vector", "pivot", "update", "factor", "solve", "run", "ma27")
+SOURCES = "memory graph order tree entries scale vector pivot update factor solve run ma27".split()
 # The order of sums is fixed in the sources; products may be fused, no other code has to give the same bits.
 FLAGS = ("-O3", "-ffp-contract=fast", "-pthread")
 
