@@ -43,9 +43,9 @@ static Pivot pivot_at(const Part *p, int k, int j) {
         if (i != j && fabs(x[i]) > partner) partner = fabs(x[i]), r = i;
     if (r < 0) return best;
     double *y = p->panel + (size_t)r * stride, e = y[r];
-    best = better(best, (Pivot){1, 0, r, -1, fabs(e) / largest_beside(y, r, r, from, stride)});
+    if (e != 0) best = better(best, (Pivot){1, 0, r, -1, fabs(e) / largest_beside(y, r, r, from, stride)});
     if (best.quality >= GOOD) return best;
-    double gj = largest_beside(x, j, r, from, stride), gr = largest_beside(y, j, r, from, stride);
+    double gj = g > partner ? g : largest_beside(x, j, r, from, stride), gr = largest_beside(y, j, r, from, stride);
     double det = fabs(d * e - partner * partner);
     double growth = fmax(fabs(e) * gj + partner * gr, partner * gj + fabs(d) * gr);
     return better(best, (Pivot){2, 0, j, r, growth > 0 ? det / growth : INFINITY});
