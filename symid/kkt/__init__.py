@@ -32,9 +32,10 @@ b (b^2/6 + b (c+p)/2 + (c+p)^2/2) multiplications and b (b/2 + c + p) numbers of
 nodes and episodes. The full-state feedback model (b = 8, c = 4, p = 10): 1300 and 144, in memory 175
 with pivots and delays, besides 9 for the entries' scales. Only the front at hand is padded; what is
 kept for solves is packed; where a front's entries stand in Ipopt's values is kept as steps from the front
-before, which fronts alike share. Measured on its 5001 nodes, one core: analysis
+before, which fronts alike share. Measured on its 5001 nodes, one core with AVX-512: analysis
 11 ms, factorisation 5 to 7, solution 2 for one right side; Ipopt's linear systems take a third of
-what they take with MUMPS (`symid bench`).
+what they take with MUMPS (`symid bench`). One with half of AVX2's width in hardware (EPYC 7001): 25,
+14 and 2.7 ms, and two fifths of MUMPS.
 
 Interface. The library exports the entry points that Ipopt loads for its solver "ma27"; they are
 written from Ipopt's calls (IpMa27TSolverInterface.cpp), and hold nothing of HSL.

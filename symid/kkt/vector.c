@@ -1,12 +1,14 @@
 /* Vectors as wide as this processor's registers: GCC keeps wider ones in memory, word by word. Sums go by LANES, so
    that every width gives the same bits. */
 
+#ifndef WIDTH /* a test gives it */
 #if defined(__AVX512F__)
 #define WIDTH 8
 #elif defined(__AVX__)
 #define WIDTH 4
 #else
 #define WIDTH 2
+#endif
 #endif
 #define WORDS (LANES / WIDTH)
 

@@ -108,6 +108,22 @@ def test_any_number_of_threads_gives_the_same_bits():
     assert (one == five).all()
 
 
+def test_any_width_of_vectors_gives_the_same_bits(monkeypatch):
+    """Where products are not fused, which the width does not decide."""
+    from symid.kkt import library
+
+    matrix, found = chain(np.random.default_rng(6), 12, 4, 5, 5, linked=True), []
+    cached, flags = (library.library_path, library._library), library.FLAGS
+    for width in (2, 4, 8):
+        monkeypatch.setattr(library, "FLAGS", (*flags, "-ffp-contract=off", f"-DWIDTH={width}"))
+        for function in cached:
+            function.cache_clear()
+        found.append(check(matrix))
+    for function in cached:
+        function.cache_clear()
+    assert (found[0] == found[1]).all() and (found[0] == found[2]).all()
+
+
 def test_work_grows_linearly_and_the_border_is_found():
     fills = []
     for nodes in (40, 80):
