@@ -5,8 +5,8 @@
 Prints processor time of the whole process and of the compilers it starts, least of several runs: start of Python,
 imports, build and solve. symid and opty compile code that belongs to a problem's equations; symid keeps it, so that
 its first run ever ("new") and the next ones ("known") are told apart. `lines` counts code, without blank lines,
-imports and what writes down the result. Needs casadi and opty beside symid. The objectives of swing_up differ in the fourth
-digit: symid integrates the effort by trapezoids, the others by what it is in the middle of each interval.
+imports and what writes down the result. Needs casadi and opty beside symid. The objectives of swing_up differ in the
+fourth digit: symid integrates the effort by trapezoids, the others by what it is in the middle of each interval.
 """
 
 import argparse
