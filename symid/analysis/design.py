@@ -38,8 +38,7 @@ class Design:
     ----------
     plan : the motion, with what was chosen. values : the parameters that it was made for [SI].
     criterion : "D", "A" or "E".
-    sizes : parameter -> value / standard error of the motion from which the search began, which scales the plan's
-        information.
+    sizes : parameter -> value / standard error, about, which scales the plan's information.
     is_optimum : False where the search ended before nothing near told more, as it does where the information grows
         without end: beside a motion that decides which way it falls.
     """
@@ -52,9 +51,14 @@ class Design:
 
     @cached_property
     def covariance(self) -> pd.DataFrame:
-        """Least covariance of the parameters [SI] (Cramer & Rao): the inverse of the information at the end."""
+        """Least covariance of the parameters [SI] (Cramer & Rao): the inverse of the information at the end.
+
+        Infinite where some combination of the parameters is not told at all.
+        """
         names, scale = list(self.values), [self.values[n] / self.sizes[n] for n in self.values]
-        inverse = np.linalg.pinv(_information(self.plan, names), hermitian=True)
+        matrix = _information(self.plan, names)
+        singular = np.linalg.eigvalsh(matrix)[0] <= LEAST * max(1.0, np.trace(matrix))
+        inverse = np.full_like(matrix, np.inf) if singular else np.linalg.inv(matrix)
         return pd.DataFrame(inverse * np.outer(scale, scale), index=names, columns=names)
 
     @property
@@ -69,7 +73,9 @@ class Design:
         return table[RATE] if RATE in table else pd.Series(self.plan.problem.model[RATE].value, index=table.index)
 
     def __repr__(self) -> str:
+        told = np.isfinite(self.std_errors).all()
         errors = ", ".join(f"{k} {with_error(self.values[k], e, 5)}" for k, e in self.std_errors.items())
+        errors = errors if told else "tells nothing of some combination of the parameters; try another `start`"
         kind = f"{self.criterion}-optimal" if self.is_optimum else f"criterion {self.criterion}, not an optimum"
         about_plan = repr(self.plan).splitlines()[:2]  # without the unknowns of the criterion, which no user knows
         return "\n".join([f"Design ({kind}): {errors}", *about_plan])
@@ -122,9 +128,9 @@ def design(
     1.00 0.0548
     """
     _refuse(model, values, noise, criterion)
-    duration = checked.number(duration, "design: duration", ModelError, least=0)
-    rate = checked.number(rate, "design: rate", ModelError, least=0)
-    samples = samples if samples is None else checked.number(samples, "design: samples", ModelError, least=0)
+    for what, number in (("duration", duration), ("rate", rate), ("samples", 1 if samples is None else samples)):
+        if not checked.number(number, f"design: {what}", ModelError) > 0:
+            raise ModelError(f"design: {what}={number}: give a number above zero")
     values, names = dict(values), list(values)
 
     def problem(sizes: Mapping[str, float], *criterion_and_limits: Any) -> Optimization:

@@ -189,21 +189,27 @@ class Optimization:
             plans.append(Plan(self, solve_nlp(nlp, on_iteration=on_iteration, **solver)))
         return min(plans, key=lambda plan: (not plan.solved, plan.objective))
 
-    def feasible(self, start: Mapping[str, Any] | Plan | None = None, **solver: Any) -> Plan:
+    def feasible(
+        self,
+        start: Mapping[str, Any] | Plan | None = None,
+        *,
+        on_iteration: Callable[[Iteration], bool | None] | None = None,
+        **solver: Any,
+    ) -> Plan:
         """The motion that meets the equations and conditions with controls as near to those of `start` as can be.
 
         The model's objective does not count. It is a good start for `solve` where that does not find its way.
 
         Parameters
         ----------
-        start, solver : as for `solve`.
+        start, on_iteration, solver : as for `solve`.
 
         Raises
         ------
         SymidError : as `solve` does.
         """
         refuse_unknown_options(solver)
-        return Plan(self, solve_nlp(nearest_motion(self, self.start(start)), **solver))
+        return Plan(self, solve_nlp(nearest_motion(self, self.start(start)), on_iteration=on_iteration, **solver))
 
     def __repr__(self) -> str:
         return (

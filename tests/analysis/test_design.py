@@ -85,6 +85,8 @@ def test_what_cannot_be_designed_is_refused():
         si.design(m, {"k1": 1.0, "k2": 1.0}, duration=1, noise={"seen": 0.1}, rate=1, criterion="G")
     with pytest.raises(ModelError, match="has no 'sen'; did you mean 'seen'"):
         si.design(m, {"k1": 1.0, "k2": 1.0}, duration=1, noise={"sen": 0.1}, rate=1)
+    with pytest.raises(ModelError, match="duration=0: give a number above zero"):
+        si.design(m, {"k1": 1.0, "k2": 1.0}, duration=0, noise={"seen": 0.1}, rate=1)
     m.late = si.Equation(m.a - m.delayed(m.b, sm.Float(0.1)))
     with pytest.raises(ModelError, match="delayed signals"):
         si.design(m, {"k1": 1.0, "k2": 1.0}, duration=1, noise={"seen": 0.1}, rate=1)
@@ -140,6 +142,12 @@ def test_an_information_without_limit_is_no_optimum():
     best = si.design(swung(), VALUES, **SWUNG)
     assert not best.is_optimum and best.plan.solved and "not an optimum" in repr(best)
     assert best.std_errors["inertia"] < 1e-6
+
+
+def test_what_is_not_told_at_all_has_no_finite_error():
+    """Without a drive nothing moves, and no small drive tells anything in the first order."""
+    best = si.design(swung(), VALUES, **(SWUNG | {"start": None}))
+    assert np.isinf(best.std_errors).all() and "tells nothing" in repr(best)
 
 
 def test_a_feasible_motion_keeps_the_controls_of_its_start():
