@@ -166,11 +166,11 @@ def test_a_channel_of_little_noise_is_followed_beside_one_of_much_whatever_its_m
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("number", "bound"), [(0, 1.0), (4, RAN_AWAY), (5, RAN_AWAY)])
-def test_a_random_start_whose_multipliers_run_away_goes_on_from_softened_equations(number, bound, monkeypatch):
+@pytest.mark.parametrize(("number", "bound", "often"), [(0, -1.0, 5), (4, RAN_AWAY, OFTEN), (5, RAN_AWAY, OFTEN)])
+def test_a_random_start_whose_multipliers_run_away_goes_on_from_softened_equations(number, bound, often, monkeypatch):
     """Full-state feedback, three noisy episodes: all end in the one optimum, whether they run away or not.
 
-    How far they run is another thing on each machine; beyond 1 they are everywhere.
+    How far they run hangs on rounding, and is another thing on each machine: one start is taken for running away.
     """
     seen, softened = [], []
 
@@ -180,6 +180,7 @@ def test_a_random_start_whose_multipliers_run_away_goes_on_from_softened_equatio
         return relaxed(*arguments)
 
     monkeypatch.setattr("symid.identification.starts.softened.RAN_AWAY", bound)
+    monkeypatch.setattr("symid.identification.starts.softened.OFTEN", often)
     monkeypatch.setattr("symid.identification.starts.softened.relaxed", noted)
     body = si.mechanics.DoubleLinkPendulum.from_json(DATA / "body.json")
     problem = si.Identification(
@@ -191,7 +192,7 @@ def test_a_random_start_whose_multipliers_run_away_goes_on_from_softened_equatio
     row = solve_here(Solve(problem, "random", number), lambda i: seen.append(i.dual_infeasibility)).row
     assert row.solved and row.objective == pytest.approx(0.00252541, rel=1e-5)
     beyond = sum(x > bound for x in seen[: softened[0] if softened else None])
-    assert bool(softened) == (beyond >= OFTEN) and (softened or bound > 1)
+    assert bool(softened) == (beyond >= often) and (softened or bound > 0)
 
 
 def test_a_random_start_that_does_not_end_begins_anew_from_softened_equations(monkeypatch):
