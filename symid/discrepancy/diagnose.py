@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from symid.discrepancy.explained import explained
+from symid.discrepancy.judged import judged
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.prove.evidence import tested
 from symid.discrepancy.say.diagnosis import Diagnosis, finding
-from symid.discrepancy.say.judge import judge
-from symid.discrepancy.say.story import Story
+from symid.discrepancy.say.story import Story, input_noise
 from symid.discrepancy.say.words import words
 from symid.discrepancy.task import Part, check_options, listed_suspects, task_of
 from symid.estimation.sensors.zero_phase import ZeroPhase
@@ -86,18 +84,15 @@ def diagnose(
     )
 
     with threads_of(threads):
-        # Locate and name: what the model as given leaves of the recording, and the laws that explain it.
-        by = explained(task, sensor_noise, filter, named, progress)
-        search, ranking = by.search, by.ranking
+        # Locate, name and prove.
+        found = judged(task, sensor_noise, filter, named, progress)
 
-        # Prove: what stands every test.
-        evidence = tested(search.settled(by.found), search, ranking, by.task, by.plain)
-        progress("tested for a remainder")
-
-    # Say: the verdict, and what a reader should know.
-    verdict, effects, equivalent = judge(evidence, search, by.audit)
-    piece_seconds = by.task.segment_length if by.task.segment_length != segment_length else None
+    # Say: what a reader should know.
+    by, search, evidence = found.by, found.by.search, found.evidence
+    pieces = by.task.segment_length if by.task.segment_length != segment_length else None
+    noise = input_noise(evidence.found.fit, search.data) if by.task.noisy_inputs else {}
+    verdict, effects, equivalent, ranking = found.verdict, found.effects, found.equivalent, by.ranking
     text = words(
-        Story(verdict, effects, equivalent, ranking, evidence, by.audit, search.base, search.data, piece_seconds)
+        Story(verdict, effects, equivalent, ranking, evidence, by.audit, search.base, search.data, pieces, noise)
     )
     return finding(verdict, effects, equivalent, ranking, search.base, evidence, by.audit, text)

@@ -34,7 +34,7 @@ class Task:
     segment_length : seconds of one piece with an initial state of its own; None for one piece.
     settling : seconds that the fit measure leaves out. start : values [SI] from which the first fit begins.
     values : those of the solution that is diagnosed, if it is one [SI].
-    driven : whether random forces act where the model has noises.
+    driven : whether random forces act where the model has noises. noisy_inputs : whether these are of its inputs.
     """
 
     model: Model
@@ -46,11 +46,19 @@ class Task:
     start: Mapping[str, float] = field(default_factory=dict)
     values: Mapping[str, float] = field(default_factory=dict)
     driven: bool = True
+    noisy_inputs: bool = False
 
     @property
     def random(self) -> bool:
         """Whether random forces act."""
         return self.driven and bool(self.model.noises)
+
+    @property
+    def with_input_noise(self) -> Task | None:
+        """The task of the model whose recorded inputs have noise; None where it has no inputs, or random forces."""
+        if not self.driven or self.model.noises or not self.model.inputs:
+            return None
+        return replace(self, model=self.model.with_input_noise(), noisy_inputs=True)
 
     @property
     def moved(self) -> bool:

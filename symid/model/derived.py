@@ -114,6 +114,10 @@ class Derived:
         """
         return variants.controlled(self._model, names, bounds)
 
+    def with_input_noise(self) -> Model:
+        """A new model with a Noise `<input>_noise` added to each input in its equations: that of a recorded input."""
+        return variants.with_input_noise(self._model)
+
     def undisturbed(self, bound: bool) -> Model:
         """A new model whose controls are zero, and without its Boundary parts unless they are `bound` to hold.
 

@@ -76,6 +76,20 @@ def controlled(model: Model, names: Iterable[str], bounds: Mapping[str, Bounds])
     return _with(model, parts)
 
 
+def with_input_noise(model: Model) -> Model:
+    """With a Noise added to each input, as that of a sensor which recorded it, in the equations of motion."""
+    new, noisy = model.copy(), {}
+    for name, u in model.inputs.items():
+        own = f"{name}_noise"
+        setattr(new, own, Noise(unit=u.unit, meaning=f"noise of the recorded {u.channel}"))
+        noisy[u.symbol] = u.symbol + new[own].symbol
+    for name, equation in model.equations.items():
+        inline = model.inline(equation.expr)
+        hidden = (inline.free_symbols - equation.expr.free_symbols) & set(noisy)
+        new.components[name] = replace(equation, expr=(inline if hidden else equation.expr).xreplace(noisy))
+    return new
+
+
 def undisturbed(model: Model, bound: bool) -> Model:
     """With controls that are zero, and without its Boundary parts unless they are `bound` to hold."""
     zero = {k: Constant(0.0, unit=u.unit, meaning=u.meaning, name=k) for k, u in model.controls.items()}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.diagnosis import Effect
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.kalman import HOLD
 from symid.estimation.free_run import FreeRun
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.data import Data
@@ -31,11 +32,21 @@ def capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
+def input_noise(fit: Fit, data: Data) -> dict[str, str]:
+    """Channel -> standard deviation of each sample, with its unit, of the noise of `Model.with_input_noise`."""
+    changes = np.sqrt(HOLD / data.segments[0].step)
+    return {
+        u.channel: quantity(float(changes * s), unit=u.unit)
+        for u, s in zip(fit.model.inputs.values(), fit.process, strict=False)
+    }
+
+
 @dataclass(frozen=True, eq=False)
 class Story:
     """What there is to tell.
 
     pieces : seconds of those in which a motion is compared that cannot be followed from one state for longer.
+    input_noise : channel -> standard deviation with its unit, where recorded inputs are taken to have noise.
     """
 
     verdict: str
@@ -47,6 +58,7 @@ class Story:
     base: Fit
     data: Data
     pieces: float | None = None
+    input_noise: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def left(self) -> Sequence[Test]:

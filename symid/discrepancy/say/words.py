@@ -144,6 +144,12 @@ def _are(names: Sequence[str]) -> str:
 
 def _caveats(s: Story) -> list[str]:
     out = []
+    if s.input_noise:
+        noise = listed([f"{channel} ({size})" for channel, size in s.input_noise.items()])
+        out.append(
+            f"What else would be left is taken for noise in the recorded {noise}, or for random forces that do as "
+            "much: that is likelier than any law that was tried."
+        )
     curved = [u.channel for u in s.model.inputs.values() if u.hold == "cubic"]
     if curved:
         out.append(

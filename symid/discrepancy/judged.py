@@ -1,0 +1,67 @@
+"""Locate, name and prove under one reading of a recording: what explains it, and the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from symid.discrepancy.explained import Explained, explained
+from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.prove.evidence import Evidence, tested
+from symid.discrepancy.say.diagnosis import Effect
+from symid.discrepancy.say.judge import judge
+from symid.discrepancy.task import Task
+from symid.estimation.sensors.zero_phase import ZeroPhase
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """What explains a recording, what stands every test, and what follows from both."""
+
+    by: Explained
+    evidence: Evidence
+    verdict: str
+    effects: tuple[Effect, ...]
+    equivalent: tuple[Hypothesis, ...]
+
+    @property
+    def loglik2(self) -> float:
+        """Twice the log-likelihood, with a flexible law in the place of what has no name."""
+        found = self.evidence.found.fit.loglik2
+        return max(found, self.by.search.flexible().fit.loglik2) if self.verdict == "unexplained" else found
+
+
+def judged(
+    task: Task,
+    sensor_noise: float | Mapping[str, float] | None,
+    filter: ZeroPhase | None,
+    named: Sequence[Suspect] | None,
+    progress: Callable[[str], None],
+) -> Judged:
+    """The verdict on the model of `task`; or, where something stays without a name, as if its inputs had noise.
+
+    White noise of an input moves a mechanism as random forces do, and no law names it. It is believed where nothing is
+    left beside it, and where it is likelier than what laws, or a flexible one, make of what it does.
+
+    Parameters
+    ----------
+    sensor_noise, filter : as for `diagnose`. named : what may be missing, None for every law of the library.
+    """
+
+    def under(task: Task) -> Judged:
+        # Locate and name: what the model as given leaves of the recording, and the laws that explain it.
+        by = explained(task, sensor_noise, filter, named, progress)
+
+        # Prove: what stands every test.
+        evidence = tested(by.search.settled(by.found), by.search, by.ranking, by.task, by.plain)
+        progress("tested for a remainder")
+        return Judged(by, evidence, *judge(evidence, by.search, by.audit))
+
+    found = under(task)
+    noisy = task.with_input_noise if found.verdict == "unexplained" else None
+    if noisy is None:
+        return found
+    progress("whether the recorded inputs have noise")
+    other = under(noisy)
+    return other if other.verdict != "unexplained" and other.loglik2 > found.loglik2 else found

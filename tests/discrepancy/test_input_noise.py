@@ -1,0 +1,91 @@
+"""Recorded inputs that have noise of their own: it moves a mechanism like random forces, and is no missing law."""
+
+import numpy as np
+import pytest
+import sympy as sm
+from scipy.signal import butter, filtfilt
+
+import symid as si
+from symid.simulation import Simulator
+
+VALUES = {"length": 0.3, "damping": 0.15}
+SUSPECTS = ("coulomb_friction", "joint_drag", "cubic_stiffness", "constant_torque", "input_gain")
+
+
+def pendulum(law=lambda m: 0) -> si.Model:
+    """On a cart whose acceleration was measured."""
+    m = si.Model("pendulum on a cart")
+    m.angle, m.rate = si.State(unit="rad"), si.State(unit="rad/s")
+    m.cart = si.Input(unit="m/s^2", channel="cart_acceleration")
+    m.length, m.damping = si.Parameter(unit="m", bounds=(0.05, 2)), si.Parameter(unit="1/s", bounds=(0, 5))
+    m.g = si.Constant(9.81, unit="m/s^2")
+    m.kinematics = si.Equation(m.angle.dot - m.rate)
+    m.balance = si.Equation(
+        m.length * (m.rate.dot + m.damping * m.rate) + m.g * sm.sin(m.angle) + m.cart * sm.cos(m.angle) + law(m)
+    )
+    m.pivot = si.Port(position=m.angle, rate=m.rate, into={"balance": -1.0}, role="joint", at="pivot")
+    m.seen = si.Output(m.angle)
+    return m
+
+
+def recorded(true: si.Model, seed: int, input_noise: float, **more: float) -> si.Recording:
+    rng, fine = np.random.default_rng((41, seed)), np.arange(0, 45, 0.001)
+    cart = filtfilt(*butter(2, 0.004), rng.standard_normal(len(fine)))
+    cart /= cart.std()
+    angle = Simulator(true).simulate(VALUES | more, {"angle": 0.3, "rate": 0}, fine, {"cart": cart}).states["angle"]
+    time, size = fine[::10], len(fine[::10])
+    return si.Recording(
+        "cart",
+        time,
+        {
+            "angle": angle[::10] + 0.001 * rng.standard_normal(size),
+            "cart_acceleration": cart[::10] + input_noise * rng.standard_normal(size),
+        },
+        {"angle": "rad", "cart_acceleration": "m/s^2"},
+    )
+
+
+def diagnosed(recording: si.Recording) -> si.Diagnosis:
+    model = pendulum()
+    few = [s for s in si.suspects(model) if s.term.name in SUSPECTS]
+    return si.diagnose(model, recording, fit_window=(0, 30), held_out=(30, 44.9), suspects=few, threads=1)
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_noise_of_an_input_is_no_missing_physics(seed):
+    found = diagnosed(recorded(pendulum(), seed, 0.1))
+    assert found.verdict == "adequate" and not found.effects
+    assert "noise in the recorded cart_acceleration (0." in str(found)
+    assert found.baseline.process[0] == pytest.approx(0.1, rel=0.15)
+
+
+def test_a_law_beside_noise_of_an_input_is_found():
+    term = si.mechanics.LIBRARY["coulomb_friction"].at("pivot")
+    found = diagnosed(recorded(pendulum().with_term(term), 2, 0.1, **{term.parameter_name("torque_Nm"): 0.12}))
+    (effect,) = found.effects
+    assert effect.name == "coulomb_friction" and effect.parameters["torque_Nm"][0] == pytest.approx(0.12, rel=0.1)
+
+
+@pytest.mark.parametrize("size", [0.1, pytest.param(1.0, marks=pytest.mark.slow)])
+def test_a_law_that_has_no_name_is_not_taken_for_noise_of_an_input(size):
+    found = diagnosed(
+        recorded(pendulum(lambda m: 0.4 * size * sm.sin(3 * m.angle) * sm.exp(-((m.rate / 2) ** 2))), 3, 0)
+    )
+    assert found.verdict == "unexplained" and "noise in the recorded" not in str(found)
+
+
+def test_the_noise_acts_as_the_input_does():
+    m = pendulum().with_input_noise()
+    time, rng = np.arange(0, 2, 0.01), np.random.default_rng(0)
+    cart, noise = np.sin(time), rng.standard_normal(len(time))
+    apart = Simulator(m).simulate(
+        VALUES, {"angle": 0.3, "rate": 0}, time, {"cart": cart}, noise={"cart_noise": 0 * noise}
+    )
+    none = Simulator(pendulum()).simulate(VALUES, {"angle": 0.3, "rate": 0}, time, {"cart": cart})
+    assert np.array_equal(apart.states["angle"], none.states["angle"])
+    held = pendulum().with_holds(cart="zero")
+    moved = Simulator(held).simulate(VALUES, {"angle": 0.3, "rate": 0}, time, {"cart": noise})
+    as_noise = Simulator(held.with_input_noise()).simulate(
+        VALUES, {"angle": 0.3, "rate": 0}, time, {"cart": 0 * time}, noise={"cart_noise": noise}
+    )
+    assert as_noise.states["angle"] == pytest.approx(moved.states["angle"], abs=1e-9)
