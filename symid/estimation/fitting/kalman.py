@@ -46,10 +46,11 @@ def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np
     F, Q = _moved(A, G, step, process)
     C = C / sensor[:, None]
     size = _sizes(F, C)
-    F, Q, C = F * size / size[:, None], Q / np.outer(size, size), C * size
+    with np.errstate(all="ignore"):  # hopeless candidates overflow, and have no gain
+        F, Q, C = F * size / size[:, None], Q / np.outer(size, size), C * size
     for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
         try:
-            with np.errstate(over="ignore", invalid="ignore"):  # hopeless candidates overflow, and have no gain
+            with np.errstate(over="ignore", invalid="ignore"):
                 P = solve_discrete_are((leak * F).T, C.T, Q + FLOOR * np.eye(len(F)), np.eye(len(C)))
             gains = _gains(F, P, C, np.linalg.inv(C @ P @ C.T + np.eye(len(C))), linear, step)
             return gains * size[: len(linear.A), None] / sensor
