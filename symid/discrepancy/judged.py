@@ -12,6 +12,7 @@ from symid.discrepancy.prove.evidence import Evidence, tested
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.task import Task
+from symid.errors import SymidError
 from symid.estimation.sensors.zero_phase import ZeroPhase
 
 
@@ -59,9 +60,14 @@ def judged(
         return Judged(by, evidence, *judge(evidence, by.search, by.audit))
 
     found = under(task)
-    noisy = task.with_input_noise if found.verdict == "unexplained" else None
-    if noisy is None:
+    if found.verdict != "unexplained":
         return found
-    progress("whether the recorded inputs have noise")
-    other = under(noisy)
+    try:
+        noisy = task.with_input_noise
+        if noisy is None:
+            return found
+        progress("whether the recorded inputs have noise")
+        other = under(noisy)
+    except SymidError:
+        return found  # what was found already is not lost by what was tried beside it
     return other if other.verdict != "unexplained" and other.loglik2 > found.loglik2 else found

@@ -1,11 +1,15 @@
 """Recorded inputs that have noise of their own: it moves a mechanism like random forces, and is no missing law."""
 
+from unittest import mock
+
 import numpy as np
 import pytest
 import sympy as sm
 from scipy.signal import butter, filtfilt
 
 import symid as si
+from symid.discrepancy.task import Task
+from symid.errors import ModelError
 from symid.simulation import Simulator
 
 VALUES = {"length": 0.3, "damping": 0.15}
@@ -72,6 +76,21 @@ def test_a_law_that_has_no_name_is_not_taken_for_noise_of_an_input(size):
         recorded(pendulum(lambda m: 0.4 * size * sm.sin(3 * m.angle) * sm.exp(-((m.rate / 2) ** 2))), 3, 0)
     )
     assert found.verdict == "unexplained" and "noise in the recorded" not in str(found)
+
+
+def test_what_was_found_is_kept_where_noise_cannot_be_tried(monkeypatch):
+    """As where a part of the model has the name of the noise already."""
+    from symid.discrepancy import judged as module
+
+    def refuse(self):
+        raise ModelError("there is a part 'cart_noise' already")
+
+    monkeypatch.setattr(module, "explained", lambda *arguments: mock.MagicMock())
+    monkeypatch.setattr(module, "tested", lambda *arguments: None)
+    monkeypatch.setattr(module, "judge", lambda *arguments: ("unexplained", (), ()))
+    monkeypatch.setattr(Task, "with_input_noise", property(refuse))
+    task = Task(pendulum(), recorded(pendulum(), 0, 0), (0.0, 30.0), None)
+    assert module.judged(task, None, None, None, lambda text: None).verdict == "unexplained"
 
 
 def test_the_noise_acts_as_the_input_does():
