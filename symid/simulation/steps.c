@@ -116,11 +116,10 @@ static int explicit_step(Work *v, double t, double h, long k, double *fast)
     return 0;
 }
 
-/* The state alone, one step of Runge-Kutta 4 after x. */
-static int state_step(Work *v, double t, double h, long k, const double *x, double *to)
+/* The state alone, one step of Runge-Kutta 4 after x, where its rates are k1. */
+static int state_step(Work *v, double t, double h, long k, const double *x, const double *k1, double *to)
 {
-    double k1[NXX], k2[NXX], k3[NXX], k4[NXX];
-    if (rates(v, t, k, x, 0, k1, 0, 0, 0)) return 1;
+    double k2[NXX], k3[NXX], k4[NXX];
     for (int i = 0; i < NX; i++) to[i] = x[i] + h/2*k1[i];
     if (rates(v, t + h/2, k, to, 0, k2, 0, 0, 0)) return 1;
     for (int i = 0; i < NX; i++) to[i] = x[i] + h/2*k2[i];
@@ -131,13 +130,15 @@ static int state_step(Work *v, double t, double h, long k, const double *x, doub
     return 0;
 }
 
-/* What a step from x to `end` errs by, also of the size of each state, and where its first half ends. */
-static double error_of(Work *v, double t, double h, long k, const double *x, const double *end, double *middle,
-                       double *error)
+/* What a step from x, where the rates are k1, to `end` errs by, also of the size of each state. 0 where it cannot be
+ * halved; halves : where its first half ends, the rates there, and where the second ends. */
+static double error_of(Work *v, double t, double h, long k, const double *x, const double *k1, const double *end,
+                       double *halves, double *error)
 {
-    double twice[NXX], worst = 0;
+    double *middle = halves, *rate = halves + NX, *twice = halves + 2*NX, worst = 0;
     memset(error, 0, NX * sizeof(double));
-    if (state_step(v, t, h/2, k, x, middle) || state_step(v, t + h/2, h/2, k, middle, twice)) return 0;
+    if (state_step(v, t, h/2, k, x, k1, middle) || rates(v, t + h/2, k, middle, 0, rate, 0, 0, 0)
+        || state_step(v, t + h/2, h/2, k, middle, rate, twice)) return 0;
     for (int i = 0; i < NX; i++) {
         error[i] = twice[i] - end[i];
         worst = fmax(worst, fabs(error[i]) / v->size[i]);
@@ -171,14 +172,14 @@ static int bends(Work *v, double t, double h, long k, int halvings, int bend)
 {
     long nq = v->nq;
     int both = FIRST_HALF + SECOND_HALF, found = 0;
-    double middle[NXX], end[NXX], error[NXX], unused[NXX];
+    double halves[3*NXX], error[NXX], unused[3*NXX], *middle = halves, *rate = halves + NX, *end = halves + 2*NX;
     v->nq = 0;
-    double whole = error_of(v, t, h, k, v->xk, v->x, middle, error);
+    double whole = error_of(v, t, h, k, v->xk, v->k1, v->x, halves, error);
     int uncut = halvings == HALVINGS, expected = uncut && as_before(v, h, error), sudden = uncut && is_sudden(v, whole);
     if (whole > UNSEEN && (bend || sudden)) found = both;
-    else if (whole > UNSEEN && !expected && !state_step(v, t + h/2, h/2, k, middle, end)) {
-        double first = error_of(v, t, h/2, k, v->xk, middle, unused, error);
-        double second = error_of(v, t + h/2, h/2, k, middle, end, unused, error);
+    else if (whole > UNSEEN && !expected) {
+        double first = error_of(v, t, h/2, k, v->xk, v->k1, middle, unused, error);
+        double second = error_of(v, t + h/2, h/2, k, middle, rate, end, unused, error);
         int smooth = LEAST * (first + second) < whole && whole < MOST * (first + second);
         found = first > UNEQUAL * second ? FIRST_HALF : second > UNEQUAL * first ? SECOND_HALF : smooth ? 0 : both;
     }

@@ -18,7 +18,7 @@ from symid.estimation.fitting.step import damped_step
 from symid.estimation.sensors.whitening import Whitening
 from symid.estimation.signals.data import Data
 from symid.model import Model
-from symid.simulation import Simulator, simulator
+from symid.simulation import Simulator, Trajectory, simulator
 
 TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
@@ -94,7 +94,10 @@ class Fit:
 
 @dataclass(eq=False)
 class _Point:
-    """One set of values on the way, with the gain that belongs to it and the path it was made for."""
+    """One set of values on the way, with the gain that belongs to it and the path it was made for.
+
+    runs : those of these values with sensitivities, where they were made already.
+    """
 
     p: np.ndarray
     x0: np.ndarray
@@ -102,6 +105,7 @@ class _Point:
     kalman_gain: np.ndarray | None
     path: np.ndarray
     value: float
+    runs: Sequence[Trajectory] | None = None
 
 
 class Fitter(Refining):
@@ -146,6 +150,7 @@ class Fitter(Refining):
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
         while self._refined(at.p, at.x0, at.kalman_gain, at.process, exact):
+            at.runs = None
             at.value = self.evaluate(at.p, at.x0, at.kalman_gain, at.process) - self._growth_penalty(at.p, at.path)
             k, converged = self._descend(at, iterations, tolerance)
         if self.driven and not self.bounded and runs_away(self, at.p, at.x0):
@@ -158,7 +163,7 @@ class Fitter(Refining):
         """Move `at` uphill; how many iterations that took, and whether it converged."""
         damping, converged, k = 1e-3, False, 0
         for k in range(1, iterations + 1):
-            system = normal_equations(self, at.p, at.x0, at.kalman_gain, at.process, at.path)
+            system = self._system(at)
             if system is None:
                 break
             new, step, damping = self._improved(at, system, damping)
@@ -168,7 +173,7 @@ class Fitter(Refining):
                 break
             change = new.value - at.value
             at.p, at.x0, at.process, at.kalman_gain = new.p, new.x0, new.process, new.kalman_gain
-            at.value, at.path = new.value, new.path
+            at.value, at.path, at.runs = new.value, new.path, new.runs
             if change < tolerance:
                 converged = True
                 break
@@ -182,7 +187,7 @@ class Fitter(Refining):
         """
         try:
             at = self._begin(start, initial, process, None)
-            system = normal_equations(self, at.p, at.x0, at.kalman_gain, at.process, at.path)
+            system = self._system(at)
         except SymidError:
             return -np.inf
         if system is None:
@@ -202,6 +207,11 @@ class Fitter(Refining):
         """A fit that goes on from where `fit` of the same model ended, perhaps with another error model."""
         return self.fit(fit.values, fit.initial, fit.process, iterations, kalman_gain=fit.kalman_gain, exact=exact)
 
+    def _system(self, at: _Point):
+        """The normal equations there, for which alone the runs are kept."""
+        runs, at.runs = at.runs, None
+        return normal_equations(self, at.p, at.x0, at.kalman_gain, at.process, at.path, runs)
+
     def _begin(self, start, initial, process, known) -> _Point:
         p = np.clip(np.array([start[k] for k in self.sim.parameters], dtype=float), *self.bounds.T)
         x0, process = np.clip(np.array(initial, dtype=float), *self.within.T), np.array(process, dtype=float)
@@ -209,36 +219,40 @@ class Fitter(Refining):
             process = np.append(process[: self.noises], self.own)
         path = self.path(p, x0, self.kalman_gain(p, process, x0) if known is None else known)
         gain = self.kalman_gain(p, process, path)
-        value = self.evaluate(p, x0, gain, process)
+        value, runs = self._followed(p, x0, gain, process, "outputs", sensitivities=True)
         if not np.isfinite(value) and known is not None:
-            gain, value = known, self.evaluate(p, x0, known, process)
+            gain, (value, runs) = known, self._followed(p, x0, known, process, "outputs", sensitivities=True)
         if not np.isfinite(value) and self._refined(p, x0, gain, process):
             path = self.path(p, x0, gain)
-            value = self.evaluate(p, x0, gain, process)
+            value, runs = self._followed(p, x0, gain, process, "outputs", sensitivities=True)
         if not np.isfinite(value):
             raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
-        return _Point(p, x0, process, gain, path, value - self._growth_penalty(p, path))
+        return _Point(p, x0, process, gain, path, value - self._growth_penalty(p, path), runs)
 
     def _improved(self, at: _Point, system, damping: float) -> tuple[_Point | None, np.ndarray, float]:
         """A better point, the last step tried, and the damping to go on with."""
-        for _ in range(PATIENCE):
+        for tried in range(PATIENCE):
             step = damped_step(system, damping, self.bounds[self.index], at.p[self.index], at.x0.shape)
-            p, x0, process = self._moved(at.p, at.x0, at.process, step)
-            gain, value, path = self._tried(p, x0, process, at.path)
-            if value > at.value - 1e-9:
-                return _Point(p, x0, process, gain, path, value), step, 0.1 * damping
+            new = self._tried(*self._moved(at.p, at.x0, at.process, step), at.path, sensitivities=tried == 0)
+            if new.value > at.value - 1e-9:
+                return new, step, 0.1 * damping
             damping = max(damping * 10, 1e-6)
         return None, step, damping
 
-    def _tried(self, p, x0, process, path):
-        """The gain, twice the log-likelihood at a trial point, -inf where it cannot be simulated, and its path."""
+    def _tried(self, p, x0, process, path, sensitivities: bool) -> _Point:
+        """A trial point, with twice the log-likelihood of -inf where it cannot be simulated.
+
+        sensitivities : whether they are simulated, too: most first steps are taken, and then go on from there.
+        """
         try:
             gain = self.kalman_gain(p, process, path)
-            value, runs = self._followed(p, x0, gain, process, keep="states" if self.driven else "outputs")
+            keep = "states" if self.driven else "outputs"
+            value, runs = self._followed(p, x0, gain, process, keep, sensitivities)
             value -= self._growth_penalty(p, path)
         except SymidError:
-            return None, -np.inf, path
-        return gain, value, np.vstack([t.x for t in runs]) if self.driven and runs else x0
+            return _Point(p, x0, process, None, path, -np.inf)
+        after = np.vstack([t.x for t in runs]) if self.driven and runs else x0
+        return _Point(p, x0, process, gain, after, value, runs if sensitivities else None)
 
     def _growth_penalty(self, p, path) -> float:
         """What growth costs of twice the log-likelihood."""
@@ -258,7 +272,7 @@ class Fitter(Refining):
         return p1, np.clip(x0 + step[-E * n :].reshape(E, n), *self.within.T), process1
 
     def _result(self, at: _Point, iterations: int, converged: bool, errors_too: bool) -> Fit:
-        system = normal_equations(self, at.p, at.x0, at.kalman_gain, at.process, at.path) if errors_too else None
+        system = self._system(at) if errors_too else None
         innovations = self.innovations(
             self.run(at.p, at.x0, at.kalman_gain, sensitivities=False, process=at.process), at.process
         )

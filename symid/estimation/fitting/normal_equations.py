@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from symid.estimation.fitting.growth import growth_normal
 from symid.estimation.fitting.kalman import kalman_gain
 from symid.estimation.fitting.predictor import Predictor
+from symid.simulation import Trajectory
 
 
 def normal_equations(
-    predictor: Predictor, p: np.ndarray, x0: np.ndarray, gain: np.ndarray | None, process: np.ndarray, path: np.ndarray
+    predictor: Predictor,
+    p: np.ndarray,
+    x0: np.ndarray,
+    gain: np.ndarray | None,
+    process: np.ndarray,
+    path: np.ndarray,
+    runs: Sequence[Trajectory] | None = None,
 ) -> tuple[np.ndarray, np.ndarray, int] | None:
     """The matrix (u, u), the right side (u,) and the number q of free parameters; None where a run diverges.
 
@@ -20,9 +29,9 @@ def normal_equations(
     ----------
     predictor : with what is `tuned`, and whether it is `bounded`.
     p : (parameters,) values. x0 : (E, n) states. gain, process : as of a `Fit`.
-    path : (N, n) states that the gain was made for.
+    path : (N, n) states that the gain was made for. runs : those of the point with sensitivities, if they are known.
     """
-    runs = predictor.run(p, x0, gain, sensitivities=True, process=process)
+    runs = runs or predictor.run(p, x0, gain, sensitivities=True, process=process)
     if runs is None:
         return None
     innovations = predictor.innovations(runs, process)

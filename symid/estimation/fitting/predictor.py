@@ -123,9 +123,9 @@ class Predictor:
     def evaluate(self, p, x0, gain, process=()) -> float:
         return self._followed(p, x0, gain, process, keep="outputs")[0]
 
-    def _followed(self, p, x0, gain, process, keep: str):
+    def _followed(self, p, x0, gain, process, keep: str, sensitivities: bool = False):
         """Twice the log-likelihood, -inf where a run diverges, and the runs."""
-        runs = self.run(p, x0, gain, sensitivities=False, process=process, keep=keep)
+        runs = self.run(p, x0, gain, sensitivities, process=process, keep=keep)
         return (-np.inf if runs is None else self.score(self.innovations(runs, process), process)[0]), runs
 
     def kalman_gain(self, p, process, path):
