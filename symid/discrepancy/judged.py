@@ -8,12 +8,26 @@ from dataclasses import dataclass
 from symid.discrepancy.explained import Explained, explained
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.prove.evidence import Evidence, tested
+from symid.discrepancy.prove.evidence import Evidence, Tested, evidence_of, tested
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.task import Task
 from symid.errors import SymidError
 from symid.estimation.sensors.zero_phase import ZeroPhase
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """What explains a recording, and what of it stands the tests in the fitted window."""
+
+    by: Explained
+    tested: Tested
+
+    @property
+    def loglik2(self) -> float:
+        """Twice the log-likelihood, with a flexible law in the place of what has no name."""
+        found = self.tested.found.fit.loglik2
+        return max(found, self.by.search.flexible().fit.loglik2) if self.tested.nameless else found
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,12 +39,6 @@ class Judged:
     verdict: str
     effects: tuple[Effect, ...]
     equivalent: tuple[Hypothesis, ...]
-
-    @property
-    def loglik2(self) -> float:
-        """Twice the log-likelihood, with a flexible law in the place of what has no name."""
-        found = self.evidence.found.fit.loglik2
-        return max(found, self.by.search.flexible().fit.loglik2) if self.verdict == "unexplained" else found
 
 
 def judged(
@@ -50,24 +58,34 @@ def judged(
     sensor_noise, filter : as for `diagnose`. named : what may be missing, None for every law of the library.
     """
 
-    def under(task: Task) -> Judged:
+    def found_in(task: Task) -> _Found:
         # Locate and name: what the model as given leaves of the recording, and the laws that explain it.
         by = explained(task, sensor_noise, filter, named, progress)
+        return _Found(by, tested(by.search.settled(by.found), by.search))
 
+    def proved(found: _Found) -> Judged:
         # Prove: what stands every test.
-        evidence = tested(by.search.settled(by.found), by.search, by.ranking, by.task, by.plain)
+        by = found.by
+        evidence = evidence_of(found.tested, by.search, by.ranking, by.task, by.plain)
         progress("tested for a remainder")
         return Judged(by, evidence, *judge(evidence, by.search, by.audit))
 
-    found = under(task)
-    if found.verdict != "unexplained":
-        return found
+    found = found_in(task)
+    noisy = _with_input_noise(found, task, found_in, progress) if found.tested.nameless else None
+    if noisy is not None and (answer := proved(noisy)).verdict != "unexplained":
+        return answer
+    return proved(found)
+
+
+def _with_input_noise(
+    found: _Found, task: Task, found_in: Callable[[Task], _Found], progress: Callable[[str], None]
+) -> _Found | None:
+    """What is found as if the inputs had noise; None where something is left beside that, or it is less likely."""
     try:
-        noisy = task.with_input_noise
-        if noisy is None:
-            return found
+        if task.with_input_noise is None:
+            return None
         progress("whether the recorded inputs have noise")
-        other = under(noisy)
+        noisy = found_in(task.with_input_noise)
     except SymidError:
-        return found  # what was found already is not lost by what was tried beside it
-    return other if other.verdict != "unexplained" and other.loglik2 > found.loglik2 else found
+        return None  # what was found already is not lost by what was tried beside it
+    return noisy if not noisy.tested.nameless and noisy.loglik2 > found.loglik2 else None

@@ -86,7 +86,8 @@ def test_what_was_found_is_kept_where_noise_cannot_be_tried(monkeypatch):
         raise ModelError("there is a part 'cart_noise' already")
 
     monkeypatch.setattr(module, "explained", lambda *arguments: mock.MagicMock())
-    monkeypatch.setattr(module, "tested", lambda *arguments: None)
+    monkeypatch.setattr(module, "tested", lambda *arguments: mock.MagicMock(nameless=True))
+    monkeypatch.setattr(module, "evidence_of", lambda *arguments: None)
     monkeypatch.setattr(module, "judge", lambda *arguments: ("unexplained", (), ()))
     monkeypatch.setattr(Task, "with_input_noise", property(refuse))
     task = Task(pendulum(), recorded(pendulum(), 0, 0), (0.0, 30.0), None)

@@ -30,23 +30,38 @@ from symid.threads import in_threads
 
 
 @dataclass(frozen=True, eq=False)
-class Evidence:
-    """What became of a finding when it was put to the test.
+class Tested:
+    """What the tests in the fitted window left of a finding.
 
     Attributes
     ----------
     found : what the tests left of it. left : tests for something left over, the least probable first.
     white : whether what is left is random. chance : probability that chance makes as much, None where unknown.
-    survived : each lasting effect on two halves. halves : what either half alone says, if what is left is not random.
-    unnamed : what acts and has no name. final : the improved model, with the names or with a flexible law.
-    elsewhere : what only the held-out data show.
-    runs : free simulations by ``baseline_train``, ``augmented_heldout`` and so on. proof : of the held-out data.
     """
 
     found: Hypothesis
     left: Sequence[Test]
     white: bool
     chance: float | None
+
+    @property
+    def nameless(self) -> bool:
+        """Whether something acts that the laws with names do not explain."""
+        return bool(self.left and self.left[0].minus_log10_p > POLICY.remainder) or not self.found.established
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence(Tested):
+    """What became of a finding when it was put to every test.
+
+    Attributes
+    ----------
+    survived : each lasting effect on two halves. halves : what either half alone says, if what is left is not random.
+    unnamed : what acts and has no name. final : the improved model, with the names or with a flexible law.
+    elsewhere : what only the held-out data show.
+    runs : free simulations by ``baseline_train``, ``augmented_heldout`` and so on. proof : of the held-out data.
+    """
+
     survived: tuple[Survival, ...]
     halves: tuple[HalfVerdict, ...]
     runs: dict[str, FreeRun]
@@ -56,14 +71,8 @@ class Evidence:
     elsewhere: Test | None = None
 
 
-def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], task: Task, plain: Data) -> Evidence:
-    """Put a finding to every test; effects that do not stand them are left out.
-
-    Parameters
-    ----------
-    ranking : each suspect alone, best first. plain : the recording as it is, of which errors are told.
-    """
-    base, data = search.base, search.data
+def tested(found: Hypothesis, search: Search) -> Tested:
+    """Put a finding to the tests in the fitted window; effects that do not stand them are left out."""
     left = search.remainder(found)
     white = all(t.locates or t.minus_log10_p <= POLICY.remainder for t in left)
     before, found = found.suspects, honest(found, white)
@@ -71,23 +80,30 @@ def tested(found: Hypothesis, search: Search, ranking: Sequence[Hypothesis], tas
     found, chance = beyond_chance(found, null_maxima(search.projection, found.fit), best, white)
     if found.suspects != before:
         left = search.remainder(found)
-    nameless_too = bool(left and left[0].minus_log10_p > POLICY.remainder) or not found.established
+    return Tested(found, left, white, chance)
+
+
+def evidence_of(by: Tested, search: Search, ranking: Sequence[Hypothesis], task: Task, plain: Data) -> Evidence:
+    """What the halves of the recording and its held-out data say of what stood the tests.
+
+    Parameters
+    ----------
+    ranking : each suspect alone, best first. plain : the recording as it is, of which errors are told.
+    """
+    base, data, found = search.base, search.data, by.found
     windows = _windows(task, plain, data)
-    unnamed = nameless(found, data, windows.get("heldout"), search.progress) if nameless_too else Nameless()
+    unnamed = nameless(found, data, windows.get("heldout"), search.progress) if by.nameless else Nameless()
     final = improved(found, unnamed) if unnamed.fits and not near_noise(found, data) else found.fit
     runs = _runs(final, base, task, windows, refitted=final is found.fit)
     return Evidence(
-        found,
-        left,
-        white,
-        chance,
-        survivals(found.suspects, found.fit, base, data, white),
-        () if white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking)),
-        runs,
-        _proof(final, base, task, data, runs),
-        unnamed,
-        final,
-        None if nameless_too else _elsewhere(found.fit, windows, data, task),
+        **vars(by),
+        survived=survivals(found.suspects, found.fit, base, data, by.white),
+        halves=() if by.white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking)),
+        runs=runs,
+        proof=_proof(final, base, task, data, runs),
+        unnamed=unnamed,
+        final=final,
+        elsewhere=None if by.nameless else _elsewhere(found.fit, windows, data, task),
     )
 
 
