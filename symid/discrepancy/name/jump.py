@@ -7,13 +7,16 @@ from dataclasses import replace
 from functools import cache
 from math import inf, log
 
+import numpy as np
+
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.dry import PARTS, WIDER, widths
-from symid.discrepancy.model.hypothesis import Hypothesis, polished, refit
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.signals.data import Data
+from symid.mechanics.missing.laws import port_at
 from symid.mechanics.missing.terms import LIBRARY
 from symid.model import Constant, Model
 from symid.simulation import simulator
@@ -47,18 +50,26 @@ def with_likeliest_jumps(given: Model, fit: Fit, data: Data) -> Fit:
 
 
 def _likeliest(width: Constant, projection: Projection) -> float:
-    """The value of one friction speed, [m/s] or [rad/s], by the score of dry friction at its joint."""
+    """The value of one friction speed, [m/s] or [rad/s], by the score of dry friction at its joint.
+
+    Friction with the speed may act, too: without it a wide jump would imitate the two.
+    """
     model, data = projection.fit.model, projection.data
-    suspect = Suspect(LIBRARY["coulomb_friction"].at(width.at))
-    port = next(p for p in model.ports.values() if p.at == width.at and p.role == "joint")
+
+    def columns(law: str, key: str, speed: float) -> list[np.ndarray]:
+        suspect = Suspect(LIBRARY[law].at(width.at))
+        tried = model.with_constants(**{width.name: speed}).with_term(suspect.term)
+        found = projection.response(suspect, simulator(tried), {key: 0.0})
+        return [] if found is None else [found]
+
+    viscous = columns("viscous_friction", "coefficient_Nms_rad", width.value)
 
     @cache
     def score(speed: float) -> float:
-        tried = model.with_constants(**{width.name: speed}).with_term(suspect.term)
-        columns = projection.response(suspect, simulator(tried), {"torque_Nm": 0.0})
-        return 0.0 if columns is None else projection.score(columns)[0]
+        dry = columns("coulomb_friction", "torque_Nm", speed)
+        return projection.score(np.hstack([*dry, *viscous]))[0] if dry else 0.0
 
-    sharp, *wider = widths(model, port, data.segments, data.sensor_noise)
+    sharp, *wider = _widths(model, width, data)
     best = max([sharp, *wider], key=score)
     for factor in FINER if best != sharp else ():
         best = max([best / factor, best, best * factor], key=score)
@@ -96,6 +107,23 @@ def with_jumps_again(found: Hypothesis, made: Sequence[str]) -> Hypothesis:
     return found
 
 
+def with_sharp_jumps(found: Hypothesis, made: Sequence[str], pool: Sequence[Suspect]) -> Hypothesis:
+    """The same suspects with dry friction that jumps, and friction with the speed beside it, where that is as likely.
+
+    Dry friction that sets in over speeds at which a joint moves imitates the two, with as many unknowns.
+    """
+    for name in _used(found, made, found.base.model):
+        width = found.base.model[name]
+        sharp, wide, *_ = _widths(found.base.model, width, found.data)
+        beside = [s for s in pool if s.term.name == "viscous_friction" and s.term.location == width.at]
+        if width.value < wide or not beside or beside[0].term in {s.term for s in found.suspects}:
+            continue
+        base = replace(found.base, model=found.base.model.with_constants(**{name: sharp}))
+        both = hypothesis([*found.suspects, *beside], found.fit, base, found.data, beside[0].off)
+        found = polished(both) if both is not None and both.log_ratio > found.log_ratio else found
+    return found
+
+
 def with_jumps_of(fit: Fit, base: Fit, made: Sequence[str]) -> Fit:
     """`base` with dry friction that sets in as in the model of `fit`: itself, where it does."""
     other = {n: fit.model.constants[n].value for n in made}
@@ -109,9 +137,8 @@ class _Widths:
 
     def __init__(self, found: Hypothesis, name: str):
         self.found, self.name, self.model = found, name, found.base.model
-        port = next(p for p in self.model.ports.values() if p.at == self.model[name].at and p.role == "joint")
         self.sharp = self.model.constants[name].value
-        *_, self.widest = widths(self.model, port, found.data.segments, found.data.sensor_noise)
+        self.widest = _widths(self.model, self.model[name], found.data)[-1]
         self.tried: dict[float, Hypothesis | None] = {self.sharp: found}
 
     def best(self, told: float | None) -> Hypothesis:
@@ -163,6 +190,10 @@ class _Widths:
         free = self.model.with_constants(**{self.name: width}).free(**{self.name: bounds})
         base = replace(self.found.base, model=free)
         return refit(self.found.suspects, self.tried[width].fit, base, self.found.data, {self.name: width})
+
+
+def _widths(model: Model, width: Constant, data: Data) -> tuple[float, ...]:
+    return widths(model, port_at(model, "joint", width.at), data.segments, data.sensor_noise)
 
 
 def _used(found: Hypothesis, made: Sequence[str], known: Model) -> list[str]:

@@ -14,7 +14,7 @@ from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.held import Holds
 from symid.discrepancy.name.judge import Judge
-from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_of
+from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_of, with_sharp_jumps
 from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
@@ -108,7 +108,8 @@ class Search(Judge):
                 break
             if not to_end and not has_settled(best.fit, self.data):
                 return best, single
-        return self._exchanged(best) if len(best.suspects) > 1 or not best.established else best, single
+        best = self._exchanged(best) if len(best.suspects) > 1 or not best.established else best
+        return with_sharp_jumps(best, self.jumps, self.pool), single
 
     def settled(self, found: Hypothesis) -> Hypothesis:
         """What is found, or the flexible law at one place where several laws together explain less than that."""
