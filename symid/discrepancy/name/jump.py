@@ -20,6 +20,7 @@ from symid.mechanics.missing.laws import port_at
 from symid.mechanics.missing.terms import LIBRARY
 from symid.model import Constant, Model
 from symid.simulation import simulator
+from symid.threads import in_threads
 
 FINER = 1.7, 1.3, 1.15
 """Factors by which neighbours of the best width are tried, one after the other: it ends within a tenth."""
@@ -108,20 +109,40 @@ def with_jumps_again(found: Hypothesis, made: Sequence[str]) -> Hypothesis:
 
 
 def with_sharp_jumps(found: Hypothesis, made: Sequence[str], pool: Sequence[Suspect]) -> Hypothesis:
-    """The same suspects with dry friction that jumps, and friction with the speed beside it, where that is as likely.
+    """The same suspects with dry friction that jumps, and friction with the speed beside it, if that is believed more.
 
-    Dry friction that sets in over speeds at which a joint moves imitates the two, with as many unknowns.
+    Dry friction that sets in over speeds at which a joint moves imitates the two, with as many unknowns; and another
+    suspect may make up for what it does not.
     """
     for name in _used(found, made, found.base.model):
-        width = found.base.model[name]
-        sharp, wide, *_ = _widths(found.base.model, width, found.data)
-        beside = [s for s in pool if s.term.name == "viscous_friction" and s.term.location == width.at]
-        if width.value < wide or not beside or beside[0].term in {s.term for s in found.suspects}:
-            continue
-        base = replace(found.base, model=found.base.model.with_constants(**{name: sharp}))
-        both = hypothesis([*found.suspects, *beside], found.fit, base, found.data, beside[0].off)
-        found = polished(both) if both is not None and both.log_ratio > found.log_ratio else found
+        found = _sharpened(found, found.base.model[name], pool)
     return found
+
+
+def _sharpened(found: Hypothesis, width: Constant, pool: Sequence[Suspect]) -> Hypothesis:
+    """`with_sharp_jumps` at one joint."""
+    sharp, wide, *_ = _widths(found.base.model, width, found.data)
+    beside = [s for s in pool if s.term.name == "viscous_friction" and s.term.location == width.at]
+    if width.value < wide or not beside or beside[0].term in {s.term for s in found.suspects}:
+        return found
+    base = replace(found.base, model=found.base.model.with_constants(**{width.name: sharp}))
+    dry = [s for s in found.suspects if width.symbol in _symbols(base.model.with_term(s.term)) - _symbols(base.model)]
+    kept = [found.suspects, *([s for s in found.suspects if s is not t] for t in found.suspects if t not in dry)]
+    tried = in_threads(lambda k: hypothesis([*k, *beside], found.fit, base, found.data, beside[0].off), kept)
+    both = [h for h in tried if h is not None]
+    share = max([found, *both], key=lambda h: h.log_ratio).share
+
+    def believed(h: Hypothesis) -> float:
+        return h.evidence(share) - h.belief()
+
+    best = max(both, key=believed, default=found)
+    one_less = _unknown(share, found.data)
+    return polished(best) if best is not found and believed(best) > believed(found) - one_less else found
+
+
+def _unknown(share: float, data: Data) -> float:
+    """What one more unknown costs (Schwarz 1978)."""
+    return log(max(share * data.samples, 2.0))
 
 
 def with_jumps_of(fit: Fit, base: Fit, made: Sequence[str]) -> Fit:
@@ -152,7 +173,7 @@ class _Widths:
         if free is not None:
             width = free.values[self.name]
             self.tried.setdefault(width, self._fitted(width, free))
-        price = POLICY.accept + log(max(found.share * found.data.samples, 2.0))
+        price = POLICY.accept + _unknown(found.share, found.data)
         wider = self.tried[max(self.tried, key=self.score)]
         return polished(wider) if found.share * (wider.log_ratio - found.log_ratio) > price else found
 
