@@ -6,17 +6,27 @@ import sympy as sm
 from scipy.signal import butter, filtfilt
 
 import symid as si
+from symid.discrepancy.model.dry import with_friction_speeds
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
+from symid.discrepancy.name.jump import with_sharp_jumps
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_between
 from symid.simulation import Simulator
 
 SUSPECTS = ("coulomb_friction", "viscous_friction", "joint_drag", "stribeck_friction", "bouc_wen_hysteresis")
 
 
-def shaft(random: bool, dry: float = 0.0, viscous: float = 0.0) -> si.Model:
+WIDE = 2.0
+"""[rad/s], of 4 that the pendulum reaches."""
+
+
+def shaft(random: bool, dry: float = 0.0, viscous: float = 0.0, width: float = 1e-3) -> si.Model:
     """A pendulum that swings freely; or a wheel on a spring with a recorded torque, and random ones."""
     m = si.Model("shaft")
     m.angle, m.rate = si.State(unit="rad"), si.State(unit="rad/s")
     m.kinematics = si.Equation(m.angle.dot - m.rate)
-    loss = dry * sm.tanh(m.rate / 1e-3) + viscous * m.rate if dry or viscous else 0
+    loss = dry * sm.tanh(m.rate / width) + viscous * m.rate if dry or viscous else 0
     if random:
         m.inertia = si.Parameter(unit="kg*m^2", bounds=(0.01, 10))
         m.stiffness = si.Parameter(unit="N*m/rad", bounds=(0, 100))
@@ -65,3 +75,32 @@ def test_one_of_them_alone_is_not_taken_for_both(random, dry, viscous):
     few = [s for s in si.suspects(model) if s.term.name in SUSPECTS]
     found = si.diagnose(model, recording, fit_window=(0, 26), held_out=(26, 39.9), suspects=few, threads=1)
     assert [e.name for e in found.effects] == ["coulomb_friction" if dry else "viscous_friction"]
+
+
+def with_wide_jump(true: si.Model, laws: tuple[str, ...]) -> tuple[Hypothesis, list[si.Suspect]]:
+    """These laws fitted with dry friction that sets in over `WIDE`, and all suspects."""
+    recording = recorded(true, False, 0)
+    segments = segments_between(shaft(False), recording.time, dict(recording.channels), (0.0, 26.0), None)
+    noise = np.array([0.001])
+    data = Data(segments, noise, False)
+    given = with_friction_speeds(shaft(False), segments, noise)
+    base = fit_model(given.with_constants(joint_friction_speed=WIDE), data)
+    pool = [s for s in si.suspects(given) if s.term.name in SUSPECTS]
+    chosen = [s for s in pool if s.term.name in laws]
+    started = {k: 0.02 for s in chosen for k in s.off}
+    return hypothesis(chosen, base, base, data, started), pool
+
+
+@pytest.mark.parametrize("laws", [("coulomb_friction",), ("coulomb_friction", "viscous_friction")])
+def test_a_jump_that_is_too_wide_is_made_sharp(laws):
+    """With friction with the speed beside it, also where that was found already."""
+    found, pool = with_wide_jump(shaft(False, 0.05, 0.02), laws)
+    sharp = with_sharp_jumps(found, ["joint_friction_speed"], pool)
+    assert {s.term.name for s in sharp.suspects} == {"coulomb_friction", "viscous_friction"}
+    assert sharp.base.model.constants["joint_friction_speed"].value < 0.01 * WIDE
+    assert sharp.log_ratio > found.log_ratio
+
+
+def test_friction_that_does_set_in_slowly_stays_so():
+    found, pool = with_wide_jump(shaft(False, 0.05, 0.0, WIDE), ("coulomb_friction",))
+    assert with_sharp_jumps(found, ["joint_friction_speed"], pool) is found

@@ -122,13 +122,16 @@ def with_sharp_jumps(found: Hypothesis, made: Sequence[str], pool: Sequence[Susp
 def _sharpened(found: Hypothesis, width: Constant, pool: Sequence[Suspect]) -> Hypothesis:
     """`with_sharp_jumps` at one joint."""
     sharp, wide, *_ = _widths(found.base.model, width, found.data)
-    beside = [s for s in pool if s.term.name == "viscous_friction" and s.term.location == width.at]
-    if width.value < wide or not beside or beside[0].term in {s.term for s in found.suspects}:
+    if width.value < wide:
         return found
+    at = [s for s in pool if s.term.name == "viscous_friction" and s.term.location == width.at]
+    beside = [s for s in at if s.term not in {t.term for t in found.suspects}]
+    off = beside[0].off if beside else {}
     base = replace(found.base, model=found.base.model.with_constants(**{width.name: sharp}))
     dry = [s for s in found.suspects if width.symbol in _symbols(base.model.with_term(s.term)) - _symbols(base.model)]
-    kept = [found.suspects, *([s for s in found.suspects if s is not t] for t in found.suspects if t not in dry)]
-    tried = in_threads(lambda k: hypothesis([*k, *beside], found.fit, base, found.data, beside[0].off), kept)
+    spare = [t for t in found.suspects if t not in dry and t not in at]
+    kept = [found.suspects, *([s for s in found.suspects if s is not t] for t in spare)]
+    tried = in_threads(lambda k: hypothesis([*k, *beside], found.fit, base, found.data, off), kept)
     both = [h for h in tried if h is not None]
     share = max([found, *both], key=lambda h: h.log_ratio).share
 

@@ -101,15 +101,20 @@ class Search(Judge):
                 if not self.quiet(best):
                     return best, single
                 best = replace(best, base=with_holds_of(curved, self.base, self.data))
-            if best.base is not self.base:  # its dry friction is less abrupt, and so is what is tried next
-                self.base = self.projection.fit = best.base
+            self._goes_on_from(best)
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
             if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best):
                 break
             if not to_end and not has_settled(best.fit, self.data):
                 return best, single
-        best = self._exchanged(best) if len(best.suspects) > 1 or not best.established else best
-        return with_sharp_jumps(best, self.jumps, self.pool), single
+        best = with_sharp_jumps(best, self.jumps, self.pool)
+        self._goes_on_from(best)
+        return self._exchanged(best) if len(best.suspects) > 1 or not best.established else best, single
+
+    def _goes_on_from(self, best: Hypothesis) -> None:
+        """What is tried next has dry friction that is as abrupt."""
+        if best.base is not self.base:
+            self.base = self.projection.fit = best.base
 
     def settled(self, found: Hypothesis) -> Hypothesis:
         """What is found, or the flexible law at one place where several laws together explain less than that."""
