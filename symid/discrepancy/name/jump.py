@@ -109,7 +109,7 @@ def with_jumps_again(found: Hypothesis, made: Sequence[str]) -> Hypothesis:
 
 
 def with_sharp_jumps(found: Hypothesis, made: Sequence[str], pool: Sequence[Suspect]) -> Hypothesis:
-    """The same suspects with dry friction that jumps, and friction with the speed beside it, if that is believed more.
+    """The same suspects with dry friction that jumps, or friction with the speed beside it, if that is believed more.
 
     Dry friction that sets in over speeds at which a joint moves imitates the two, with as many unknowns; and another
     suspect may make up for what it does not.
@@ -131,7 +131,8 @@ def _sharpened(found: Hypothesis, width: Constant, pool: Sequence[Suspect]) -> H
     dry = [s for s in found.suspects if width.symbol in _symbols(base.model.with_term(s.term)) - _symbols(base.model)]
     spare = [t for t in found.suspects if t not in dry and t not in at]
     kept = [found.suspects, *([s for s in found.suspects if s is not t] for t in spare)]
-    tried = in_threads(lambda k: hypothesis([*k, *beside], found.fit, base, found.data, off), kept)
+    sets = [[*k, *beside] for k in kept] + [list(found.suspects)] * len(beside)
+    tried = in_threads(lambda s: hypothesis(s, found.fit, base, found.data, off), sets)
     both = [h for h in tried if h is not None]
     share = max([found, *both], key=lambda h: h.log_ratio).share
 
