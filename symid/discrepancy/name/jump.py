@@ -70,7 +70,7 @@ def _likeliest(width: Constant, projection: Projection) -> float:
         dry = columns("coulomb_friction", "torque_Nm", speed)
         return projection.score(np.hstack([*dry, *viscous]))[0] if dry else 0.0
 
-    sharp, *wider = _widths(model, width, data)
+    sharp, *wider = _widths_at(model, width, data)
     best = max([sharp, *wider], key=score)
     for factor in FINER if best != sharp else ():
         best = max([best / factor, best, best * factor], key=score)
@@ -121,15 +121,15 @@ def with_sharp_jumps(found: Hypothesis, made: Sequence[str], pool: Sequence[Susp
 
 def _sharpened(found: Hypothesis, width: Constant, pool: Sequence[Suspect]) -> Hypothesis:
     """`with_sharp_jumps` at one joint."""
-    sharp, wide, *_ = _widths(found.base.model, width, found.data)
+    sharp, wide, *_ = _widths_at(found.base.model, width, found.data)
     if width.value < wide:
         return found
-    at = [s for s in pool if s.term.name == "viscous_friction" and s.term.location == width.at]
-    beside = [s for s in at if s.term not in {t.term for t in found.suspects}]
+    viscous = [s for s in pool if s.term.name == "viscous_friction" and s.term.location == width.at]
+    beside = [s for s in viscous if s.term not in {t.term for t in found.suspects}]
     off = beside[0].off if beside else {}
     base = replace(found.base, model=found.base.model.with_constants(**{width.name: sharp}))
     dry = [s for s in found.suspects if width.symbol in _symbols(base.model.with_term(s.term)) - _symbols(base.model)]
-    spare = [t for t in found.suspects if t not in dry and t not in at]
+    spare = [t for t in found.suspects if t not in dry and t not in viscous]
     kept = [found.suspects, *([s for s in found.suspects if s is not t] for t in spare)]
     sets = [[*k, *beside] for k in kept] + [list(found.suspects)] * len(beside)
     tried = in_threads(lambda s: hypothesis(s, found.fit, base, found.data, off), sets)
@@ -163,7 +163,7 @@ class _Widths:
     def __init__(self, found: Hypothesis, name: str):
         self.found, self.name, self.model = found, name, found.base.model
         self.sharp = self.model.constants[name].value
-        self.widest = _widths(self.model, self.model[name], found.data)[-1]
+        self.widest = _widths_at(self.model, self.model[name], found.data)[-1]
         self.tried: dict[float, Hypothesis | None] = {self.sharp: found}
 
     def best(self, told: float | None) -> Hypothesis:
@@ -217,7 +217,7 @@ class _Widths:
         return refit(self.found.suspects, self.tried[width].fit, base, self.found.data, {self.name: width})
 
 
-def _widths(model: Model, width: Constant, data: Data) -> tuple[float, ...]:
+def _widths_at(model: Model, width: Constant, data: Data) -> tuple[float, ...]:
     return widths(model, port_at(model, "joint", width.at), data.segments, data.sensor_noise)
 
 
