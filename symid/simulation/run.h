@@ -84,7 +84,7 @@ static inline __attribute__((always_inline)) int factored(const int n, double *r
     return 0;
 }
 
-/* Unrolled loops of a known length take two thirds of the time. */
+/* Unrolled loops of a known length are about twice as fast. */
 static int factor(int n, double *restrict M, int *restrict pivot, double *restrict b)
 {
     switch (n) {

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from math import log
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from symid.discrepancy.locate.spline_parts import candidate_blocks, chosen_block
 from symid.discrepancy.model.hypothesis import extended
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
-from symid.estimation.sensors.independence import independent_share
+from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.estimation.signals.data import Data
 from symid.mechanics.missing.spline_law import Block, spline_law
 from symid.mechanics.places import places
@@ -60,7 +59,7 @@ class FlexibleLaw:
     def evidence(self) -> float:
         """The same of independent samples, less log N for each unknown."""
         share = independent_share(self.fit.remaining)
-        return share * self.log_ratio - log(max(share * self.data.samples, 2.0)) * self.size
+        return share * self.log_ratio - price_of_one(share * self.data.samples) * self.size
 
     @property
     def size(self) -> int:
@@ -133,7 +132,7 @@ def _comparable(law: FlexibleLaw, first: Fit) -> float:
     """Evidence beyond the first fit, whatever the law's own base has more unknowns than that."""
     share = independent_share(law.fit.remaining)
     more = law.size + len(law.base.values) - len(first.values)
-    return share * (law.fit.loglik2 - first.loglik2) - log(max(share * law.data.samples, 2.0)) * more
+    return share * (law.fit.loglik2 - first.loglik2) - price_of_one(share * law.data.samples) * more
 
 
 def _refined(law: FlexibleLaw, data: Data) -> FlexibleLaw:

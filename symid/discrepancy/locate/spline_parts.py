@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import log
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.path import along, fitted_path
-from symid.estimation.sensors.independence import independent_share
+from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.estimation.signals.data import Data
 from symid.mechanics.missing.spline_law import Block, knots_of
 from symid.mechanics.places import other_signals
@@ -99,7 +98,7 @@ class _Forecast:
         use, coefficients, size = self.explained(chosen)
         left = max(self.total - float(coefficients @ self.onto[use]), 1e-9 * self.total)
         gain = -len(self.rest) * np.log(left / self.total)
-        return share * gain - log(max(share * self.samples, 2.0)) * size
+        return share * gain - price_of_one(share * self.samples) * size
 
 
 def candidate_blocks(fit: Fit, data: Data, port: Port, count: int = KNOTS) -> list[Block]:

@@ -14,7 +14,7 @@ from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter, rms_of
 from symid.estimation.fitting.path import along, fitted_path
-from symid.estimation.sensors.independence import independent_share
+from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import period
 from symid.mechanics.missing.laws import port_at
@@ -174,7 +174,7 @@ def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, sh
     """
     states = after.initial.size - before.initial.size
     count = sum(s.size + (s.scanned is not None) for s in suspects)
-    return log(max(share * data.samples, 2.0)) * count + 2.0 * states
+    return price_of_one(share * data.samples) * count + 2.0 * states
 
 
 def is_met(fit: Fit, data: Data, times: float = POLICY.far) -> bool:

@@ -18,7 +18,7 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.fitting.path import along, fitted_path
-from symid.estimation.sensors.independence import independent_share
+from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.mechanics.missing.dictionary import Shape, closed_expression, closed_law, shapes_of
 from symid.model import Law, Model, Port, Term
 from symid.threads import in_threads
@@ -90,7 +90,7 @@ class Proposal:
 
     def evidence(self, share: float, choices: int) -> float:
         """The same of independent samples, less log N for each unknown and what a choice of a dictionary costs."""
-        price = log(max(share * self.flexible.data.samples, 2.0)) * len(self.law.parameters)
+        price = price_of_one(share * self.flexible.data.samples) * len(self.law.parameters)
         return share * self.log_ratio - price - 2 * log(choices) * len(self.shapes)
 
 
@@ -118,7 +118,7 @@ def closed_form(law: FlexibleLaw, progress: Callable[[str], None] = lambda text:
         tried += len(found)
         progress(f"{tried} closed forms are fitted")
         share = independent_share(max([law.fit, *(p.fit for p in found)], key=lambda f: f.loglik2).remaining)
-        price = log(max(share * law.data.samples, 2.0)) * law.size
+        price = price_of_one(share * law.data.samples) * law.size
         simpler, least = best, share * law.log_ratio - price if best is None else best.evidence(share, choices)
         best = max(found, key=lambda p: p.evidence(share, choices), default=None)
         if best is None or best.evidence(share, choices) <= least:
@@ -148,7 +148,7 @@ class _Regression:
         self.phi, self.onto = phi, np.linalg.pinv(phi, rcond=1e-8)
         self.target = self.root @ law.coefficients()
         self.total = float(self.target @ self.target)
-        self.price = log(max(data.samples, 2.0))
+        self.price = price_of_one(data.samples)
         self.atoms = [(shape, place) for shape in self.shapes for place in shape.places(self.signals)]
         told = [self.told(*a) for a in self.atoms]
         self.atoms = [a for a, t in zip(self.atoms, told, strict=True) if t is not None]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache
-from math import inf, log
+from math import inf
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished,
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.sensors.independence import price_of_one
 from symid.estimation.signals.data import Data
 from symid.mechanics.missing.laws import port_at
 from symid.mechanics.missing.terms import LIBRARY
@@ -140,13 +141,8 @@ def _sharpened(found: Hypothesis, width: Constant, pool: Sequence[Suspect]) -> H
         return h.evidence(share) - h.belief()
 
     best = max(both, key=believed, default=found)
-    one_less = _unknown(share, found.data)
+    one_less = price_of_one(share * found.data.samples)
     return polished(best) if best is not found and believed(best) > believed(found) - one_less else found
-
-
-def _unknown(share: float, data: Data) -> float:
-    """What one more unknown costs (Schwarz 1978)."""
-    return log(max(share * data.samples, 2.0))
 
 
 def with_jumps_of(fit: Fit, base: Fit, made: Sequence[str]) -> Fit:
@@ -177,7 +173,7 @@ class _Widths:
         if free is not None:
             width = free.values[self.name]
             self.tried.setdefault(width, self._fitted(width, free))
-        price = POLICY.accept + _unknown(found.share, found.data)
+        price = POLICY.accept + price_of_one(found.share * found.data.samples)
         wider = self.tried[max(self.tried, key=self.score)]
         return polished(wider) if found.share * (wider.log_ratio - found.log_ratio) > price else found
 

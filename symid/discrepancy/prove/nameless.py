@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from math import log
 
 import numpy as np
 
@@ -16,7 +15,7 @@ from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.held_out import compare
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import free_run
-from symid.estimation.sensors.independence import independent_share
+from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.estimation.signals.data import Data
 
 WORSE = 1.1
@@ -75,5 +74,5 @@ def improved(found: Hypothesis, unnamed: Nameless) -> Fit:
     """The best of all fits: of what was found by name, of the flexible law, of the closed form; unknowns pay log N."""
     fits = [found.fit, *unnamed.fits]
     share = independent_share(max(fits, key=lambda f: f.loglik2).remaining)
-    price = log(max(share * found.data.samples, 2.0))
+    price = price_of_one(share * found.data.samples)
     return max(fits, key=lambda f: share * f.loglik2 - price * len(f.values))

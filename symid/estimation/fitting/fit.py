@@ -172,8 +172,7 @@ class Fitter(Refining):
                 converged = float(step @ system[1]) < 1.0
                 break
             change = new.value - at.value
-            at.p, at.x0, at.process, at.kalman_gain = new.p, new.x0, new.process, new.kalman_gain
-            at.value, at.path, at.runs = new.value, new.path, new.runs
+            vars(at).update(vars(new))
             if change < tolerance:
                 converged = True
                 break

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import log
 
 import numpy as np
 
@@ -33,3 +34,8 @@ def independent_share(errors: Sequence[np.ndarray]) -> float:
         excess = np.sum(r**2 - np.where(pairs > 0, pairs, 0) / max(sum(len(e) for e in errors), 1) ** 2)
         shares.append(1.0 / (1.0 + 2.0 * max(float(excess), 0.0)))
     return float(np.mean(shares))
+
+
+def price_of_one(samples: float) -> float:
+    """What one unknown costs of twice the log-likelihood of so many independent samples (BIC; Schwarz 1978)."""
+    return log(max(samples, 2.0))
