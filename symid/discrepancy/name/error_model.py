@@ -17,8 +17,9 @@ from dataclasses import replace
 from functools import reduce
 from math import inf, log
 
-from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
 from symid.discrepancy.name.equivalents import equivalents
+from symid.discrepancy.name.explore import by_score
 from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
 from symid.errors import SymidError
@@ -29,7 +30,8 @@ from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
 FEW = 3
-"""So many suspects tell which of two ways to undo a filter is right: these differ by far less than models do."""
+"""So many suspects tell which of two ways to undo a filter is right: these differ by far less than models do. So many
+may be likeliest beside noise with a memory, which differs from suspect to suspect by far less than it explains."""
 
 
 def with_error_model(
@@ -51,11 +53,7 @@ def with_error_model(
         with suppress(SymidError):  # where the model with it cannot be begun anew the cutoff stays where it was
             data, fit = settle(search.of_one.fit, search.data)
             search = searched(_refitted(search.base, fit, data), data)
-    most = search.most_of_one()
-    data, base = with_memory(search.base, search.data) if most < inf else (search.data, search.base)
-    if _gain(data, base, search.data, search.base) > most:
-        progress(f"the noise remembers {data.memory} samples; looking again")
-        search = searched(unheld(base, data, search.unstated), data)
+    search = _remembering(search, searched, progress)
     found, ranking = search.run()
     if holds_of(found.fit, search.base) != holds_of(search.base, search.base):
         progress("inputs are likelier to do something else between their samples; looking again")
@@ -74,6 +72,56 @@ def with_error_model(
     return _again(search, found, data, unheld(explained, data, search.unstated), searched)
 
 
+def _remembering(search: Search, searched: Callable[[Fit, Data], Search], progress: Callable[[str], None]) -> Search:
+    """A search under noise with a memory, where that explains more than any one suspect does; else the same.
+
+    A long memory takes up what a law with one unknown explains, and fits under it need not find that law again. Where
+    the likeliest suspect and what it leaves to noise explain more than noise does alone, the search goes on from both.
+    """
+    most = search.most_of_one()
+    if most == inf:
+        return search
+    data, base = with_memory(search.base, search.data)
+    alone = _gain(data, base, search.data, search.base)
+    if alone <= most:
+        return search
+    beside = _beside_memory(search)
+    best = max(beside, key=beside.__getitem__, default=None)
+    if best is not None and beside[best] > alone:
+        progress(f"beside {best.suspect.term} the noise remembers {best.data.memory} samples; going on")
+        return _going_on(search, [best, *(h for h in beside if h is not best)], best.data, searched)
+    progress(f"the noise remembers {data.memory} samples; looking again")
+    return searched(unheld(base, data, search.unstated), data)
+
+
+def _beside_memory(search: Search) -> dict[Hypothesis, float]:
+    """The likeliest suspects alone with noise that remembers what each leaves to it, and the value of both together."""
+
+    def remembering(h: Hypothesis) -> Hypothesis | None:
+        try:
+            data, fit = with_memory(h.fit, search.data)
+        except SymidError:
+            return None
+        return replace(h, fit=fit, data=data)
+
+    few = search.single[:FEW]
+    return {
+        k: search.value(h, 1.0) + _gain(k.data, k.fit, search.data, h.fit)
+        for h, k in zip(few, in_threads(remembering, few), strict=True)
+        if k is not None
+    }
+
+
+def _going_on(search: Search, known: list[Hypothesis], data: Data, searched: Callable[[Fit, Data], Search]) -> Search:
+    """A search under the error model of `data` that goes on from what is known, best first."""
+    first, *others = known
+    again = searched(_refitted(search.base, first.fit, data), data)
+    found = in_threads(lambda h: hypothesis(h.suspects, h.fit, again.base, data), others)
+    again.known = [replace(first, base=again.base, data=data), *by_score([h for h in found if h is not None])]
+    again.tried = list(again.known)
+    return again
+
+
 def _again(
     search: Search,
     found: Hypothesis,
@@ -87,6 +135,10 @@ def _again(
     Noise with a memory may take up so much of what is missing that a search which begins anew goes astray.
     """
     likes = equivalents(found, search.tried)
+    if search.known:
+        known = [replace(found, fit=explained), *(h for h in search.known if h.suspects != found.suspects)]
+        again = _going_on(search, known, data, searched)
+        return again, *again.run(to_end)
     search = searched(_refitted(search.base, explained, data), data)
     again, ranking = search.run(to_end)
     kept = Hypothesis(found.suspects, explained, search.base, data)

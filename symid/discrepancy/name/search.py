@@ -34,6 +34,7 @@ class Search(Judge):
     jumps : constants of the model that say how abruptly dry friction sets in and that nobody stated.
     unstated : inputs of which nobody stated what they do between their samples.
     starts : where fits on top of the model as given begin, until each suspect was tried alone.
+    known : suspects alone, best first, where they are known from another error model; the search goes on from the best.
     """
 
     jumps: Sequence[str] = ()
@@ -42,6 +43,7 @@ class Search(Judge):
     starts: dict[Suspect, list[Start]] = field(default_factory=dict)
     tried: list[Hypothesis] = field(default_factory=list)
     clocks: list[Hypothesis] = field(default_factory=list)
+    known: list[Hypothesis] = field(default_factory=list)
 
     @cached_property
     def projection(self) -> Projection:
@@ -65,6 +67,8 @@ class Search(Judge):
     @cached_property
     def single(self) -> list[Hypothesis]:
         """Each suspect alone, best first."""
+        if self.known:
+            return self.known
         found = self._added(self.nothing)
         self.starts.clear()  # nothing asks for them again, and they hold many fits
         return found
@@ -79,19 +83,8 @@ class Search(Judge):
         """
         best, single = self.nothing, self.single
         holds = Holds(self.data, self.unstated, self.better, self.jumps)
-        while len(best.suspects) < POLICY.most_effects:
-            more = self._steady(best, self._added(best) if best.suspects else single)
-            if more is None and len(best.suspects) < 2 and not self.explained(best):
-                more = self._preferred(best, self._other_pairs(best, single, alone=False))
-            if more is None:
-                break
-            if len(more.suspects) == 2 and not self.quiet(more) and not self.beaten(more):
-                more = self._preferred(best, [more, *self._other_pairs(best, single, above=more.log_ratio)])
-            if len(more.suspects) > 1:
-                again = self._reexamined(more, single)
-                more = more if again is more else self._with_jumps([again], best)[0]
-                if not self._worth(more, best):
-                    break
+        more = self.known[0] if self.known else self._more(best, single)
+        while more is not None:
             best = begun_anew(polished(more))
             if (otherwise := holds.asked_again(best)) is not best:
                 return otherwise, single
@@ -107,9 +100,28 @@ class Search(Judge):
                 break
             if not to_end and not has_settled(best.fit, self.data):
                 return best, single
+            more = self._more(best, single) if len(best.suspects) < POLICY.most_effects else None
         best = with_sharp_jumps(best, self.jumps, self.pool)
         self._goes_on_from(best)
         return self._exchanged(best) if len(best.suspects) > 1 or not best.established else best, single
+
+    def _more(self, best: Hypothesis, single: list[Hypothesis]) -> Hypothesis | None:
+        """What is believed after `best`: one suspect more, or what is better than that; None if nothing is.
+
+        single : each suspect alone.
+        """
+        more = self._steady(best, self._added(best) if best.suspects else single)
+        if more is None and len(best.suspects) < 2 and not self.explained(best):
+            more = self._preferred(best, self._other_pairs(best, single, alone=False))
+        if more is None:
+            return None
+        if len(more.suspects) == 2 and not self.quiet(more) and not self.beaten(more):
+            more = self._preferred(best, [more, *self._other_pairs(best, single, above=more.log_ratio)])
+        if len(more.suspects) > 1:
+            again = self._reexamined(more, single)
+            more = more if again is more else self._with_jumps([again], best)[0]
+            return more if self._worth(more, best) else None
+        return more
 
     def _goes_on_from(self, best: Hypothesis) -> None:
         """What is tried next has dry friction that is as abrupt."""
