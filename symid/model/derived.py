@@ -118,6 +118,18 @@ class Derived:
         """A new model with a Noise `<input>_noise` added to each input in its equations: that of a recorded input."""
         return variants.with_input_noise(self._model)
 
+    def with_correlated_noise(self, shortest: float) -> Model:
+        """A new model whose process noise is correlated, as the random forces of wind, roads and muscles are.
+
+        Each Noise w acts by a State x with T dx/dt + x = w: Gauss-Markov noise of first order, whose correlation is
+        1/e after T. It has the spectral density of w at low frequencies.
+
+        Parameters
+        ----------
+        shortest : the least T [s]; the Parameter `noise_correlation_time` is that of all noises.
+        """
+        return variants.with_correlated_noise(self._model, shortest)
+
     def undisturbed(self, bound: bool) -> Model:
         """A new model whose controls are zero, and without its Boundary parts unless they are `bound` to hold.
 

@@ -12,11 +12,25 @@ import sympy as sm
 from symid import checked
 from symid.errors import ModelError
 from symid.model.component import Component
-from symid.model.declare import Algebraic, Bounds, Constant, Control, Expression, Input, Noise, Parameter, State
+from symid.model.declare import (
+    Algebraic,
+    Bounds,
+    Constant,
+    Control,
+    Equation,
+    Expression,
+    Input,
+    Noise,
+    Output,
+    Parameter,
+    State,
+)
 
 if TYPE_CHECKING:
     from symid.model.model import Model
 
+CORRELATION_TIME = "noise_correlation_time"
+"""The parameter of `with_correlated_noise`."""
 FREE_FACTOR = 10.0
 """What was written down as known is rarely wrong by more than an order of magnitude."""
 
@@ -88,6 +102,28 @@ def with_input_noise(model: Model) -> Model:
         hidden = (inline.free_symbols - equation.expr.free_symbols) & set(noisy)
         new.components[name] = replace(equation, expr=(inline if hidden else equation.expr).xreplace(noisy))
     return new
+
+
+def with_correlated_noise(model: Model, shortest: float) -> Model:
+    """With each Noise w replaced by a State x of T dx/dt + x = w, of which T is a Parameter of at least `shortest`."""
+    new, standing = model.copy(), {}
+    time = Parameter(unit="s", bounds=(shortest, inf), meaning="time over which process noise is correlated")
+    setattr(new, CORRELATION_TIME, time)
+    for name, w in model.noises.items():
+        setattr(new, correlated(name), State(unit=w.unit, meaning=w.meaning, at=w.at))
+        standing[w.symbol] = new[correlated(name)].symbol
+    for name, part in model.components.items():
+        if isinstance(part, (Expression, Equation, Output)):
+            new.components[name] = replace(part, expr=part.expr.xreplace(standing))
+    for name in model.noises:
+        x = new[correlated(name)]
+        setattr(new, f"{correlated(name)}_rate", Equation(new[CORRELATION_TIME] * x.dot + x - new[name]))
+    return new
+
+
+def correlated(noise: str) -> str:
+    """The name of the state that stands for a noise in `with_correlated_noise`."""
+    return f"{noise}_correlated"
 
 
 def undisturbed(model: Model, bound: bool) -> Model:

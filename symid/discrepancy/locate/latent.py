@@ -17,6 +17,7 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.kalman import linearised_along
 from symid.estimation.free_run import FreeRun
 from symid.model import Model, Noise
+from symid.model.variants import correlated
 
 WANDERS = (0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)
 """Sizes of the random walk that are tried, in torques that move an output by its error, per root of the pace."""
@@ -88,7 +89,8 @@ def _sign(model: Model, noise: Noise) -> float:
     if port is None:
         return 1.0
     equation, into = next(iter(port.into.items()))
-    return float(np.sign(float(model[equation].expr.coeff(noise.symbol) * into))) or 1.0
+    force = model[own].symbol if (own := correlated(str(noise.symbol))) in model.states else noise.symbol
+    return float(np.sign(float(model[equation].expr.coeff(force) * into))) or 1.0
 
 
 def _sensor_noise(recorded: np.ndarray) -> np.ndarray:

@@ -24,9 +24,12 @@ from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
 from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of
+from symid.estimation.fitting.correlated import begun_correlated, is_correlated, with_correlated_forces
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.measurement import has_settled, with_memory
+from symid.estimation.sensors.whitening import remembered
 from symid.estimation.signals.data import Data
+from symid.model.variants import CORRELATION_TIME
 from symid.threads import in_threads
 
 FEW = 3
@@ -64,11 +67,11 @@ def with_error_model(
             search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched, to_end=True)
         except SymidError:  # the cutoff stays where it was, and the search that ended there goes on
             found, ranking = search.run(to_end=True)
-    data, explained = with_memory(found.fit, search.data)
+    data, explained = _coloured(found.fit, search.data)
     more = _gain(data, explained, search.data, found.fit)
-    if data is search.data or found.evidence(1.0) + more < search.flexible().evidence(1.0):
+    if explained is found.fit or found.evidence(1.0) + more < search.flexible().evidence(1.0):
         return search, found, ranking
-    progress(f"the noise remembers {data.memory} samples; looking again")
+    progress(f"{_colour(explained, data)}; looking again")
     return _again(search, found, data, unheld(explained, data, search.unstated), searched)
 
 
@@ -81,16 +84,16 @@ def _remembering(search: Search, searched: Callable[[Fit, Data], Search], progre
     most = search.most_of_one()
     if most == inf:
         return search
-    data, base = with_memory(search.base, search.data)
+    data, base = _coloured(search.base, search.data)
     alone = _gain(data, base, search.data, search.base)
     if alone <= most:
         return search
     beside = _beside_memory(search)
     best = max(beside, key=beside.__getitem__, default=None)
     if best is not None and beside[best] > alone:
-        progress(f"beside {best.suspect.term} the noise remembers {best.data.memory} samples; going on")
+        progress(f"beside {best.suspect.term} {_colour(best.fit, best.data)}; going on")
         return _going_on(search, [best, *(h for h in beside if h is not best)], best.data, searched)
-    progress(f"the noise remembers {data.memory} samples; looking again")
+    progress(f"{_colour(base, data)}; looking again")
     return searched(unheld(base, data, search.unstated), data)
 
 
@@ -99,7 +102,7 @@ def _beside_memory(search: Search) -> dict[Hypothesis, float]:
 
     def remembering(h: Hypothesis) -> Hypothesis | None:
         try:
-            data, fit = with_memory(h.fit, search.data)
+            data, fit = _coloured(h.fit, search.data)
         except SymidError:
             return None
         return replace(h, fit=fit, data=data)
@@ -116,7 +119,7 @@ def _going_on(search: Search, known: list[Hypothesis], data: Data, searched: Cal
     """A search under the error model of `data` that goes on from what is known, best first."""
     first, *others = known
     again = searched(_refitted(search.base, first.fit, data), data)
-    found = in_threads(lambda h: hypothesis(h.suspects, h.fit, again.base, data), others)
+    found = in_threads(lambda h: hypothesis(h.suspects, h.fit, again.base, data, again.base.values), others)
     again.known = [replace(first, base=again.base, data=data), *by_score([h for h in found if h is not None])]
     again.tried = list(again.known)
     return again
@@ -147,9 +150,33 @@ def _again(
     return search, reduce(search.better, known, again), ranking
 
 
+def _coloured(fit: Fit, data: Data) -> tuple[Data, Fit]:
+    """The likeliest of what leaves white innovations: sensors with a memory, correlated random forces, or both.
+
+    The same data and fit where the innovations are white already, or nothing makes them so.
+    """
+    if remembered(fit.innovations) <= data.memory:
+        return data, fit
+    possible = [with_memory(fit, data)]
+    forces = with_correlated_forces(fit, data)
+    if forces is not None:
+        possible += [(data, forces), with_memory(forces, data)]
+    return max(possible, key=lambda p: _gain(*p, data, fit))
+
+
+def _colour(fit: Fit, data: Data) -> str:
+    """What of the noise is not white, in words."""
+    words = []
+    if is_correlated(fit):
+        words.append(f"random forces are correlated over {fit.values[CORRELATION_TIME]:.2g} s")
+    if data.memory:
+        words.append(f"the noise remembers {data.memory} samples")
+    return " and ".join(words)
+
+
 def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:
-    """Evidence for what noise remembers in `data` beyond `before`, with the penalty of BIC for each coefficient."""
-    coefficients = (data.memory - before.memory) * len(data.sensor_noise) ** 2
+    """Evidence for an error model beyond an earlier one, with the penalty of BIC for each coefficient."""
+    coefficients = (data.memory - before.memory) * len(data.sensor_noise) ** 2 + len(fit.values) - len(white.values)
     return fit.loglik2 - white.loglik2 - coefficients * log(data.samples)
 
 
@@ -174,9 +201,11 @@ def _likeliest(searches: list[Search]) -> Search:
 def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
     """The model as given under another error model, from its own values or from those that go with what was found.
 
-    Its inputs do between their samples what they do there.
+    Its inputs do between their samples what they do there, and its random forces are as correlated.
     """
     base = replace(base, model=base.model.with_holds(**holds_of(explained, base)))
+    if is_correlated(explained) and not is_correlated(base):
+        base = begun_correlated(base, data, explained.values[CORRELATION_TIME])
     kept = [explained.simulator.states.index(s) for s in base.simulator.states]
     begins = explained.initial[:, kept]
     near = replace(

@@ -11,6 +11,8 @@ from symid.discrepancy.say.names import law_name, place_name
 from symid.discrepancy.say.proof import halves_words, proof_words, unproved, verdicts_of_halves
 from symid.discrepancy.say.rest import nameless_words
 from symid.discrepancy.say.story import Story, listed
+from symid.estimation.fitting.correlated import is_correlated
+from symid.model.variants import CORRELATION_TIME
 from symid.units import rough
 
 LOSSES = (
@@ -179,6 +181,9 @@ def _caveats(s: Story) -> list[str]:
             "The sensors' noise was not stated; the highest frequencies of the recording show "
             f"{s.channels(s.audit.noise)}."
         )
+    if is_correlated(s.evidence.found.fit):
+        seconds = rough(s.evidence.found.fit.values[CORRELATION_TIME])
+        out.append(f"The random forces are not white: they are correlated over {seconds} s, which was fitted, too.")
     if s.data.memory:
         out.append(
             f"The noise is not white: each sample follows in part from the {s.data.memory} before it "
