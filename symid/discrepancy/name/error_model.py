@@ -1,9 +1,10 @@
-"""Which error model belongs to a recording: what was filtered, and how long the noise remembers.
+"""Which error model belongs to a recording: what was filtered, and how noise is correlated in time.
 
-What is missing in a model colours its innovations, too. So a memory of the noise competes with what may be missing: it
-is believed at once where it explains more than any one suspect or flexible law does. Else the search comes first,
-with white innovations. Colour that outlasts the best explanation is then taken for the sensors', unless a flexible law
-explains more than both, and the search begins anew with noise that remembers as much.
+What is missing in a model colours its innovations, too. So noise that is not white, of the sensors or of random forces,
+competes with what may be missing: it is believed at once where it explains more than any one suspect or flexible law
+does, and more than one of them and the colour that it leaves. Else the search comes first, with white innovations.
+Colour that outlasts the best explanation is then taken for noise, unless a flexible law explains more than both, and
+the search begins anew with noise that is as correlated.
 
 A filter's cutoff hangs on what is missing, too: the suspect that explains most may move it before noise is given a
 memory, under which it keeps its value.
@@ -56,7 +57,7 @@ def with_error_model(
         with suppress(SymidError):  # where the model with it cannot be begun anew the cutoff stays where it was
             data, fit = settle(search.of_one.fit, search.data)
             search = searched(_refitted(search.base, fit, data), data)
-    search = _remembering(search, searched, progress)
+    search = _with_colour(search, searched, progress)
     found, ranking = search.run()
     if holds_of(found.fit, search.base) != holds_of(search.base, search.base):
         progress("inputs are likelier to do something else between their samples; looking again")
@@ -72,11 +73,14 @@ def with_error_model(
     if explained is found.fit or found.evidence(1.0) + more < search.flexible().evidence(1.0):
         return search, found, ranking
     progress(f"{_colour(explained, data)}; looking again")
-    return _again(search, found, data, unheld(explained, data, search.unstated), searched)
+    try:
+        return _again(search, found, data, unheld(explained, data, search.unstated), searched)
+    except SymidError:  # what was found before is not lost
+        return search, found, ranking
 
 
-def _remembering(search: Search, searched: Callable[[Fit, Data], Search], progress: Callable[[str], None]) -> Search:
-    """A search under noise with a memory, where that explains more than any one suspect does; else the same.
+def _with_colour(search: Search, searched: Callable[[Fit, Data], Search], progress: Callable[[str], None]) -> Search:
+    """A search under noise that is not white, where that explains more than any one suspect does; else the same.
 
     A long memory takes up what a law with one unknown explains, and fits under it need not find that law again. Where
     the likeliest suspect and what it leaves to noise explain more than noise does alone, the search goes on from both.
@@ -88,7 +92,7 @@ def _remembering(search: Search, searched: Callable[[Fit, Data], Search], progre
     alone = _gain(data, base, search.data, search.base)
     if alone <= most:
         return search
-    beside = _beside_memory(search)
+    beside = _beside_colour(search)
     best = max(beside, key=beside.__getitem__, default=None)
     if best is not None and beside[best] > alone:
         progress(f"beside {best.suspect.term} {_colour(best.fit, best.data)}; going on")
@@ -97,10 +101,10 @@ def _remembering(search: Search, searched: Callable[[Fit, Data], Search], progre
     return searched(unheld(base, data, search.unstated), data)
 
 
-def _beside_memory(search: Search) -> dict[Hypothesis, float]:
-    """The likeliest suspects alone with noise that remembers what each leaves to it, and the value of both together."""
+def _beside_colour(search: Search) -> dict[Hypothesis, float]:
+    """The likeliest suspects alone with the noise that each leaves, and the value of both together."""
 
-    def remembering(h: Hypothesis) -> Hypothesis | None:
+    def coloured(h: Hypothesis) -> Hypothesis | None:
         try:
             data, fit = _coloured(h.fit, search.data)
         except SymidError:
@@ -110,7 +114,7 @@ def _beside_memory(search: Search) -> dict[Hypothesis, float]:
     few = search.single[:FEW]
     return {
         k: search.value(h, 1.0) + _gain(k.data, k.fit, search.data, h.fit)
-        for h, k in zip(few, in_threads(remembering, few), strict=True)
+        for h, k in zip(few, in_threads(coloured, few), strict=True)
         if k is not None
     }
 
@@ -138,7 +142,7 @@ def _again(
     Noise with a memory may take up so much of what is missing that a search which begins anew goes astray.
     """
     likes = equivalents(found, search.tried)
-    if search.known:
+    if search.known and found.suspects:
         known = [replace(found, fit=explained), *(h for h in search.known if h.suspects != found.suspects)]
         again = _going_on(search, known, data, searched)
         return again, *again.run(to_end)
