@@ -125,7 +125,7 @@ def _going_on(search: Search, known: list[Hypothesis], data: Data, searched: Cal
     again = searched(_refitted(search.base, first.fit, data), data)
     found = in_threads(lambda h: hypothesis(h.suspects, h.fit, again.base, data, again.base.values), others)
     again.known = [replace(first, base=again.base, data=data), *by_score([h for h in found if h is not None])]
-    again.tried = list(again.known)
+    again.tried, again.clocks = list(again.known), search.clocks
     return again
 
 
