@@ -127,6 +127,10 @@ class Derived:
         Parameters
         ----------
         shortest : the least T [s]; the Parameter `noise_correlation_time` is that of all noises.
+
+        Raises
+        ------
+        ModelError : no Noise, one that is correlated already, or a time that is not positive.
         """
         return variants.with_correlated_noise(self._model, shortest)
 

@@ -106,6 +106,12 @@ def with_input_noise(model: Model) -> Model:
 
 def with_correlated_noise(model: Model, shortest: float) -> Model:
     """With each Noise w replaced by a State x of T dx/dt + x = w, of which T is a Parameter of at least `shortest`."""
+    if not model.noises:
+        raise ModelError(
+            f"with_correlated_noise: model '{model.name}' has no process noise; add a Noise to an equation"
+        )
+    if not 0 < (shortest := _number("with_correlated_noise: shortest", shortest)) < inf:
+        raise ModelError(f"with_correlated_noise: shortest={shortest:g}: give a positive number of seconds")
     new, standing = model.copy(), {}
     time = Parameter(unit="s", bounds=(shortest, inf), meaning="time over which process noise is correlated")
     setattr(new, CORRELATION_TIME, time)

@@ -6,6 +6,7 @@ import sympy as sm
 from scipy.signal import lfilter
 
 import symid as si
+from symid.errors import ModelError
 from symid.model.variants import CORRELATION_TIME
 from symid.simulation import Simulator
 
@@ -71,6 +72,20 @@ def test_a_law_beside_forces_that_last_is_found():
     found = diagnosed(recorded(sail().with_term(term), 2, **{name: 0.4}))
     (effect,) = found.effects
     assert effect.name == "coulomb_friction" and effect.parameters["torque_Nm"][0] == pytest.approx(0.4, rel=0.15)
+
+
+@pytest.mark.parametrize("shortest", [0.0, -1.0, np.nan, np.inf, "soon"])
+def test_a_correlation_time_that_is_none_is_refused(shortest):
+    with pytest.raises(ModelError, match="shortest"):
+        sail().with_correlated_noise(shortest)
+
+
+def test_noise_is_correlated_once_and_only_where_there_is_some():
+    with pytest.raises(ModelError, match="'noise_correlation_time' is declared already"):
+        sail().with_correlated_noise(0.01).with_correlated_noise(0.01)
+    calm = si.Model("calm")
+    with pytest.raises(ModelError, match="has no process noise"):
+        calm.with_correlated_noise(0.01)
 
 
 def test_correlated_noise_has_the_variance_of_its_formula():

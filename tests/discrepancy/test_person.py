@@ -20,5 +20,5 @@ def test_a_memory_of_the_noise_does_not_hide_late_feedback(shared):
         progress=told.append,
     )
     assert any("beside" in text and ("delay" in text or "muscle_lag" in text) for text in told)
-    assert not {e.name for e in found.effects} & {"elastic_mount", "boucwen_hysteresis", "joint_drag"}
+    assert not {e.name for e in found.effects} & {"elastic_mount", "bouc_wen_hysteresis", "quadratic_drag"}
     assert found.verdict == "unexplained"

@@ -139,7 +139,8 @@ def _again(
 ) -> tuple[Search, Hypothesis, list[Hypothesis]]:
     """A search under the error model of `data`, and the best of what it finds and what explained as much before.
 
-    Noise with a memory may take up so much of what is missing that a search which begins anew goes astray.
+    Noise with a memory may take up so much of what is missing that a search which begins anew goes astray. One that
+    went on from what was known goes on from what it found.
     """
     likes = equivalents(found, search.tried)
     if search.known and found.suspects:

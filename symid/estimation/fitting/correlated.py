@@ -10,6 +10,7 @@ from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.signals.data import Data
 from symid.model.variants import CORRELATION_TIME
+from symid.simulation import simulator
 
 STARTS = 3.0, 30.0
 """Samples over which forces are correlated where a fit begins. Shorter ones are nearly white, and far longer ones a
@@ -27,8 +28,8 @@ def with_correlated_forces(fit: Fit, data: Data) -> Fit | None:
         return None
     found = []
     for samples in STARTS:
-        begin = begun_correlated(fit, data, samples * data.segments[0].step)
         try:
+            begin = begun_correlated(fit, data, samples * data.segments[0].step)
             found.append(Fitter.of(begin, data).again(begin))
         except SymidError:
             continue
@@ -39,7 +40,7 @@ def begun_correlated(fit: Fit, data: Data, seconds: float) -> Fit:
     """Where a fit with forces that are correlated over so many seconds begins. Below a sample they would be white."""
     model = fit.model.with_correlated_noise(data.segments[0].step)
     states = dict(zip(fit.simulator.states, fit.initial.T, strict=True))
-    initial = [states.get(x, np.zeros(len(fit.initial))) for x in model.states]
+    initial = [states.get(x, np.zeros(len(fit.initial))) for x in simulator(model).states]
     return replace(
         fit,
         model=model,
