@@ -132,7 +132,7 @@ class Input(AlongTime, Component):
     channel : names the column, by default the input's name.
     hold : what the signal does between its samples. "zero" keeps each sample until the next one, as a
         digital-to-analogue converter does (zero-order hold; Astrom & Wittenmark 1997, section 2.3);
-        "linear" joins them by straight lines; "cubic" by cubics without a corner at the samples (Bessel's; de Boor
+        "linear" joins them by straight lines; "cubic" by the cubic spline through them (not-a-knot; de Boor
         1978, chapter IV). "smooth" stands for "cubic" wherever nothing can tell; a scheme of second order whose nodes
         are the samples takes the means of neighbours, which is the same to its order. In a diagnosis "smooth" becomes
         "either": straight lines, or cubics where these are likelier.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.codegen.ode import BETWEEN, OdeSource
-from symid.recording.signals.between import bend, slopes
+from symid.recording.signals.between import bend
 from symid.simulation.run import Run
 
 
@@ -43,7 +43,7 @@ class Past:
         between[: len(source.input_between)] = source.input_between
         self.held, self.cubic = (between == BETWEEN.index(k) for k in ("zero", "cubic"))
         self.any_held, self.any_cubic = bool(self.held.any()), bool(self.cubic.any())
-        self.slopes, self.lines = slopes(run.times, run.given), np.zeros_like(run.given)
+        self.lines = np.zeros_like(run.given)
         self.lines[:-1] = np.diff(run.given, axis=0) / np.diff(run.times)[:, None]
         self.flat = np.zeros(run.given.shape[1])
         self.steps: list[Step] = []
@@ -86,7 +86,7 @@ class Past:
         slope = self.lines[k] if 0 <= f <= 1 else self.flat
         value = u[k] + min(max(f, 0.0), 1.0) * (u[k + 1] - u[k])
         if self.any_cubic and 0 <= f <= 1:
-            more, steeper = bend(f, h, self.slopes[k] - slope, self.slopes[k + 1] - slope)
+            more, steeper = bend(f, h, self.run.slopes[k] - slope, self.run.slopes[k + 1] - slope)
             value, slope = value + self.cubic * more, slope + self.cubic * steeper
         if self.any_held:
             at_end = present == k - 1 and time - t[k] < 1e-9 * h

@@ -1,19 +1,6 @@
 /* Inputs, late signals, rates and outputs at one time of a run, with forward sensitivities S = dx/dq, which obey
  * M S' = -(r_x S + r_late S_late + r_p); q = chosen parameters, then chosen initial states. */
 
-/* Slope of input i at sample k of two or more: of the parabola through the three samples next to it (cubic Bessel
- * interpolation; de Boor 1978, chapter IV). */
-static double slope_at(const Work *v, long k, int i)
-{
-    const Run *r = &v->r;
-    if (r->early + r->N == 2) return (r->u[NU+i] - r->u[i]) / (r->t[1] - r->t[0]);
-    long middle = k == -r->early ? k + 1 : k == r->N - 1 ? k - 1 : k;
-    const double *u = r->u + middle*NU + i, *t = r->t + middle;
-    double before = (u[0] - u[-NU]) / (t[0] - t[-1]), after = (u[NU] - u[0]) / (t[1] - t[0]);
-    double bend = (after - before) / (t[1] - t[-1]);
-    return before + bend * (t[0] - t[-1] + 2 * (r->t[k] - t[0]));
-}
-
 /* All inputs at time s: linear or cubic between samples or held, constant beyond the ends. slope may be null.
  * k is the present interval: at its end a held input still has the value of its start. */
 static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
@@ -42,7 +29,7 @@ static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
         if (v->m->input_between[i] == 2 && !out) {
             /* Hermite's cubic: what its slopes at both samples differ from the straight line's. */
             double line = (b[i] - a[i]) / h, g = 1 - f;
-            double first = slope_at(v, k, i) - line, last = slope_at(v, k + 1, i) - line;
+            double first = r->du[k*NU+i] - line, last = r->du[(k+1)*NU+i] - line;
             u[i] += h * f * g * (g * first - f * last);
             if (slope) slope[i] += g * (1 - 3*f) * first - f * (2 - 3*f) * last;
         }

@@ -19,6 +19,7 @@ class Run:
     limit : a state larger than this ends the run.
     early : rows of `times` and `given` before the start, for inputs that act late.
     times : (early + N,) [s], of which `t` are the last N. given : (early + N, inputs), of which `u` are.
+    slopes : of `given` at its rows, of which `du` are the last N; None where no input is a cubic.
     w : (N, noises), as `given` with at least one column. p, c, x0 : values.
     qp, qx : (nqp,), (nqx,) parameters and initial states to differentiate by; nq of both.
     gain : (npast + 1, n, m) or (n, m) corrections at the samples and recorded : (N, m), or None.
@@ -33,6 +34,7 @@ class Run:
     early: int
     times: np.ndarray
     given: np.ndarray
+    slopes: np.ndarray | None
     w: np.ndarray
     p: np.ndarray
     c: np.ndarray
@@ -56,6 +58,10 @@ class Run:
     @property
     def u(self) -> np.ndarray:
         return self.given[self.early :]
+
+    @property
+    def du(self) -> np.ndarray | None:
+        return None if self.slopes is None else self.slopes[self.early :]
 
     @property
     def N(self) -> int:

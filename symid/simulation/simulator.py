@@ -11,10 +11,11 @@ import numpy as np
 from symid.checked import nearest
 from symid.codegen.build import or_numpy
 from symid.codegen.kept import kept_source
-from symid.codegen.ode import OdeSource, ode_source
+from symid.codegen.ode import BETWEEN, OdeSource, ode_source
 from symid.deadline import check
 from symid.errors import SymidError
 from symid.model import Model
+from symid.recording.signals.between import slopes
 from symid.simulation.compiled import CompiledLoop
 from symid.simulation.linear import Linearised
 from symid.simulation.loop import PythonLoop
@@ -111,13 +112,16 @@ class Simulator:
             )
         corrected = gain is not None
         given = self._columns("input", self.source.inputs, inputs, n)
+        given = given if earlier is None else np.vstack([self._before(given[0], earlier), given])
+        cubic = BETWEEN.index("cubic") in self.source.input_between
         run = Run(
             substeps,
             METHODS[method],
             limit,
             len(times) - n,
             times,
-            given if earlier is None else np.vstack([self._before(given[0], earlier), given]),
+            given,
+            slopes(times, given) if cubic else None,
             self._columns("noise", self.source.noises, noise, n, missing=0.0),
             self._vector("parameter", self.parameters, parameters),
             self.constants,

@@ -109,6 +109,19 @@ def with_jumps_again(found: Hypothesis, made: Sequence[str]) -> Hypothesis:
     return found
 
 
+def with_jumps_beside(found: Hypothesis, made: Sequence[str], less: Hypothesis) -> Hypothesis:
+    """The same suspects with dry friction that `less` had already as abrupt as it is likeliest beside what is new.
+
+    Where a sensor is very good, the last percents of it would become a wrong gain or length. Parameters as of
+    `with_fitted_jumps`.
+    """
+    if found.fit.kalman_gain is None:
+        for name in set(_used(less, made, less.base.model)).intersection(_used(found, made, found.base.model)):
+            widths_of = _Widths(found, name)
+            found = widths_of.best(widths_of.sharp)
+    return found
+
+
 def with_sharp_jumps(found: Hypothesis, made: Sequence[str], pool: Sequence[Suspect]) -> Hypothesis:
     """The same suspects with dry friction that jumps, or friction with the speed beside it, if that is believed more.
 
@@ -159,7 +172,7 @@ class _Widths:
     def __init__(self, found: Hypothesis, name: str):
         self.found, self.name, self.model = found, name, found.base.model
         self.sharp = self.model.constants[name].value
-        self.widest = _widths_at(self.model, self.model[name], found.data)[-1]
+        _, self.wide, *_, self.widest = _widths_at(self.model, self.model[name], found.data)
         self.tried: dict[float, Hypothesis | None] = {self.sharp: found}
 
     def best(self, told: float | None) -> Hypothesis:
@@ -173,9 +186,12 @@ class _Widths:
         if free is not None:
             width = free.values[self.name]
             self.tried.setdefault(width, self._fitted(width, free))
-        price = POLICY.accept + price_of_one(found.share * found.data.samples)
-        wider = self.tried[max(self.tried, key=self.score)]
-        return polished(wider) if found.share * (wider.log_ratio - found.log_ratio) > price else found
+        width = max(self.tried, key=self.score)
+        # What is as good as a jump says nothing else than one; a wide one would imitate friction with the speed.
+        share = found.share if width >= self.wide else 1.0
+        price = POLICY.accept + price_of_one(share * found.data.samples)
+        likelier = self.tried[width]
+        return polished(likelier) if share * (likelier.log_ratio - found.log_ratio) > price else found
 
     def fitted(self, width: float) -> Hypothesis | None:
         if width not in self.tried:

@@ -14,7 +14,7 @@ from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, explore
 from symid.discrepancy.name.held import Holds
 from symid.discrepancy.name.judge import Judge
-from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_of, with_sharp_jumps
+from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
 from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
@@ -85,7 +85,7 @@ class Search(Judge):
         holds = Holds(self.data, self.unstated, self.better, self.jumps)
         more = self.known[0] if self.known else self._more(best, single)
         while more is not None:
-            best = begun_anew(polished(more))
+            best = with_jumps_beside(begun_anew(polished(more)), self.jumps, best)
             if (otherwise := holds.asked_again(best)) is not best:
                 return otherwise, single
             curved = with_likeliest_curves(best.fit, self.data)

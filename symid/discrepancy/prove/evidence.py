@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis, is_met
+from symid.discrepancy.name.jump import with_jumps_of
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.certain import beyond_chance, honest
@@ -90,7 +91,8 @@ def evidence_of(by: Tested, search: Search, ranking: Sequence[Hypothesis], task:
     ----------
     ranking : each suspect alone, best first. plain : the recording as it is, of which errors are told.
     """
-    base, data, found = search.base, search.data, by.found
+    data, found = search.data, by.found
+    base = with_jumps_of(found.fit, search.base, search.jumps)
     windows = _windows(task, plain, data)
     unnamed = nameless(found, data, windows.get("heldout"), search.progress) if by.nameless else Nameless()
     final = improved(found, unnamed) if unnamed.fits and not near_noise(found, data) else found.fit

@@ -6,16 +6,14 @@ import numpy as np
 
 
 def slopes(time: np.ndarray, u: np.ndarray) -> np.ndarray:
-    """(N, k) slopes at the samples of (N, k) inputs, N >= 2: of the parabola through the three next to each.
+    """(N, k) slopes at the samples of (N, k) inputs, N >= 2: of the cubic spline through them.
 
-    Cubic Bessel interpolation; de Boor 1978, chapter IV.
+    Not-a-knot; de Boor 1978, chapter IV. At six samples a period it is 0.7 % too flat; the parabola through the three
+    samples next to each would be 17 %, which a good sensor takes for missing physics.
     """
-    h = np.diff(time)[:, None]
-    line = np.diff(u, axis=0) / h
-    if len(time) == 2:
-        return np.vstack([line, line])
-    bends = np.diff(line, axis=0) / (h[1:] + h[:-1])
-    return np.vstack([line[:1] - bends[:1] * h[0], line[:-1] + bends * h[:-1], line[-1:] + bends[-1:] * h[-1]])
+    from scipy.interpolate import CubicSpline
+
+    return CubicSpline(time, u)(time, 1)
 
 
 def bend(
