@@ -14,7 +14,7 @@ from symid.model.c_function import CFunction
 from symid.model.declare import Port
 from symid.model.quantity import symbol
 from symid.model.table import Piecewise as Curve
-from symid.units import base_unit, dimension
+from symid.units import base_unit, dimension, known_unit
 
 if TYPE_CHECKING:
     from symid.model.model import Model
@@ -93,6 +93,8 @@ def unit_of(model: Model, expr: sm.Expr, about: sm.Expr) -> str:
     except (Mismatch, KeyError):
         return ""
     usual = _TORQUES if place == dimension("1") else _FORCES
+    moved = {known_unit(x.unit).si for x in model.states.values() if about.has(x.symbol)}
+    usual += tuple(f"{unit}/s^2" for unit in moved if unit.isalpha())
     known = next((unit for unit in usual if dimension(unit) == found), None)
     return known or base_unit(found)
 

@@ -2,7 +2,8 @@
 
 from symid.simulation.linear import Linearised
 from symid.simulation.platform import PlatformProtocol, synthetic_recording
+from symid.simulation.run import Signals
 from symid.simulation.simulator import Simulator, simulator
 from symid.simulation.trajectory import Trajectory
 
-__all__ = ["Linearised", "PlatformProtocol", "Simulator", "Trajectory", "simulator", "synthetic_recording"]
+__all__ = ["Linearised", "PlatformProtocol", "Signals", "Simulator", "Trajectory", "simulator", "synthetic_recording"]

@@ -39,13 +39,14 @@ class Past:
 
     def __init__(self, run: Run, source: OdeSource, lag: np.ndarray, dlag: np.ndarray):
         self.run, self.source, self.lag, self.dlag = run, source, lag, dlag
-        between = np.zeros(run.given.shape[1], dtype=int)
+        given, times = run.signals.given, run.signals.times
+        between = np.zeros(given.shape[1], dtype=int)
         between[: len(source.input_between)] = source.input_between
         self.held, self.cubic = (between == BETWEEN.index(k) for k in ("zero", "cubic"))
         self.any_held, self.any_cubic = bool(self.held.any()), bool(self.cubic.any())
-        self.lines = np.zeros_like(run.given)
-        self.lines[:-1] = np.diff(run.given, axis=0) / np.diff(run.times)[:, None]
-        self.flat = np.zeros(run.given.shape[1])
+        self.lines = np.zeros_like(given)
+        self.lines[:-1] = np.diff(given, axis=0) / np.diff(times)[:, None]
+        self.flat = np.zeros(given.shape[1])
         self.steps: list[Step] = []
         self.begins: list[float] = []
         n, zero = len(run.x0), np.zeros((len(run.x0), run.nq))
@@ -75,7 +76,7 @@ class Past:
 
         k is the present interval: at its end a held input still has the value of its start.
         """
-        t, u, present = self.run.times, self.run.given, k + self.run.early
+        t, u, present = self.run.signals.times, self.run.signals.given, k + self.run.early
         k = min(max(present, 0), len(t) - 2)
         while k > 0 and time < t[k]:
             k -= 1
@@ -86,7 +87,8 @@ class Past:
         slope = self.lines[k] if 0 <= f <= 1 else self.flat
         value = u[k] + min(max(f, 0.0), 1.0) * (u[k + 1] - u[k])
         if self.any_cubic and 0 <= f <= 1:
-            more, steeper = bend(f, h, self.run.slopes[k] - slope, self.run.slopes[k + 1] - slope)
+            slopes = self.run.signals.slopes
+            more, steeper = bend(f, h, slopes[k] - slope, slopes[k + 1] - slope)
             value, slope = value + self.cubic * more, slope + self.cubic * steeper
         if self.any_held:
             at_end = present == k - 1 and time - t[k] < 1e-9 * h
@@ -118,7 +120,7 @@ class Past:
         What it was at one moment would not answer to a small change of the lag; where a sample is met the slope is that
         for a little more lag. k is the present interval.
         """
-        t, u, k = self.run.times, self.run.given[:, i], k + self.run.early
+        t, u, k = self.run.signals.times, self.run.signals.given[:, i], k + self.run.early
         begin, end, total, met = self.start - lag, self.start - lag + self.span, 0.0, 1e-9 * self.span
         while k > 0 and begin <= t[k] + met:
             k -= 1

@@ -9,6 +9,24 @@ import numpy as np
 METHODS = {"rk4": 0, "euler": 1, "stiff": 2}
 
 
+@dataclass(frozen=True, eq=False)
+class Signals:
+    """What a system is given at its samples, checked once for any number of runs: `Simulator.signals`.
+
+    Attributes
+    ----------
+    early : rows of `times` and `given` before the start, for inputs that act late.
+    times : (early + N,) [s]. given : (early + N, inputs). slopes : of `given`; None where no input is a cubic.
+    w : (N, noises). Where there are no inputs or no noises, one column of zeros.
+    """
+
+    early: int
+    times: np.ndarray
+    given: np.ndarray
+    slopes: np.ndarray | None
+    w: np.ndarray
+
+
 @dataclass(eq=False)
 class Run:
     """Checked, contiguous arrays of one simulation over N samples.
@@ -17,10 +35,7 @@ class Run:
     ----------
     substeps, method : of the integrator, a value of `METHODS`.
     limit : a state larger than this ends the run.
-    early : rows of `times` and `given` before the start, for inputs that act late.
-    times : (early + N,) [s], of which `t` are the last N. given : (early + N, inputs), of which `u` are.
-    slopes : of `given` at its rows, of which `du` are the last N; None where no input is a cubic.
-    w : (N, noises), as `given` with at least one column. p, c, x0 : values.
+    signals : what it is given, of which `t`, `u` and `du` are the last N rows. p, c, x0 : values.
     qp, qx : (nqp,), (nqx,) parameters and initial states to differentiate by; nq of both.
     gain : (npast + 1, n, m) or (n, m) corrections at the samples and recorded : (N, m), or None.
     ht, hx : (nh,) and (nh, n) history before the start, or None.
@@ -31,11 +46,7 @@ class Run:
     substeps: int
     method: int
     limit: float
-    early: int
-    times: np.ndarray
-    given: np.ndarray
-    slopes: np.ndarray | None
-    w: np.ndarray
+    signals: Signals
     p: np.ndarray
     c: np.ndarray
     x0: np.ndarray
@@ -52,20 +63,28 @@ class Run:
     stiff: int = 0
 
     @property
+    def early(self) -> int:
+        return self.signals.early
+
+    @property
     def t(self) -> np.ndarray:
-        return self.times[self.early :]
+        return self.signals.times[self.early :]
 
     @property
     def u(self) -> np.ndarray:
-        return self.given[self.early :]
+        return self.signals.given[self.early :]
 
     @property
     def du(self) -> np.ndarray | None:
-        return None if self.slopes is None else self.slopes[self.early :]
+        return None if self.signals.slopes is None else self.signals.slopes[self.early :]
+
+    @property
+    def w(self) -> np.ndarray:
+        return self.signals.w
 
     @property
     def N(self) -> int:
-        return len(self.times) - self.early
+        return len(self.w)
 
     @property
     def nqp(self) -> int:

@@ -19,7 +19,7 @@ from symid.recording.signals.between import slopes
 from symid.simulation.compiled import CompiledLoop
 from symid.simulation.linear import Linearised
 from symid.simulation.loop import PythonLoop
-from symid.simulation.run import METHODS, Run
+from symid.simulation.run import METHODS, Run, Signals
 from symid.simulation.trajectory import Trajectory
 
 LARGEST = 1e100
@@ -60,7 +60,7 @@ class Simulator:
         self,
         parameters: Mapping[str, float] | np.ndarray,
         initial_state: Mapping[str, float] | np.ndarray,
-        time: np.ndarray,
+        time: np.ndarray | Signals,
         inputs: Mapping[str, np.ndarray] | None = None,
         *,
         noise: Mapping[str, np.ndarray] | None = None,
@@ -82,6 +82,7 @@ class Simulator:
         parameters : value [SI] of every parameter, by name or as an array in declared order.
         initial_state : likewise for the states at ``time[0]``.
         time : (N,) increasing [s]; inputs and noise : name -> (N,), noise of an interval at its start.
+            `signals` gives one thing in place of these and of `earlier`, for many runs.
         sensitivity, initial_sensitivity : parameters and states (initial values) to differentiate by.
         substeps : steps of the integrator per sample interval. method : ``"rk4"``, ``"euler"``, or ``"stiff"``: as
             ``"rk4"``, but steps in which something dies out faster than that can follow are implicit, of order 2, and
@@ -102,27 +103,14 @@ class Simulator:
         SymidError : a value, input or name is missing, of the wrong length or not finite; or a `deadline` has passed.
         """
         check()
-        time = _array(time)
-        times = time if earlier is None else np.concatenate([_array(earlier[0]), time])
-        n, q = len(time), len(sensitivity) + len(initial_sensitivity)
-        if n < 2 or not np.all(np.diff(times) > 0):
-            raise SymidError(
-                f"simulation of '{self.model.name}': time needs at least two increasing samples, found {n}, and any "
-                "earlier ones before them"
-            )
+        signals = time if isinstance(time, Signals) else self.signals(time, inputs, noise, earlier)
+        n, q = len(signals.w), len(sensitivity) + len(initial_sensitivity)
         corrected = gain is not None
-        given = self._columns("input", self.source.inputs, inputs, n)
-        given = given if earlier is None else np.vstack([self._before(given[0], earlier), given])
-        cubic = BETWEEN.index("cubic") in self.source.input_between
         run = Run(
             substeps,
             METHODS[method],
             limit,
-            len(times) - n,
-            times,
-            given,
-            slopes(times, given) if cubic else None,
-            self._columns("noise", self.source.noises, noise, n, missing=0.0),
+            signals,
             self._vector("parameter", self.parameters, parameters),
             self.constants,
             self._vector("initial state", self.states, initial_state),
@@ -141,7 +129,31 @@ class Simulator:
         if reached < 0:
             raise MemoryError(f"simulation of '{self.model.name}' over {n} samples with {q} sensitivities")
         wrt = (*sensitivity, *(f"{s}(0)" for s in initial_sensitivity))
-        return Trajectory(time, run.X, run.Y, self.states, self.outputs, wrt, run.SX, run.SY, reached, run.stiff)
+        return Trajectory(run.t, run.X, run.Y, self.states, self.outputs, wrt, run.SX, run.SY, reached, run.stiff)
+
+    def signals(
+        self,
+        time: np.ndarray,
+        inputs: Mapping[str, np.ndarray] | None = None,
+        noise: Mapping[str, np.ndarray] | None = None,
+        earlier: tuple[np.ndarray, Mapping[str, np.ndarray]] | None = None,
+    ) -> Signals:
+        """What `simulate` is given at its samples, checked, for many runs: in place of its `time`.
+
+        Parameters and errors as of `simulate`.
+        """
+        time = _array(time)
+        times, n = time if earlier is None else np.concatenate([_array(earlier[0]), time]), len(time)
+        if n < 2 or not np.all(np.diff(times) > 0):
+            raise SymidError(
+                f"simulation of '{self.model.name}': time needs at least two increasing samples, found {n}, and any "
+                "earlier ones before them"
+            )
+        given = self._columns("input", self.source.inputs, inputs, n)
+        given = given if earlier is None else np.vstack([self._before(given[0], earlier), given])
+        cubic = BETWEEN.index("cubic") in self.source.input_between
+        w = self._columns("noise", self.source.noises, noise, n, missing=0.0)
+        return Signals(len(times) - n, times, given, slopes(times, given) if cubic else None, w)
 
     def batch(self, runs: Sequence[Mapping], *, threads: int = 2, **common: object) -> list[Trajectory]:
         """`simulate(**common, **run)` for every run of `runs`, on `threads`; the same numbers as a loop."""

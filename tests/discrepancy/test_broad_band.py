@@ -46,4 +46,5 @@ def test_what_a_force_does_between_samples_is_no_missing_physics(cubic):
         return
     (effect,) = found.effects
     assert found.verdict == "missing_physics" and effect.name == "cubic_stiffness"
+    assert found.unit_of(effect, "k3_Nm_rad3") == "1/s^2/V^2"
     assert effect.parameters["k3_Nm_rad3"][0] == pytest.approx(cubic * square, rel=0.005)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
-from symid.simulation import Simulator, Trajectory
+from symid.simulation import Signals, Simulator, Trajectory
 
 FEWEST = 8
 """Samples of the shortest segment."""
@@ -33,6 +34,7 @@ class Segment:
     ratio: int = 1
     undone: np.ndarray | None = None
     earlier: tuple[np.ndarray, Mapping[str, np.ndarray]] | None = None
+    _given: dict[tuple, Signals] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def step(self) -> float:
@@ -100,41 +102,40 @@ class Segment:
         Parameters
         ----------
         substeps : of the integrator in each sample of the outputs; at least one in each of the inputs.
-        options : of `Simulator.simulate`.
+        options : of `Simulator.simulate`, but no `noise`.
         """
-        if self.ratio == 1:
-            return simulator.simulate(
-                parameters,
-                initial_state,
-                self.time,
-                self.inputs,
-                gain=gain,
-                recorded=self.recorded,
-                substeps=substeps,
-                earlier=self.earlier,
-                **options,
-            )
-        n = (len(self.time) - 1) * self.ratio + 1
-        recorded = np.full((n, self.recorded.shape[1]), np.nan)
-        recorded[:: self.ratio] = self.recorded
-        time = np.interp(np.arange(n) / self.ratio, np.arange(len(self.time)), self.time)
         run = simulator.simulate(
             parameters,
             initial_state,
-            time,
-            self.inputs,
+            self._signals(simulator),
             gain=_between(gain, self.ratio),
-            recorded=recorded,
+            recorded=self._compared,
             substeps=-(-substeps // self.ratio),
-            earlier=self.earlier,
             **options,
         )
-        return run.every(self.ratio)
+        return run if self.ratio == 1 else run.every(self.ratio)
+
+    def _signals(self, simulator: Simulator) -> Signals:
+        """The inputs as a simulator is given them, which is the same for all that take the same ones."""
+        source = simulator.source
+        key = source.inputs, tuple(source.input_between), len(source.noises)
+        if key not in self._given:
+            n = (len(self.time) - 1) * self.ratio + 1
+            time = np.interp(np.arange(n) / self.ratio, np.arange(len(self.time)), self.time)
+            self._given[key] = simulator.signals(time, self.inputs, earlier=self.earlier)
+        return self._given[key]
+
+    @cached_property
+    def _compared(self) -> np.ndarray:
+        """`recorded` at all samples of the inputs, NaN where nothing is compared."""
+        recorded = np.full(((len(self.time) - 1) * self.ratio + 1, self.recorded.shape[1]), np.nan)
+        recorded[:: self.ratio] = self.recorded
+        return recorded
 
 
 def _between(gain: np.ndarray | None, ratio: int) -> np.ndarray | None:
     """Gains for states at earlier samples (1 + k, n, m), for those at samples of the inputs, by interpolation."""
-    if gain is None or gain.ndim == 2:
+    if gain is None or gain.ndim == 2 or ratio == 1:
         return gain
     at = np.arange((len(gain) - 1) * ratio + 1) / ratio
     low = np.minimum(at.astype(int), len(gain) - 2)
