@@ -140,7 +140,13 @@ class Simulator:
     ) -> Signals:
         """What `simulate` is given at its samples, checked, for many runs: in place of its `time`.
 
-        Parameters and errors as of `simulate`.
+        Parameters
+        ----------
+        time, inputs, noise, earlier : as of `simulate`.
+
+        Raises
+        ------
+        SymidError : an input or name is missing, of the wrong length or not finite, or times do not increase.
         """
         time = _array(time)
         times, n = time if earlier is None else np.concatenate([_array(earlier[0]), time]), len(time)
