@@ -93,7 +93,7 @@ def unit_of(model: Model, expr: sm.Expr, about: sm.Expr) -> str:
     except (Mismatch, KeyError):
         return ""
     usual = _TORQUES if place == dimension("1") else _FORCES
-    moved = {known_unit(x.unit).si for x in model.states.values() if about.has(x.symbol)}
+    moved = [known_unit(x.unit).si for x in model.states.values() if about.has(x.symbol)]
     usual += tuple(f"{unit}/s^2" for unit in moved if unit.isalpha())
     known = next((unit for unit in usual if dimension(unit) == found), None)
     return known or base_unit(found)

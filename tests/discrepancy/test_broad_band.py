@@ -1,4 +1,4 @@
-"""A resonator shaken by a force that has parts of up to a third of the sampling rate's half."""
+"""A resonator shaken by a force with parts up to a third of the highest frequency that can be recorded."""
 
 import numpy as np
 import pytest

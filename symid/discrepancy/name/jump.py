@@ -116,7 +116,8 @@ def with_jumps_beside(found: Hypothesis, made: Sequence[str], less: Hypothesis) 
     `with_fitted_jumps`.
     """
     if found.fit.kalman_gain is None:
-        for name in set(_used(less, made, less.base.model)).intersection(_used(found, made, found.base.model)):
+        had = _used(less, made, less.base.model)
+        for name in (n for n in _used(found, made, found.base.model) if n in had):
             widths_of = _Widths(found, name)
             found = widths_of.best(widths_of.sharp)
     return found
