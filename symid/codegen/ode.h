@@ -8,7 +8,7 @@ typedef struct { int count; const int *row, *col; } Entries;
 typedef struct {
     int nx, nl, nu, nw, np, nc, ny, outputs_need_rates;
     const int *late_kind, *late_index;      /* 0: of a state, 1: of an input */
-    const int *input_between;               /* samples: 0: linear, 1: constant, 2: cubic */
+    const int *input_between;               /* samples: 0: linear, 1: constant, 2: cubic, 3: quintic */
     void (*mass)(ODE_ARGUMENTS, double *M, double *force);
     void (*observe)(ODE_ARGUMENTS, double *y);
     void (*lags)(ODE_ARGUMENTS, double *lag);

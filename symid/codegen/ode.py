@@ -29,7 +29,7 @@ TABLE = Path(__file__).with_name("ode.h").read_text()
 """The C declaration of what a model exports and the integrating loop reads."""
 ARGUMENTS = ("xd", "x", "l", "u", "w", "p", "c")
 """Arrays of every function, before the time t: rates, states, late signals, inputs, noises, parameters, constants."""
-BETWEEN = "linear", "zero", "cubic"
+BETWEEN = "linear", "zero", "cubic", "band-limited"
 """What an input does between its samples, numbered as rates.c knows it."""
 UNSTATED = {"smooth": "cubic", "either": "linear"}
 """What it does where its declaration leaves that open."""

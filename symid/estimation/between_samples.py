@@ -1,8 +1,9 @@
-"""What the inputs do between their samples, where nobody stated it: straight lines or smooth curves."""
+"""What the inputs do between their samples, where nobody stated it: straight lines or curves."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -11,24 +12,32 @@ from symid.estimation.fitting.fit import Fit, Fitter
 from symid.estimation.fitting.refining import seen
 from symid.estimation.signals.data import Data
 from symid.model import Model
+from symid.recording.signals.between import CURVES
 
 
 def with_likeliest_curves(fit: Fit, data: Data) -> Fit:
-    """The same fit, or that of the model with inputs that are cubic between samples where that is likelier.
+    """The same fit, or that of the model with inputs that are curved between samples where that is likelier.
 
     Straight lines lose the part (w h)^2 / 12 of an input of angular frequency w that is sampled every h: 0.4 % at 30
-    samples a period. With good sensors that is enough to look like a wrong gain or mass.
+    samples a period; cubics 6 % at three. With good sensors that is enough to look like a wrong gain or mass.
     """
-    for names in input_groups(fit.model, [k for k, u in fit.model.inputs.items() if u.hold == "either"]):
-        if any(fit.model.inputs[k].hold != "either" for k in names):
-            continue
-        curved = Fitter(fit.model.with_holds(**dict.fromkeys(names, "cubic")), data, near=fit)
-        if _differs(Fitter.of(fit, data), curved, fit):
-            try:
-                fit = max(fit, curved.again(fit), key=lambda f: f.loglik2)
-            except SymidError:
-                pass  # what cannot be followed is not likelier
+    unstated = [k for k, u in fit.model.inputs.items() if u.hold == "either"]
+    for before, hold in pairwise(("either", *CURVES)):
+        for names in input_groups(fit.model, [k for k in unstated if fit.model.inputs[k].hold == before]):
+            if all(fit.model.inputs[k].hold == before for k in names):
+                fit = _likelier(fit, data, names, hold)
     return fit
+
+
+def _likelier(fit: Fit, data: Data, names: Sequence[str], hold: str) -> Fit:
+    """The same fit, or that with these inputs otherwise between samples where that is likelier."""
+    other = Fitter(fit.model.with_holds(**dict.fromkeys(names, hold)), data, near=fit)
+    if not _differs(Fitter.of(fit, data), other, fit):
+        return fit
+    try:
+        return max(fit, other.again(fit), key=lambda f: f.loglik2)
+    except SymidError:
+        return fit  # what cannot be followed is not likelier
 
 
 def input_groups(model: Model, names: Sequence[str]) -> list[tuple[str, ...]]:

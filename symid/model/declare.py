@@ -21,7 +21,7 @@ from symid.model.prior import Prior
 from symid.model.quantity import AlongTime, Quantity, symbol
 
 Bounds = tuple[float, float]
-HOLDS = ("smooth", "either", "cubic", "linear", "zero")
+HOLDS = ("smooth", "either", "band-limited", "cubic", "linear", "zero")
 REQUIRED: Any = None
 """A unit that was not given: attaching the part to a model refuses it, with the part's name."""
 
@@ -133,9 +133,10 @@ class Input(AlongTime, Component):
     hold : what the signal does between its samples. "zero" keeps each sample until the next one, as a
         digital-to-analogue converter does (zero-order hold; Astrom & Wittenmark 1997, section 2.3);
         "linear" joins them by straight lines; "cubic" by the cubic spline through them (not-a-knot; de Boor
-        1978, chapter IV). "smooth" stands for "cubic" wherever nothing can tell; a scheme of second order whose nodes
-        are the samples takes the means of neighbours, which is the same to its order. In a diagnosis "smooth" becomes
-        "either": straight lines, or cubics where these are likelier.
+        1978, chapter IV); "band-limited" by one of degree 9, which loses 0.2 % of what is sampled three times a period
+        where a cubic one loses 6 %. "smooth" stands for "cubic" wherever nothing can tell; a scheme of second order
+        whose nodes are the samples takes the means of neighbours, which is the same to its order. In a diagnosis
+        "smooth" becomes "either": straight lines, or such curves where these are likelier.
 
     Raises
     ------

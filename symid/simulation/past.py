@@ -42,8 +42,9 @@ class Past:
         given, times = run.signals.given, run.signals.times
         between = np.zeros(given.shape[1], dtype=int)
         between[: len(source.input_between)] = source.input_between
-        self.held, self.cubic = (between == BETWEEN.index(k) for k in ("zero", "cubic"))
-        self.any_held, self.any_cubic = bool(self.held.any()), bool(self.cubic.any())
+        self.held, self.curved = between == BETWEEN.index("zero"), between >= BETWEEN.index("cubic")
+        self.quintic = between == BETWEEN.index("band-limited")
+        self.any_held, self.any_curved = bool(self.held.any()), bool(self.curved.any())
         self.lines = np.zeros_like(given)
         self.lines[:-1] = np.diff(given, axis=0) / np.diff(times)[:, None]
         self.flat = np.zeros(given.shape[1])
@@ -72,7 +73,7 @@ class Past:
             self.start = step.begin + step.span
 
     def inputs_at(self, time: float, k: int) -> tuple[np.ndarray, np.ndarray]:
-        """(inputs,) and slopes: linear or cubic between samples or held, constant beyond the ends.
+        """(inputs,) and slopes: linear or curved between samples or held, constant beyond the ends.
 
         k is the present interval: at its end a held input still has the value of its start.
         """
@@ -86,10 +87,11 @@ class Past:
         f = (time - t[k]) / h
         slope = self.lines[k] if 0 <= f <= 1 else self.flat
         value = u[k] + min(max(f, 0.0), 1.0) * (u[k + 1] - u[k])
-        if self.any_cubic and 0 <= f <= 1:
-            slopes = self.run.signals.slopes
-            more, steeper = bend(f, h, slopes[k] - slope, slopes[k + 1] - slope)
-            value, slope = value + self.cubic * more, slope + self.cubic * steeper
+        if self.any_curved and 0 <= f <= 1:
+            slopes, bends = self.run.signals.slopes, self.run.signals.bends
+            ends = None if bends is None else (bends[k], bends[k + 1])
+            more, steeper = bend(f, h, slopes[k] - slope, slopes[k + 1] - slope, ends, self.quintic)
+            value, slope = value + self.curved * more, slope + self.curved * steeper
         if self.any_held:
             at_end = present == k - 1 and time - t[k] < 1e-9 * h
             held = present if at_end else len(t) - 1 if present > k and f >= 1 else k

@@ -1,7 +1,7 @@
 /* Inputs, late signals, rates and outputs at one time of a run, with forward sensitivities S = dx/dq, which obey
  * M S' = -(r_x S + r_late S_late + r_p); q = chosen parameters, then chosen initial states. */
 
-/* All inputs at time s: linear or cubic between samples or held, constant beyond the ends. slope may be null.
+/* All inputs at time s: linear or curved between samples or held, constant beyond the ends. slope may be null.
  * k is the present interval: at its end a held input still has the value of its start. */
 static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
 {
@@ -26,12 +26,18 @@ static void inputs_at(const Work *v, double s, long k, double *u, double *slope)
         }
         u[i] = a[i] + f * (b[i] - a[i]);
         if (slope) slope[i] = out ? 0.0 : (b[i] - a[i]) / h;
-        if (v->m->input_between[i] == 2 && !out) {
+        if (v->m->input_between[i] >= 2 && !out) {
             /* Hermite's cubic: what its slopes at both samples differ from the straight line's. */
             double line = (b[i] - a[i]) / h, g = 1 - f;
             double first = r->du[k*NU+i] - line, last = r->du[(k+1)*NU+i] - line;
             u[i] += h * f * g * (g * first - f * last);
             if (slope) slope[i] += g * (1 - 3*f) * first - f * (2 - 3*f) * last;
+            if (v->m->input_between[i] == 2) continue;
+            /* His quintic: what its second derivatives at both samples differ from the cubic's. */
+            double p = h * (h * r->ddu[k*NU+i] + 4*first + 2*last) / 2;
+            double q = h * (h * r->ddu[(k+1)*NU+i] - 2*first - 4*last) / 2, both = g*p + f*q;
+            u[i] += f*g*f*g * both;
+            if (slope) slope[i] += f*g * (2*(g - f) * both + f*g * (q - p)) / h;
         }
     }
 }

@@ -15,7 +15,7 @@
 
 typedef struct {
     long N, early, substeps, method, nq, nqp, nqx, nh, npast; /* rows of t and u from -early to N - 1 */
-    const double *t, *u, *du, *w, *p, *c, *x0; /* du: slopes of u, null where no input is a cubic */
+    const double *t, *u, *du, *ddu, *w, *p, *c, *x0; /* first and second derivatives of u, null where no input has any */
     const int *qp, *qx;             /* which parameters, which initial states */
     const double *gain, *recorded;  /* (1 + npast) x NX x NY corrections at the samples, or null: of the
                                        state now, and of what it was 1, 2 ... sample intervals ago */

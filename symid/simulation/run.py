@@ -16,7 +16,8 @@ class Signals:
     Attributes
     ----------
     early : rows of `times` and `given` before the start, for inputs that act late.
-    times : (early + N,) [s]. given : (early + N, inputs). slopes : of `given`; None where no input is a cubic.
+    times : (early + N,) [s]. given : (early + N, inputs).
+    slopes, bends : first and second derivatives of `given`; None where no input has any.
     w : (N, noises). Where there are no inputs or no noises, one column of zeros.
     """
 
@@ -24,6 +25,7 @@ class Signals:
     times: np.ndarray
     given: np.ndarray
     slopes: np.ndarray | None
+    bends: np.ndarray | None
     w: np.ndarray
 
 
@@ -35,7 +37,7 @@ class Run:
     ----------
     substeps, method : of the integrator, a value of `METHODS`.
     limit : a state larger than this ends the run.
-    signals : what it is given, of which `t`, `u` and `du` are the last N rows. p, c, x0 : values.
+    signals : what it is given, of which `t`, `u`, `du` and `ddu` are the last N rows. p, c, x0 : values.
     qp, qx : (nqp,), (nqx,) parameters and initial states to differentiate by; nq of both.
     gain : (npast + 1, n, m) or (n, m) corrections at the samples and recorded : (N, m), or None.
     ht, hx : (nh,) and (nh, n) history before the start, or None.
@@ -77,6 +79,10 @@ class Run:
     @property
     def du(self) -> np.ndarray | None:
         return None if self.signals.slopes is None else self.signals.slopes[self.early :]
+
+    @property
+    def ddu(self) -> np.ndarray | None:
+        return None if self.signals.bends is None else self.signals.bends[self.early :]
 
     @property
     def w(self) -> np.ndarray:

@@ -15,7 +15,7 @@ from symid.codegen.ode import BETWEEN, OdeSource, ode_source
 from symid.deadline import check
 from symid.errors import SymidError
 from symid.model import Model
-from symid.recording.signals.between import slopes
+from symid.recording.signals.between import CURVES, derivatives
 from symid.simulation.compiled import CompiledLoop
 from symid.simulation.linear import Linearised
 from symid.simulation.loop import PythonLoop
@@ -157,9 +157,10 @@ class Simulator:
             )
         given = self._columns("input", self.source.inputs, inputs, n)
         given = given if earlier is None else np.vstack([self._before(given[0], earlier), given])
-        cubic = BETWEEN.index("cubic") in self.source.input_between
         w = self._columns("noise", self.source.noises, noise, n, missing=0.0)
-        return Signals(len(times) - n, times, given, slopes(times, given) if cubic else None, w)
+        holds = [BETWEEN[k] for k in self.source.input_between]
+        slopes, bends = derivatives(times, given, holds) if {*holds} & {*CURVES} else (None, None)
+        return Signals(len(times) - n, times, given, slopes, bends, w)
 
     def batch(self, runs: Sequence[Mapping], *, threads: int = 2, **common: object) -> list[Trajectory]:
         """`simulate(**common, **run)` for every run of `runs`, on `threads`; the same numbers as a loop."""

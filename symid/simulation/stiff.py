@@ -13,7 +13,7 @@ from symid.codegen.ode import BETWEEN, ode_source
 from symid.deadline import check
 from symid.errors import SymidError
 from symid.model import Model
-from symid.recording.signals.between import bend, slopes
+from symid.recording.signals.between import CURVES, bend, derivatives
 from symid.threads import one_blas_thread
 
 MOST = 100_000
@@ -52,16 +52,18 @@ def simulate_stiff(
     constants = np.array([c.value for c in model.constants.values()], dtype=float)
     u = np.column_stack([np.zeros(len(time)), *(inputs[k] for k in source.inputs)])[:, 1:]
     w = np.column_stack([np.zeros(len(time)), *(noise[k] for k in source.noises)])[:, 1:]
-    held, calls, late = np.array(source.input_between) == BETWEEN.index("zero"), 0, np.zeros(0)
-    cubic, slope = np.array(source.input_between) == BETWEEN.index("cubic"), slopes(time, u)
+    holds, calls, late = [BETWEEN[k] for k in source.input_between], 0, np.zeros(0)
+    held, curved, quintic = (np.isin(holds, kinds) for kinds in (["zero"], [*CURVES], ["band-limited"]))
+    slopes, bends = derivatives(time, u, holds)
 
     def given(t: float, k: int) -> np.ndarray:
         """Inputs at t, of which those that are held are those of sample k."""
         j = min(max(int(np.searchsorted(time, t, side="right")) - 1, 0), len(time) - 2)
         h = time[j + 1] - time[j]
         part, line = (t - time[j]) / h, (u[j + 1] - u[j]) / h
-        more, _ = bend(part, h, slope[j] - line, slope[j + 1] - line)
-        return np.where(held, u[k], u[j] + (t - time[j]) * line + cubic * more)
+        ends = None if bends is None else (bends[j], bends[j + 1])
+        more, _ = bend(part, h, slopes[j] - line, slopes[j + 1] - line, ends, quintic)
+        return np.where(held, u[k], u[j] + (t - time[j]) * line + curved * more)
 
     def rates(t: float, x: np.ndarray, k: int) -> np.ndarray:
         nonlocal calls

@@ -11,7 +11,7 @@ from symid.checked import nearest
 from symid.errors import TranscriptionError
 from symid.model import Model
 from symid.recording import Recording
-from symid.recording.signals.between import cubic
+from symid.recording.signals.between import between
 from symid.recording.signals.smooth import beside_inputs, left_by_smoother, smooth_curves
 from symid.transcription.inverse import seen_together
 from symid.units import same_dimension
@@ -106,7 +106,7 @@ class Measured:
     def input_at(self, name: str, abscissa: float, refine: int, hold: str) -> np.ndarray:
         """(intervals * refine,) the input at a point of each collocation interval.
 
-        hold : "zero", "linear" or "cubic" between samples.
+        hold : "zero", "linear", "cubic" or "band-limited" between samples.
         """
         u, fractions = self.inputs[name], (np.arange(refine) + abscissa) / refine
         now, after = u[self.first : self.last, None], u[self.first + 1 : self.last + 1, None]
@@ -114,7 +114,7 @@ class Measured:
             return np.repeat(now, refine)
         if hold == "linear" or (refine == 1 and abscissa in (0.0, 1.0)):
             return ((1 - fractions) * now + fractions * after).ravel()
-        return cubic(self.time, u, self.times(abscissa, refine))
+        return between(self.time, u, self.times(abscissa, refine), hold)
 
     def on_mesh(self, samples: np.ndarray, refine: int) -> np.ndarray:
         """(intervals * refine + 1, n) signals at the mesh's nodes, from those at the window's samples."""

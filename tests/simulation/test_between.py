@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import symid as si
+from symid.recording.signals.between import between
 from symid.simulation import Simulator
 from symid.simulation.stiff import simulate_stiff
 
@@ -34,11 +35,28 @@ def test_a_sampled_smooth_input_is_met_to_the_order_of_its_curves(backend, hold,
     assert np.log2(error(81) / error(161)) == pytest.approx(order, abs=0.3)
 
 
-@pytest.mark.parametrize("hold", ["linear", "cubic", "zero"])
-def test_a_stiff_integrator_sees_the_same_input(hold):
+@pytest.mark.parametrize("per_period, hold, left", [(6, "cubic", 2e-3), (3, "cubic", 0.065), (3, "band-limited", 2e-3)])
+def test_of_a_fast_input_a_curve_keeps_what_its_degree_lets(per_period, hold, left):
+    t, fine = np.arange(300.0), np.linspace(60, 240, 18_001)
+    wave = np.exp(2j * np.pi * t / per_period)
+    kept = between(t, wave.real, fine, hold) + 1j * between(t, wave.imag, fine, hold)
+    lost = 1 - np.mean(kept * np.exp(-2j * np.pi * fine / per_period)).real
+    assert left / 2 < lost < 1.1 * left
+
+
+@pytest.mark.parametrize("samples", [2, 3, 4, 5, 12])
+def test_a_curve_goes_on_to_the_ends_of_few_samples(samples):
+    t = 1e-3 * np.arange(samples)
+    line = between(t, 3 + 2 * t, np.linspace(0, t[-1], 50), "band-limited")
+    np.testing.assert_allclose(line, 3 + 2 * np.linspace(0, t[-1], 50), atol=1e-12)
+
+
+@pytest.mark.parametrize("backend", ["c", "numpy"])
+@pytest.mark.parametrize("hold", ["linear", "cubic", "band-limited", "zero"])
+def test_a_stiff_integrator_sees_the_same_input(hold, backend):
     t = uneven(41)
-    u = np.sin(4 * t)
-    run = Simulator(lag(hold)).simulate({"rate": 5.0}, [0.2], t, {"u": u}, substeps=16)
+    u = np.sin(40 * t)
+    run = Simulator(lag(hold), backend).simulate({"rate": 5.0}, [0.2], t, {"u": u}, substeps=16)
     stiff = simulate_stiff(lag(hold), np.array([5.0]), np.array([0.2]), t, {"u": u}, {}, np.array([1.0]), 1e-10)
     np.testing.assert_allclose(stiff[:, 0], run.y[:, 0], atol=1e-7)
 

@@ -13,6 +13,7 @@ from symid.discrepancy.say.rest import nameless_words
 from symid.discrepancy.say.story import Story, listed
 from symid.estimation.fitting.correlated import is_correlated
 from symid.model.variants import CORRELATION_TIME
+from symid.recording.signals.between import CURVES
 from symid.units import rough
 
 LOSSES = (
@@ -152,7 +153,7 @@ def _caveats(s: Story) -> list[str]:
             f"What else would be left is taken for noise in the recorded {noise}, or for random forces that do as "
             "much: that is likelier than any law that was tried."
         )
-    curved = [u.channel for u in s.model.inputs.values() if u.hold == "cubic"]
+    curved = [u.channel for u in s.model.inputs.values() if u.hold in CURVES]
     if curved:
         out.append(
             f"Between samples {listed(curved)} {_are(curved)} taken to follow a smooth curve; straight lines would "
