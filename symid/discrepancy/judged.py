@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from symid.discrepancy.explained import Explained, explained
 from symid.discrepancy.model.hypothesis import Hypothesis
@@ -13,6 +13,7 @@ from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.task import Task
 from symid.errors import SymidError
+from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.sensors.zero_phase import ZeroPhase
 
 
@@ -85,7 +86,15 @@ def _with_input_noise(
         if task.with_input_noise is None:
             return None
         progress("whether the recorded inputs have noise")
-        noisy = found_in(task.with_input_noise)
+        start = _begun(found.tested.found)
+        noisy = found_in(replace(task.with_input_noise, start={**task.start, **start})) if start else None
     except SymidError:
         return None  # what was found already is not lost by what was tried beside it
-    return noisy if not noisy.tested.nameless and noisy.loglik2 > found.loglik2 else None
+    return noisy if noisy and not noisy.tested.nameless and noisy.loglik2 > found.loglik2 else None
+
+
+def _begun(found: Hypothesis) -> dict[str, float]:
+    """Its values where the inputs have noise; none where that is no likelier, so that they have none."""
+    fit = found.fit
+    noisy = fit_model(fit.model.with_input_noise(), replace(found.data, driven=True), fit.values, exact=False)
+    return {k: noisy.values[k] for k in found.base.model.parameters} if noisy.loglik2 > fit.loglik2 else {}
