@@ -208,7 +208,7 @@ class _Widths:
     def _fitted(self, width: float, near: Fit) -> Hypothesis | None:
         suspects, data = self.found.suspects, self.found.data
         base = replace(self.found.base, model=self.model.with_constants(**{self.name: width}))
-        fit = refit(suspects, replace(near, substeps=1), base, data, iterations=ITERATIONS)
+        fit = refit(suspects, replace(near, substeps=1, coarse=1), base, data, iterations=ITERATIONS)
         return None if fit is None else Hypothesis(suspects, fit, base, data)
 
     def _scanned(self) -> float:

@@ -58,7 +58,7 @@ class ShortPieces:
         if fit is None:
             return None
         found = with_fitted_jumps(Hypothesis((suspect,), fit, given, pieces), self.jumps, given.model)
-        near = replace(found.fit, initial=found.fit.initial[self.first], substeps=1)
+        near = replace(found.fit, initial=found.fit.initial[self.first], substeps=1, coarse=1)
         base = with_jumps_of(found.fit, self.base, self.jumps)
         whole = refit((suspect,), near, base, self.data, exact=False)
         return None if whole is None else Hypothesis((suspect,), whole, base, self.data, forecast)

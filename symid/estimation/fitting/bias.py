@@ -60,7 +60,6 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str]) -> Fit:
 def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
     """Parameters fitted to one simulation of `fit` with noise of its sizes; None where that fails."""
     rng, sim, segments, data = np.random.default_rng(seed), fit.simulator, [], data.remembering(data.memory)
-    fitter = Fitter.of(fit, data)
     for e, x0 in zip(data.segments, fit.initial, strict=True):
         holds, size = held(e.step)
         time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)
@@ -74,8 +73,8 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
             time,
             {k: np.interp(time, fine, u) for k, u in e.inputs.items()},
             noise=noise,
-            substeps=-(-fitter.substeps // holds),
-            method=fitter.method,
+            substeps=-(-fit.substeps // holds),
+            method=fit.method,
             earlier=e.earlier,
             keep="outputs",
         )

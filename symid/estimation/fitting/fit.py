@@ -26,6 +26,8 @@ PATIENCE = 8
 """So often the damping grows tenfold before an iteration gives up."""
 SHARPEST = 4.0
 """A filter is sharp within this factor of what the spectra show: its cutoff of order 2 within a factor of 1.4."""
+MISLED = 0.1
+"""What the slopes of fine steps may promise of twice the log-likelihood: parameters are within 0.3 standard errors."""
 FARTHEST = 10.0
 """The noise of a sensor is within this factor of what the highest frequencies show."""
 
@@ -49,7 +51,8 @@ class Fit:
     kalman_gain : (n, m) or None. innovations : per segment (N, m), recorded minus predicted.
     whitening : makes the innovations white. loglik2 : twice the log-likelihood.
     errors : parameter -> standard error, zero for what was held; empty where not asked for.
-    substeps, method : of the integrator in each sample. bounded : whether growth without end had to be kept away.
+    substeps, method : of the integrator in each sample; `coarse` substeps are good enough for slopes.
+    bounded : whether growth without end had to be kept away.
     """
 
     model: Model
@@ -64,6 +67,7 @@ class Fit:
     iterations: int = 0
     converged: bool = False
     substeps: int = 1
+    coarse: int = 1
     bounded: bool = False
     method: str = "rk4"
 
@@ -119,7 +123,8 @@ class Fitter(Refining):
     """
 
     def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), near: Fit | None = None, tune: bool = True):
-        super().__init__(model, data, fixed, **(near.steps if near else {}))
+        coarse, enough, method = (near.coarse, near.substeps, near.method) if near else (1, 1, "rk4")
+        super().__init__(model, data, fixed, coarse, enough, method)
         self.bounds = np.array([model.parameters[p].bounds for p in self.sim.parameters], dtype=float).reshape(-1, 2)
         self.within = np.array([model.states[x].bounds for x in self.sim.states], dtype=float).reshape(-1, 2)
         ratios = len(data.sensor_noise) - 1 if self.driven and data.ratios_free else 0
@@ -143,16 +148,20 @@ class Fitter(Refining):
         """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if the start itself diverges.
 
         kalman_gain : one that is known to hold the start together, of an earlier fit that ended there.
-        exact : whether the integrator's steps are halved until the likelihood does not see what that changes. Each
-            time the fit goes on, so that a fit from which others begin is had for a small part of the work without.
+        exact : whether the likelihood may not see what shorter steps of the integrator change. Each time it does the
+            fit goes on, so that a fit from which others begin is had for a small part of the work without.
         """
         self.bounded = self.driven and self.near is not None and self.near.bounded
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
-        while self._refined(at.p, at.x0, at.kalman_gain, at.process, exact):
+        left = iterations  # for all descents that follow
+        while self._refined(at.p, at.x0, at.kalman_gain, at.process, exact) or (
+            exact and converged and self._misled(at)
+        ):
             at.runs = None
             at.value = self.evaluate(at.p, at.x0, at.kalman_gain, at.process) - self._growth_penalty(at.p, at.path)
-            k, converged = self._descend(at, iterations, tolerance)
+            k, converged = self._descend(at, left, tolerance)
+            left -= k
         if self.driven and not self.bounded and runs_away(self, at.p, at.x0):
             self.bounded = True
             at.value -= self._growth_penalty(at.p, at.path)
@@ -178,6 +187,21 @@ class Fitter(Refining):
                 break
         return k, converged
 
+    def _misled(self, at: _Point) -> bool:
+        """Halve the coarse steps where the slopes of fine ones lead on from where a fit ended; whether it did."""
+        if self.enough == self.substeps:
+            return False
+        with self._fine_steps():
+            system = self._system(_Point(at.p, at.x0, at.process, at.kalman_gain, at.path, at.value))
+        if system is None or float(self._step(system, at, 0.0) @ system[1]) < MISLED:
+            return False
+        self.substeps *= 2
+        self._recorrected(at.p, at.x0, at.kalman_gain, at.process)
+        return True
+
+    def _step(self, system, at: _Point, damping: float) -> np.ndarray:
+        return damped_step(system, damping, self.bounds[self.index], at.p[self.index], at.x0.shape)
+
     def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
         """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).
 
@@ -192,9 +216,7 @@ class Fitter(Refining):
         if system is None:
             return -np.inf
         samples = self.data.samples * len(self.data.sensor_noise)
-        explained = (
-            damped_step(system, 0.0, self.bounds[self.index], at.p[self.index], at.x0.shape) @ system[1] / samples
-        )
+        explained = self._step(system, at, 0.0) @ system[1] / samples
         return at.value - samples * np.log1p(-min(float(explained), 0.999))
 
     @classmethod
@@ -218,6 +240,7 @@ class Fitter(Refining):
             process = np.append(process[: self.noises], self.own)
         path = self.path(p, x0, self.kalman_gain(p, process, x0) if known is None else known)
         gain = self.kalman_gain(p, process, path)
+        self._begin_corrections()
         value, runs = self._followed(p, x0, gain, process, "outputs", sensitivities=True)
         if not np.isfinite(value) and known is not None:
             gain, (value, runs) = known, self._followed(p, x0, known, process, "outputs", sensitivities=True)
@@ -226,12 +249,14 @@ class Fitter(Refining):
             value, runs = self._followed(p, x0, gain, process, "outputs", sensitivities=True)
         if not np.isfinite(value):
             raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
+        if self._recorrected(p, x0, gain, process, runs):
+            value = self.score(self.innovations(runs, process), process)[0]
         return _Point(p, x0, process, gain, path, value - self._growth_penalty(p, path), runs)
 
     def _improved(self, at: _Point, system, damping: float) -> tuple[_Point | None, np.ndarray, float]:
         """A better point, the last step tried, and the damping to go on with."""
         for tried in range(PATIENCE):
-            step = damped_step(system, damping, self.bounds[self.index], at.p[self.index], at.x0.shape)
+            step = self._step(system, at, damping)
             new = self._tried(*self._moved(at.p, at.x0, at.process, step), at.path, sensitivities=tried == 0)
             if new.value > at.value - 1e-9:
                 return new, step, 0.1 * damping
@@ -294,6 +319,7 @@ class Fitter(Refining):
             errors,
             iterations,
             converged,
+            self.enough,
             self.substeps,
             self.bounded,
             self.method,

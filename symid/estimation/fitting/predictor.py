@@ -38,10 +38,12 @@ class Predictor:
     ----------
     tuned : places in `process` of what a fit looks for. bounded : whether it keeps growth without end away.
     fewest : substeps of a smooth motion with the data's pace.
+    defect : (N, m) of each segment, by which the outputs of these steps are corrected; None where they are not.
     """
 
     tuned: Sequence[int] = ()
     bounded = False
+    defect: Sequence[np.ndarray] | None = None
 
     def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), substeps: int = 1, method: str = "rk4"):
         self.model, self.data = model, data
@@ -107,7 +109,8 @@ class Predictor:
         return self.data.sensor_noise * np.append(1.0, ratios) if len(ratios) else self.data.sensor_noise
 
     def innovations(self, runs, process=()) -> list[np.ndarray]:
-        return [e.recorded - t.y for e, t in zip(self.segments(process), runs, strict=True)]
+        left = [e.recorded - t.y for e, t in zip(self.segments(process), runs, strict=True)]
+        return left if self.defect is None else [e - d for e, d in zip(left, self.defect, strict=True)]
 
     def score(self, innovations, process=()) -> tuple[float, Whitening]:
         """Twice the log-likelihood, and what whitens the innovations."""
