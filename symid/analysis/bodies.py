@@ -10,7 +10,8 @@ from math import inf
 import numpy as np
 
 from symid.errors import DiagnosisError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.normal_equations import covariance_of, normal_equations
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import swing

@@ -8,7 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.refining import seen
 from symid.estimation.signals.data import Data
 from symid.model import Model

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data, observed_state
 
 

@@ -12,7 +12,8 @@ import numpy as np
 from symid.errors import DiagnosisError
 from symid.estimation.between_samples import with_likeliest_curves
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.sensors.first_order import is_first_order
 from symid.estimation.sensors.sensor_noise import noise_before
 from symid.estimation.sensors.smoothing import Smoothing

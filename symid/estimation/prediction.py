@@ -10,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.free_run import first_states
 from symid.estimation.signals.data import Data
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from driven_cart import SENSOR, TRUE, cart, data_of, recorded
 
-from symid.estimation.fitting.fit import Fitter
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.growth import growth, growth_normal, runs_away
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
@@ -52,5 +52,5 @@ def test_a_fit_does_not_end_in_a_loop_that_runs_away(seed, monkeypatch):
         return growth(fitter, np.array([fit.values[k] for k in fitter.sim.parameters]), np.zeros((1, 2)))
 
     assert grown() < 1
-    monkeypatch.setattr("symid.estimation.fitting.fit.runs_away", lambda *_: False)
+    monkeypatch.setattr("symid.estimation.fitting.fitter.runs_away", lambda *_: False)
     assert grown() > 20

@@ -15,7 +15,7 @@ from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.fitting.fit import Fitter
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between
 from symid.mechanics import LIBRARY

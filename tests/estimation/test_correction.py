@@ -7,7 +7,8 @@ import pytest
 
 import symid as si
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between
 from symid.simulation import simulator

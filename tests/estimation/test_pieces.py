@@ -8,7 +8,7 @@ from hypothesis import given, settings, strategies as st
 import symid as si
 from symid.discrepancy.model.dry import PARTS, with_friction_speeds
 from symid.errors import DiagnosisError
-from symid.estimation.fitting.fit import Fitter
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.pieces import FEW, MANY, free_pieces
 from symid.estimation.signals.segment import Segment

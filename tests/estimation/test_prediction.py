@@ -8,7 +8,7 @@ from scipy.stats import norm
 
 from symid.discrepancy.prove.held_out import Proof, compare_predictions
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.fitting.fit import Fitter
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.measurement import of_window
 from symid.estimation.prediction import FORGOTTEN, Predictions, predictions
 

@@ -12,7 +12,8 @@ from symid.discrepancy.design.simulated import as_recording, course, is_free, si
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.recording import Recording
 

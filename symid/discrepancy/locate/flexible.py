@@ -9,7 +9,8 @@ import numpy as np
 from symid.discrepancy.model.hypothesis import Hypothesis, extended
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.signals.data import Data
 from symid.mechanics.missing.unknown_laws import unknown_force, unknown_input, unknown_sensor

@@ -12,7 +12,8 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.spline_parts import candidate_blocks, chosen_blocks, names_of, numbers
 from symid.discrepancy.model.hypothesis import extended
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.estimation.signals.data import Data
 from symid.mechanics.missing.spline_law import Block, spline_law

@@ -9,7 +9,8 @@ import numpy as np
 from symid.discrepancy.model.hypothesis import extended, padded
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import DiagnosisError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.simulation import Simulator
 

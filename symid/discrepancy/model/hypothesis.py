@@ -12,7 +12,8 @@ import numpy as np
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter, rms_of
+from symid.estimation.fitting.fit import Fit, rms_of
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.estimation.signals.data import Data
@@ -216,10 +217,15 @@ def refit(
 
 
 def hypothesis(
-    suspects: Sequence[Suspect], near: Fit, base: Fit, data: Data, more: dict[str, float] | None = None
+    suspects: Sequence[Suspect],
+    near: Fit,
+    base: Fit,
+    data: Data,
+    more: dict[str, float] | None = None,
+    exact: bool = True,
 ) -> Hypothesis | None:
     """These suspects refitted together; None where they cannot be."""
-    fit = refit(suspects, near, base, data, more)
+    fit = refit(suspects, near, base, data, more, exact=exact)
     return None if fit is None else Hypothesis(tuple(suspects), fit, base, data)
 
 

@@ -16,7 +16,8 @@ from symid.discrepancy.locate.spline_parts import names_of
 from symid.discrepancy.model.hypothesis import extended
 from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.path import along, fitted_path
 from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.mechanics.missing.dictionary import Shape, closed_expression, closed_law, shapes_of

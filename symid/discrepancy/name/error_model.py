@@ -26,7 +26,8 @@ from symid.discrepancy.name.search import Search
 from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of
 from symid.estimation.fitting.correlated import begun_correlated, is_correlated, with_correlated_forces
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.measurement import has_settled, with_memory
 from symid.estimation.sensors.whitening import remembered
 from symid.estimation.signals.data import Data

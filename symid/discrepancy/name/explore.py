@@ -14,7 +14,8 @@ from symid.discrepancy.name.starts import Start, starts_of
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
@@ -87,13 +88,25 @@ def explore(
     rest = first[len(good) :]
     found = converging(good)
     found += converging(begun(_unseen(starts, [*first, *found])))
-    near = max(max((c.log_ratio for c in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near, 0.0)
+    near = least_near(found)
     close = [c for c in rest if c.log_ratio > near and not c.fit.converged]
     found += converging(close) + [c for c in rest if c not in close]
-    # Only those that may turn out to be the best are worth steps of the integrator that cost nothing of the likelihood.
-    leading = [c for c in found if c.log_ratio > near]
-    exact = in_threads(lambda c: _continued(data, c, exact=True), leading)
-    return by_score(exact + [c for c in found if c not in leading])
+    return by_score(exact_where_leading(found, near))
+
+
+def least_near(found: Sequence[Hypothesis]) -> float:
+    """The log-likelihood ratio from which on one may turn out to be better than the best of those found so far."""
+    return max(max((h.log_ratio for h in found), default=0.0) * (1 - POLICY.near_share) - POLICY.near, 0.0)
+
+
+def exact_where_leading(found: Sequence[Hypothesis], near: float) -> list[Hypothesis]:
+    """The same, of which those that may turn out to be the best are fitted on with exact steps (see `Fitter.fit`).
+
+    near : the log-likelihood ratio from which on they may.
+    """
+    leading = [h for h in found if h.log_ratio > near]
+    exact = in_threads(lambda h: _continued(h.data, h, exact=True), leading)
+    return exact + [h for h in found if h not in leading]
 
 
 def _reaches(starts: Sequence[list[Start]]) -> dict[Suspect, float]:

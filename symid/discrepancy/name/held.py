@@ -17,7 +17,8 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.jump import with_jumps_again
 from symid.errors import SymidError
 from symid.estimation.between_samples import input_groups, with_likeliest_curves
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.mechanics import LIBRARY
 from symid.model import Model, Term

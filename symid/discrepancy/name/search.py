@@ -11,7 +11,7 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.begun_anew import begun_anew
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
-from symid.discrepancy.name.explore import by_score, explore
+from symid.discrepancy.name.explore import by_score, exact_where_leading, explore, least_near
 from symid.discrepancy.name.held import Holds
 from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
@@ -181,8 +181,8 @@ class Search(Judge):
                     sets.append((h, rest, {}))
                 alike = (o for o in self.pool if is_alike(o, half) and o.size < half.size and o.term not in taken)
                 sets += [(h, [o, *rest], o.off) for o in alike]
-        tried = in_threads(lambda s: hypothesis(s[1], s[0].fit, self.base, self.data, s[2]), sets)
-        return [h for h in tried if h is not None]
+        tried = in_threads(lambda s: hypothesis(s[1], s[0].fit, self.base, self.data, s[2], exact=False), sets)
+        return exact_where_leading([h for h in tried if h is not None], least_near(found))
 
     def _with_jumps(self, found: list[Hypothesis], less: Hypothesis) -> list[Hypothesis]:
         """`found` on top of `less`, with dry friction that is new there as abrupt as the recording likes it."""
@@ -209,8 +209,9 @@ class Search(Judge):
         self, sets: Sequence[tuple[Sequence[Suspect], dict[str, float] | None]], near: Hypothesis
     ) -> list[Hypothesis]:
         """Sets of suspects, each refitted together from where `near` ended and, of what that lacks, from its values."""
-        tried = in_threads(lambda s: hypothesis(s[0], near.fit, self.base, self.data, s[1]), sets)
-        return [h for h in tried if h is not None]
+        tried = in_threads(lambda s: hypothesis(s[0], near.fit, self.base, self.data, s[1], exact=False), sets)
+        found = [h for h in tried if h is not None]
+        return exact_where_leading(found, least_near([near, *found]))
 
     def _explored(self, best: Hypothesis, pool: Sequence[Suspect], least: float = 0.0) -> list[Hypothesis]:
         found = explore(

@@ -11,7 +11,8 @@ from symid.discrepancy.model.hypothesis import Hypothesis, extended, padded
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.scan import scan
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 
 SMALL = 0.15

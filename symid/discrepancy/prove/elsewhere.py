@@ -7,7 +7,8 @@ import numpy as np
 from symid.discrepancy.locate.remainder import Test, located, remainder
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.free_run import with_states_of
 from symid.estimation.signals.data import Data
 

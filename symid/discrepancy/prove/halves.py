@@ -13,7 +13,8 @@ from symid.discrepancy.model.hypothesis import penalty, refit
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.policy import POLICY
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.robust_errors import with_robust_errors
 from symid.estimation.signals.data import Data
 from symid.threads import in_threads

@@ -9,7 +9,8 @@ import numpy as np
 from scipy.special import fdtrc
 
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.free_run import FreeRun, free_run, moves
 from symid.estimation.sensors.independence import independent_share
 from symid.estimation.signals.data import Data

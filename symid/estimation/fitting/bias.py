@@ -13,7 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.kalman import held
 from symid.estimation.signals.data import Data
 from symid.threads import in_threads

@@ -7,7 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.kalman import linearised_along
 from symid.estimation.signals.data import Data, observed_state
 from symid.estimation.signals.segment import FEWEST

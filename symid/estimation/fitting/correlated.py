@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.model.variants import CORRELATION_TIME
 from symid.simulation import simulator

@@ -18,6 +18,8 @@ the likelihood sees looks like physics. The error of every step stays in a shaft
 dry friction make it large."""
 MOST_CORRECTIONS = 3
 """With slopes that are off by one part in 30 a fit ends within 1e-4 of where exact ones lead."""
+CLOSE = 2
+"""Steps that are so many times as long as good ones save less than it costs to correct them."""
 STIFF = "stiff"
 """Method of the integrator."""
 
@@ -93,10 +95,16 @@ class Refining(Predictor):
             return False
         self.defect = defect
         self.corrections += 1
-        if self.corrections > MOST_CORRECTIONS and self.substeps < self.enough:
-            self.substeps, self.corrections = 2 * self.substeps, 0
-            self._recorrected(p, x0, gain, process)
+        if self.enough <= CLOSE * self.substeps or self.corrections > MOST_CORRECTIONS:
+            self._shorten(p, x0, gain, process)
         return True
+
+    def _shorten(self, p, x0, gain, process) -> None:
+        """Halve the coarse steps, or take good ones where these are nearly as long."""
+        self.substeps, self.corrections = 2 * self.substeps, 0
+        if self.enough <= CLOSE * self.substeps:
+            self.substeps = self.enough
+        self._recorrected(p, x0, gain, process)
 
     def _fine(self, now, p, x0, gain, process):
         """A run whose steps are short enough for the likelihood, or `now`."""

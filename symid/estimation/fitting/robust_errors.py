@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from symid.estimation.fitting.fit import Fit, Fitter
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 
 BLOCK = 3.0
