@@ -91,7 +91,7 @@ class Fitter(Refining):
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
         left = iterations  # for all descents that follow
-        while self._refined(at.p, at.x0, at.kalman_gain, at.process, exact) or (
+        while self._refined(at.p, at.x0, at.kalman_gain, at.process, exact, at.runs) or (
             exact and converged and self._misled(at)
         ):
             at.runs = None
@@ -231,10 +231,10 @@ class Fitter(Refining):
         return p1, np.clip(x0 + step[-E * n :].reshape(E, n), *self.within.T), process1
 
     def _result(self, at: _Point, iterations: int, converged: bool, errors_too: bool) -> Fit:
-        system = self._system(at) if errors_too else None
-        innovations = self.innovations(
-            self.run(at.p, at.x0, at.kalman_gain, sensitivities=False, process=at.process), at.process
-        )
+        runs = at.runs or self.run(at.p, at.x0, at.kalman_gain, errors_too, process=at.process)
+        innovations = self.innovations(runs, at.process)
+        point = (at.p, at.x0, at.kalman_gain, at.process, at.path)
+        system = normal_equations(self, *point, runs) if errors_too else None
         loglik2, whitening = self.score(innovations, at.process)
         errors = {}
         if system is not None:

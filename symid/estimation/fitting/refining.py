@@ -45,9 +45,12 @@ class Refining(Predictor):
         super().__init__(model, data, fixed, substeps, method)
         self.enough, self.corrections = max(self.substeps, enough), 0
 
-    def _refined(self, p, x0, gain, process, exact: bool = True) -> bool:
-        """Change to stiff steps, or else correct the outputs, where these are not good enough; whether it did."""
-        now = self.run(p, x0, gain, False, process=process)
+    def _refined(self, p, x0, gain, process, exact: bool = True, now: Sequence[Trajectory] | None = None) -> bool:
+        """Change to stiff steps, or else correct the outputs, where these are not good enough; whether it did.
+
+        now : the runs of these values, where they were made already.
+        """
+        now = now or self.run(p, x0, gain, False, process=process)
         return self._turned_stiff(now, p, x0, gain, process, exact) or (
             exact and now is not None and self._corrected(now, p, x0, gain, process)
         )
