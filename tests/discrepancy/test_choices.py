@@ -32,7 +32,7 @@ def tried_beside(monkeypatch, leader: str, *alike: str, explains: float) -> set[
         s = starts[0].suspect
         begun.add(f"{s.term.name} at {s.term.location}")
         ratio = explains if s is pool[0] else 0.0
-        return SimpleNamespace(suspect=s, log_ratio=ratio, forecast=promised.get(s.term.name, 0.0), fit=fit)
+        return SimpleNamespace(suspect=s, log_ratio=ratio, forecast=promised.get(s.term.name, 0.0), fit=fit, data=None)
 
     begun: set[str] = set()
     monkeypatch.setattr(exploring, "starts_of", starts)
