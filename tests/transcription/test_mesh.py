@@ -64,7 +64,9 @@ def test_the_last_sample_of_a_held_input_is_shown_by_an_output_of_it():
 
 
 def test_an_unknown_hold_is_refused():
-    with pytest.raises(ModelError, match="hold='zoh'; known: 'smooth', 'either', 'band-limited', 'cubic', 'linear', 'zero'"):
+    with pytest.raises(
+        ModelError, match="hold='zoh'; known: 'smooth', 'either', 'band-limited', 'cubic', 'linear', 'zero'"
+    ):
         lag("zoh").check()
 
 
