@@ -87,14 +87,14 @@ def _with_input_noise(
             return None
         progress("whether the recorded inputs have noise")
         start = _begun(found.tested.found)
-        noisy = found_in(replace(task.with_input_noise, start={**task.start, **start})) if start else None
+        noisy = found_in(replace(task.with_input_noise, start={**task.start, **start})) if start is not None else None
     except SymidError:
         return None  # what was found already is not lost by what was tried beside it
     return noisy if noisy and not noisy.tested.nameless and noisy.loglik2 > found.loglik2 else None
 
 
-def _begun(found: Hypothesis) -> dict[str, float]:
-    """Its values where the inputs have noise; none where that is no likelier, so that they have none."""
+def _begun(found: Hypothesis) -> dict[str, float] | None:
+    """Its parameters [SI] where the inputs have noise; None where that is no likelier, so that they have none."""
     fit = found.fit
     noisy = fit_model(fit.model.with_input_noise(), replace(found.data, driven=True), fit.values, exact=False)
-    return {k: noisy.values[k] for k in found.base.model.parameters} if noisy.loglik2 > fit.loglik2 else {}
+    return {k: noisy.values[k] for k in found.base.model.parameters} if noisy.loglik2 > fit.loglik2 else None

@@ -18,8 +18,8 @@ the degree's own polynomials the first interval of a sine sampled three times a 
 def derivatives(time: np.ndarray, u: np.ndarray, holds: Sequence[str]) -> tuple[np.ndarray, np.ndarray | None]:
     """(N, k) slopes and second derivatives at the samples of (N, k) inputs, N >= 2, of the splines through them.
 
-    Cubic ones are not-a-knot, the others natural; de Boor 1978, chapters IV and XIII. Zero for inputs that are neither
-    of `CURVES`; None where no second ones are asked for.
+    Cubic ones are not-a-knot (de Boor 1978, chapter IV), the others natural. Zero for inputs that are neither of
+    `CURVES`; None where no second ones are asked for.
 
     Parameters
     ----------
