@@ -7,7 +7,7 @@ that to a push, convolved with the force (Duhamel 1833). So one simulation serve
 from __future__ import annotations
 
 import numpy as np
-from scipy.signal import fftconvolve
+from scipy.fft import irfft, next_fast_len, rfft
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import Suspect
@@ -26,6 +26,8 @@ LASTS = 10.0
 """So many times the pace the answer to a push is followed."""
 PARTS = 4
 """Position and rate, each times sine and cosine."""
+TOGETHER = 16
+"""So many frequencies are convolved in one call: what it costs to call is then lost in the work."""
 
 
 def modulated(projection: Projection) -> list[tuple[str, float, int]]:
@@ -49,14 +51,12 @@ def modulated(projection: Projection) -> list[tuple[str, float, int]]:
         answer = _coarse(answer, every) * every
         motion = [along(path, expr, model) for expr in (port.position, port.rate)]
         motion = [(x - x.mean()) / (x.std() or 1.0) for x in motion]
-        gains = [
-            slow.gain(
-                np.column_stack(
-                    [_to_force(answer, x * wave(2 * np.pi * f * time)) for x in motion for wave in (np.sin, np.cos)]
-                )
-            )
-            for f in frequencies
-        ]
+        push = _Push(answer, len(time))
+        gains = []
+        for some in np.array_split(frequencies, int(np.ceil(len(frequencies) / TOGETHER))):
+            waves = [wave(2 * np.pi * np.outer(time, some)) for wave in (np.sin, np.cos)]
+            columns = push.convolved(np.stack([x[:, None] * w for x in motion for w in waves], axis=2))
+            gains += slow.gains(columns)
         found.append((port.at, max(gains), len(frequencies)))
     return found
 
@@ -82,12 +82,12 @@ class _Slow:
     def _project(self, a: np.ndarray) -> np.ndarray:
         return a - self.own @ (self.own.T @ a)
 
-    def gain(self, columns: np.ndarray) -> float:
-        """Gain of twice the log-likelihood forecast for (N m, q) columns."""
-        a = self._project(columns * self.root)
+    def gains(self, columns: np.ndarray) -> list[float]:
+        """Gain of twice the log-likelihood forecast for each of F sets of columns, (N m, F, q)."""
+        a = self._project(columns.reshape(len(columns), -1) * self.root)
         a /= np.sqrt((a**2).sum(0)) + 1e-300
-        along = a.T @ self.rest
-        return float(along @ np.linalg.lstsq(a.T @ a, along, rcond=1e-8)[0])
+        along, a = (a.T @ self.rest).reshape(columns.shape[1:]), a.reshape(columns.shape)
+        return [float(b @ np.linalg.lstsq(a[:, f].T @ a[:, f], b, rcond=1e-8)[0]) for f, b in enumerate(along)]
 
 
 def _answer(projection: Projection, port: Port) -> np.ndarray | None:
@@ -107,6 +107,15 @@ def _answer(projection: Projection, port: Port) -> np.ndarray | None:
     )
 
 
-def _to_force(answer: np.ndarray, force: np.ndarray) -> np.ndarray:
-    """(N m,) answer to a force (N,), up to a factor."""
-    return fftconvolve(force[:, None], answer, axes=0)[: len(force)].reshape(-1)
+class _Push:
+    """The answer (K, m) to a push, to be convolved with forces of N samples."""
+
+    def __init__(self, answer: np.ndarray, samples: int):
+        self.samples, self.size = samples, next_fast_len(samples + len(answer) - 1, real=True)
+        self.spectrum = rfft(answer, self.size, axis=0)
+
+    def convolved(self, forces: np.ndarray) -> np.ndarray:
+        """(N m, ...) answers to forces (N, ...), up to a factor."""
+        spectra = rfft(forces, self.size, axis=0)[:, None] * self.spectrum.reshape(*self.spectrum.shape, 1, 1)
+        answers = irfft(spectra, self.size, axis=0)[: self.samples]
+        return answers.reshape(-1, *forces.shape[1:])
