@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import hashlib
-from typing import TYPE_CHECKING
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any
 
 import sympy as sm
+from sympy.printing.repr import ReprPrinter
 
 from symid.model.c_function import c_texts
 from symid.model.conditions import Boundary, Constraint, Objective
@@ -21,8 +23,8 @@ def fingerprint_of(model: Model) -> str:
     text = repr(
         (
             kinds,
-            [sm.srepr(e) for e in (*model.residual(), *model.observed())],
-            [(str(k), str(d.of), sm.srepr(d.lag)) for k, d in model.delays.items()],
+            [_text(e) for e in (*model.residual(), *model.observed())],
+            [(str(k), str(d.of), _text(d.lag)) for k, d in model.delays.items()],
         )
     )
     conditions = [c for c in model.components.values() if isinstance(c, (Constraint, Boundary, Objective))]
@@ -32,3 +34,18 @@ def fingerprint_of(model: Model) -> str:
     ]
     text += "".join(c_texts(e for e in said if isinstance(e, sm.Basic)))
     return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+
+class _Printer(ReprPrinter):
+    """`sm.srepr`, which knows the parts that it has printed before: a model's variants share most of theirs."""
+
+    def _print(self, expr: Any, **how: Any) -> Any:
+        return _text(expr) if isinstance(expr, sm.Basic) else super()._print(expr, **how)
+
+
+@lru_cache(maxsize=65536)
+def _text(expr: sm.Basic) -> Any:
+    return ReprPrinter._print(_PRINTER, expr)
+
+
+_PRINTER = _Printer()
