@@ -13,8 +13,10 @@ from symid.codegen.ode import TABLE, OdeSource
 from symid.simulation.run import Run
 
 _SIZES = ("N", "early", "substeps", "method", "nq", "nqp", "nqx", "nh", "npast")
-_ARRAYS = ("t", "u", "du", "ddu", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "ht", "hx")
+_ARRAYS = ("t", "u", "du", "ddu", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "dgain", "ht", "hx")
 _RESULTS = ("X", "Y", "SX", "SY")
+WIDE = 4
+"""Rows of sensitivities are padded to a multiple of it (run.h)."""
 
 
 class _Run(ct.Structure):
@@ -52,16 +54,21 @@ class CompiledLoop:
         """Fill the results of `run`; the number of samples reached, or -1 where memory is short."""
         sizes = {n: getattr(run, n) for n in _SIZES}
         arrays = {n: getattr(run, n) for n in (*_ARRAYS, *_RESULTS)}
+        if run.dgain is not None:
+            arrays["dgain"] = np.zeros((*run.dgain.shape[:-1], -(-run.nq // WIDE) * WIDE))
+            arrays["dgain"][..., : run.nq] = run.dgain
         places = {n: None if a is None else a.ctypes.data for n, a in arrays.items()}
         given = _Run(**sizes, limit=run.limit, **places)
         reached = self._loop.simulate(self._ode, ct.byref(given))
         run.stiff = given.stiff
         return reached
 
-    def linearise(self, arguments: tuple[np.ndarray, ...], out: list[np.ndarray]) -> None:
-        """Mass matrix, slopes of the residual by x, late and w, of the outputs by x and late, and lags, into `out`."""
-        self._loop.linearise(self._ode, *map(_pointer, arguments), ct.c_double(0.0), *map(_pointer, out))
+    def linearise(self, points: np.ndarray, late: np.ndarray, rest: dict[str, np.ndarray], out: list[np.ndarray]):
+        """Means over (P, n) `points` with (P, L) late signals, added to `out`.
 
-
-def _pointer(a: np.ndarray):
-    return a.ctypes.data_as(ct.POINTER(ct.c_double))
+        They are the mass matrix, slopes of the residual by x, late and w, of the outputs by x and late, and lags;
+        `rest` are the arrays xd, u, w, p and c of the model's functions.
+        """
+        xd, *others = (rest[k] for k in ("xd", "u", "w", "p", "c"))
+        arrays = (xd, points, late, *others, *out)
+        self._loop.linearise(self._ode, ct.c_long(len(points)), *(ct.c_void_p(a.ctypes.data) for a in arrays))

@@ -30,9 +30,8 @@ class Linearised:
     def from_residual(cls, mass, rx, rl, rw, hx, hl, lag, states, late_of) -> Linearised:
         """From the derivatives of the implicit residual: x' = -M^-1 (rx x + rl late + rw w)."""
         index = np.array([states.index(o) if o in states else -1 for o in late_of], dtype=int)
-        return cls(
-            -np.linalg.solve(mass, rx), -np.linalg.solve(mass, rw), hx, -np.linalg.solve(mass, rl), hl, lag, index
-        )
+        x, w, late = np.split(-np.linalg.solve(mass, np.hstack([rx, rw, rl])), np.cumsum([rx.shape[1], rw.shape[1]]), 1)
+        return cls(x, w, hx, late, hl, lag, index)
 
     def without_delay(self, order: int = 2) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """(A, G, C) with each delayed state replaced by its Pade approximant of this order.

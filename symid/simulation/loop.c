@@ -74,6 +74,7 @@ long simulate(const Ode *model, Run *given)
                 for (int i = 0; i < NX; i++) {
                     x[i] += r->gain[i*NY+j] * e[j];
                     add(-r->gain[i*NY+j], Sy + j*nq, S + i*nq, nq);
+                    if (r->dgain) add(e[j], r->dgain + (i*NY+j)*nq, S + i*nq, nq);
                 }
             }
             if (keep && r->npast) correct_past(v, r->t[k], r->t[k+1] - r->t[k], e, Sy);
@@ -106,25 +107,31 @@ end:
     return done;
 }
 
-static void spread(const Entries *e, const double *d, int columns, double *out)
+static void gather(double part, const Entries *e, const double *d, int columns, double *out)
 {
-    for (int i = 0; i < e->count; i++) out[e->row[i]*columns + e->col[i]] = d[i];
+    for (int i = 0; i < e->count; i++) out[e->row[i]*columns + e->col[i]] += part * d[i];
 }
 
-/* Derivatives of the residuals and outputs at one point, dense and row-major, for linearisation. */
-void linearise(const Ode *m, const double *xd, const double *x, const double *l, const double *u, const double *w,
-               const double *p, const double *c, double t, double *M, double *Rx, double *Rl, double *Rw,
+/* Means over so many points x, l of the mass matrix and of the derivatives of the residuals and outputs, dense and
+ * row-major, for linearisation, added to what is there. */
+void linearise(const Ode *m, long points, const double *xd, const double *x, const double *l, const double *u,
+               const double *w, const double *p, const double *c, double *M, double *Rx, double *Rl, double *Rw,
                double *Hx, double *Hl, double *lag)
 {
-    double force[m->nx], dx[NON(m->rx.count)], dl[NON(m->rl.count)], dp[NON(m->rp.count)], dw[NON(m->rw.count)];
+    double mass[m->nx*m->nx], force[m->nx], late[NON(m->nl)], part = 1.0 / points;
+    double dx[NON(m->rx.count)], dl[NON(m->rl.count)], dp[NON(m->rp.count)], dw[NON(m->rw.count)];
     double ox[NON(m->hx.count)], ol[NON(m->hl.count)], op[NON(m->hp.count)], od[NON(m->hxd.count)];
-    m->mass(xd, x, l, u, w, p, c, t, M, force);
-    m->slopes(xd, x, l, u, w, p, c, t, dx, dl, dp, dw);
-    m->observe_slopes(xd, x, l, u, w, p, c, t, ox, ol, op, od);
-    m->lags(xd, x, l, u, w, p, c, t, lag);
-    spread(&m->rx, dx, m->nx, Rx);
-    spread(&m->rl, dl, m->nl, Rl);
-    spread(&m->rw, dw, m->nw, Rw);
-    spread(&m->hx, ox, m->nx, Hx);
-    spread(&m->hl, ol, m->nl, Hl);
+    for (long k = 0; k < points; k++, x += m->nx, l += m->nl) {
+        m->mass(xd, x, l, u, w, p, c, 0.0, mass, force);
+        m->slopes(xd, x, l, u, w, p, c, 0.0, dx, dl, dp, dw);
+        m->observe_slopes(xd, x, l, u, w, p, c, 0.0, ox, ol, op, od);
+        m->lags(xd, x, l, u, w, p, c, 0.0, late);
+        for (int i = 0; i < m->nx*m->nx; i++) M[i] += part * mass[i];
+        for (int i = 0; i < m->nl; i++) lag[i] += part * late[i];
+        gather(part, &m->rx, dx, m->nx, Rx);
+        gather(part, &m->rl, dl, m->nl, Rl);
+        gather(part, &m->rw, dw, m->nw, Rw);
+        gather(part, &m->hx, ox, m->nx, Hx);
+        gather(part, &m->hl, ol, m->nl, Hl);
+    }
 }

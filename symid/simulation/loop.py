@@ -47,23 +47,24 @@ class PythonLoop:
         with np.errstate(all="ignore"):  # NaN and infinity are results here, as they are in C
             return _Simulation(self, run).samples()
 
-    def linearise(self, arguments: tuple[np.ndarray, ...], out: list[np.ndarray]) -> None:
+    def linearise(self, points: np.ndarray, late: np.ndarray, rest: dict[str, np.ndarray], out: list[np.ndarray]):
         """As `CompiledLoop.linearise`."""
-        call = (*arguments, 0.0)
-        with np.errstate(all="ignore"):
-            slopes, observed = self.slopes("slopes", call), self.slopes("observe_slopes", call)
-            n = len(self.source.states)
-            values = (
-                self.functions["mass"](*call)[0].reshape(n, n),
-                slopes["x"],
-                slopes["l"],
-                slopes["w"],
-                observed["x"],
-                observed["l"],
-                self.functions["lags"](*call)[0],
-            )
-            for place, value in zip(out, values, strict=True):
-                place[...] = value
+        n = len(self.source.states)
+        for x, at in zip(points, late, strict=True):
+            call = (rest["xd"], x, at, rest["u"], rest["w"], rest["p"], rest["c"], 0.0)
+            with np.errstate(all="ignore"):
+                slopes, observed = self.slopes("slopes", call), self.slopes("observe_slopes", call)
+                values = (
+                    self.functions["mass"](*call)[0].reshape(n, n),
+                    slopes["x"],
+                    slopes["l"],
+                    slopes["w"],
+                    observed["x"],
+                    observed["l"],
+                    self.functions["lags"](*call)[0],
+                )
+                for mean, value in zip(out, values, strict=True):
+                    mean += np.asarray(value) / len(points)
 
     def slopes(self, name: str, call: tuple) -> dict[str, np.ndarray]:
         """Dense derivatives of a group of rows by group of symbols."""
@@ -160,6 +161,9 @@ class _Simulation:
         e, Sy = np.where(known, e, 0.0), np.where(known[:, None], Sy, 0.0)
         self.x = self.x + gain @ e
         self.S = self.S - gain @ Sy
+        if self.run.dgain is not None:
+            slopes = self.run.dgain if self.run.gain.ndim == 2 else self.run.dgain[0]
+            self.S = self.S + e @ slopes
         if self.run.npast:
             self.past.correct(self.run.t[k], self.run.t[k + 1] - self.run.t[k], e, Sy)
 

@@ -152,7 +152,7 @@ class Past:
         ht, hx = self.run.ht, self.run.hx
         if ht is None:
             row = np.zeros(self.run.nq)
-            row[self.run.nqp :][self.run.qx == i] = 1
+            row[self.run.nqp : self.run.nqp + self.run.nqx][self.run.qx == i] = 1
             return self.run.x0[i], 0.0, row
         if len(ht) < 2:
             return hx[0, i], 0.0, 0.0
@@ -168,15 +168,22 @@ class Past:
             end = late - step.span / interval
             if end >= self.run.npast:
                 break
-            start = self._gain(late)
-            slope = (self._gain(end) - start) / step.span
-            for k, part in enumerate((start, slope, 2 * slope, slope)):
-                step.x[k] = step.x[k] + part @ e
-                step.S[k] = step.S[k] - part @ Sy
+            for values, sign, moved in ((step.x, 1.0, e), (step.S, -1.0, Sy)):
+                for k, part in enumerate(self._parts(self.run.gain, late, end, step.span)):
+                    values[k] = values[k] + sign * (part @ moved)
+            if self.run.dgain is not None:
+                for k, part in enumerate(self._parts(self.run.dgain, late, end, step.span)):
+                    step.S[k] = step.S[k] + e @ part
 
-    def _gain(self, late: float) -> np.ndarray:
-        """(n, m) correction per surprise, `late` sample intervals before the sample."""
-        gain, j = self.run.gain, int(late)
+    def _parts(self, gain: np.ndarray, late: float, end: float, span: float) -> tuple[np.ndarray, ...]:
+        """Corrections per surprise of the four parts of a step that began `late` sample intervals before the sample."""
+        start = self._gain(gain, late)
+        slope = (self._gain(gain, end) - start) / span
+        return start, slope, 2 * slope, slope
+
+    def _gain(self, gain: np.ndarray, late: float) -> np.ndarray:
+        """(n, m, ...) correction per surprise, `late` sample intervals before the sample."""
+        j = int(late)
         if late < 0:
             return gain[0]
         if j >= self.run.npast:

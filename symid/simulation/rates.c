@@ -219,6 +219,17 @@ static double past_gain(const Work *v, double late, int i, int o)
     return (1-f) * v->r.gain[j*size + i*NY+o] + f * v->r.gain[(j+1)*size + i*NY+o];
 }
 
+/* Slopes of `past_gain`, `part` times, added to a padded row. */
+static void add_past_slopes(const Work *v, double part, double late, int i, int o, double *row)
+{
+    long j = late < 0 ? 0 : (long)late, size = NX*NY*v->nq;
+    const double *slopes = v->r.dgain + j*size + (i*NY+o)*v->nq;
+    if (late < 0) add(part, slopes, row, v->nq);
+    if (late < 0 || j >= v->r.npast) return;
+    add((1 - (late - j)) * part, slopes, row, v->nq);
+    add((late - j) * part, slopes + size, row, v->nq);
+}
+
 /* What a sample says about the past that delayed signals still read: a fixed-lag smoother
  * (Anderson & Moore 1979, 7.3) on the stored steps, linear within each. */
 static void correct_past(Work *v, double now, double interval, const double *e, const double *Sy)
@@ -237,5 +248,16 @@ static void correct_past(Work *v, double now, double interval, const double *e, 
                     add(-part[k], Sy + o*nq, Q + k*big + i*nq, nq);
                 }
             }
+        for (int i = 0; v->r.dgain && i < NX; i++) {
+            double start[nq], slope[nq];
+            memset(start, 0, nq * sizeof(double)); memset(slope, 0, nq * sizeof(double));
+            for (int o = 0; o < NY; o++) {
+                add_past_slopes(v, e[o], a, i, o, start);
+                add_past_slopes(v, e[o] / h, b, i, o, slope);
+            }
+            add(-1 / h, start, slope, nq);
+            add(1, start, Q + i*nq, nq);
+            for (int k = 1; k < 4; k++) add(k == 2 ? 2 : 1, slope, Q + k*big + i*nq, nq);
+        }
     }
 }

@@ -19,6 +19,7 @@ typedef struct {
     const int *qp, *qx;             /* which parameters, which initial states */
     const double *gain, *recorded;  /* (1 + npast) x NX x NY corrections at the samples, or null: of the
                                        state now, and of what it was 1, 2 ... sample intervals ago */
+    const double *dgain;            /* slopes of each element of gain, padded rows, or null */
     const double *ht, *hx;          /* given history before the start, or null */
     double limit;
     long stiff;                     /* result: steps in which something was stiff */

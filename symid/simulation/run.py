@@ -38,8 +38,10 @@ class Run:
     substeps, method : of the integrator, a value of `METHODS`.
     limit : a state larger than this ends the run.
     signals : what it is given, of which `t`, `u`, `du` and `ddu` are the last N rows. p, c, x0 : values.
-    qp, qx : (nqp,), (nqx,) parameters and initial states to differentiate by; nq of both.
+    qp, qx : (nqp,), (nqx,) parameters and initial states to differentiate by; nq of both and of what only the gain
+        depends on.
     gain : (npast + 1, n, m) or (n, m) corrections at the samples and recorded : (N, m), or None.
+    dgain : (npast + 1, n, m, nq) or (n, m, nq) slopes of the gain, or None where it depends on nothing.
     ht, hx : (nh,) and (nh, n) history before the start, or None.
     X : (N, n), Y : (N, m), SX : (N, n, nq), SY : (N, m, nq): results; None where not wanted.
     stiff : result: steps of the integrator in which something was stiff.
@@ -55,6 +57,7 @@ class Run:
     qp: np.ndarray
     qx: np.ndarray
     gain: np.ndarray | None
+    dgain: np.ndarray | None
     recorded: np.ndarray | None
     ht: np.ndarray | None
     hx: np.ndarray | None
@@ -102,7 +105,7 @@ class Run:
 
     @property
     def nq(self) -> int:
-        return self.nqp + self.nqx
+        return self.nqp + self.nqx if self.dgain is None else self.dgain.shape[-1]
 
     @property
     def nh(self) -> int:

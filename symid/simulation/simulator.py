@@ -72,6 +72,7 @@ class Simulator:
         earlier: tuple[np.ndarray, Mapping[str, np.ndarray]] | None = None,
         gain: np.ndarray | None = None,
         recorded: np.ndarray | None = None,
+        gain_slopes: np.ndarray | None = None,
         limit: float = LARGEST,
         keep: str = "all",
     ) -> Trajectory:
@@ -95,6 +96,8 @@ class Simulator:
         gain, recorded : (n, m) and (N, m): after each sample the state is moved by
             gain @ (recorded - y), as in an observer or Kalman filter; NaN is skipped. With
             (1 + k, n, m), what the state was 1 ... k samples before is moved too, for delayed signals.
+        gain_slopes : (q + r, *gain.shape) slopes of the gain by each parameter of `sensitivity`, and by r numbers that
+            nothing else depends on, whose sensitivities then come last.
         limit : a state larger than this ends the run (`Trajectory.diverged`).
         keep : ``"outputs"`` leaves out the states, ``"states"`` only their sensitivities.
 
@@ -104,8 +107,10 @@ class Simulator:
         """
         check()
         signals = time if isinstance(time, Signals) else self.signals(time, inputs, noise, earlier)
-        n, q = len(signals.w), len(sensitivity) + len(initial_sensitivity)
-        corrected = gain is not None
+        n, q, corrected, slopes = len(signals.w), len(sensitivity) + len(initial_sensitivity), gain is not None, None
+        if corrected and gain_slopes is not None:
+            slopes = np.insert(_array(gain_slopes), [len(sensitivity)] * len(initial_sensitivity), 0.0, axis=0)
+            q, slopes = len(slopes), np.ascontiguousarray(np.moveaxis(slopes, 0, -1))
         run = Run(
             substeps,
             METHODS[method],
@@ -117,6 +122,7 @@ class Simulator:
             self._indices("parameter", self.parameters, sensitivity),
             self._indices("state", self.states, initial_sensitivity),
             gain=_array(gain) if corrected else None,
+            dgain=slopes,
             recorded=_array(recorded) if corrected else None,
             ht=None if history is None else _array(history[0]),
             hx=None if history is None else _array(history[1]),
@@ -129,6 +135,7 @@ class Simulator:
         if reached < 0:
             raise MemoryError(f"simulation of '{self.model.name}' over {n} samples with {q} sensitivities")
         wrt = (*sensitivity, *(f"{s}(0)" for s in initial_sensitivity))
+        wrt += tuple(f"gain {i + 1}" for i in range(q - len(wrt)))
         return Trajectory(run.t, run.X, run.Y, self.states, self.outputs, wrt, run.SX, run.SY, reached, run.stiff)
 
     def signals(
@@ -187,20 +194,19 @@ class Simulator:
         late_of = tuple(str(self.model.delays[_late(self.model, y)].of) for y in s.late)
         n, m, late, w = len(s.states), len(s.outputs), len(s.late), len(s.noises)
         zero, p = np.zeros(max(n, w, len(s.inputs), 1)), self._vector("parameter", self.parameters, parameters)
-        x, at, u = np.zeros(n), np.zeros(late), zero if inputs is None else _array(inputs)
-        out = [np.zeros(k) for k in ((n, n), (n, n), (n, late), (n, w), (m, n), (m, late), (late,))]
-        mean = [np.zeros_like(k) for k in out]
-        for point in points:
-            x[:] = point
-            at[:] = [point[s.states.index(o)] if o in s.states else u[s.inputs.index(o)] for o in late_of]
-            self._loop.linearise((zero, x, at, u, zero, p, self.constants), out)
-            for total, part in zip(mean, out, strict=True):
-                total += part / len(points)
+        u = zero if inputs is None else _array(inputs)
+        at = [
+            points[:, s.states.index(o)] if o in s.states else np.full(len(points), u[s.inputs.index(o)])
+            for o in late_of
+        ]
+        at = np.ascontiguousarray(np.column_stack(at)) if at else np.zeros((len(points), 0))
+        mean = [np.zeros(k) for k in ((n, n), (n, n), (n, late), (n, w), (m, n), (m, late), (late,))]
+        self._loop.linearise(points, at, {"xd": zero, "u": u, "w": zero, "p": p, "c": self.constants}, mean)
         mass = mean[0]
         if not all(np.isfinite(k).all() for k in mean) or not np.linalg.cond(mass) < 1e14:
             raise SymidError(
-                f"simulation of '{self.model.name}': the rates cannot be solved for at the state {x}; the mass "
-                "matrix is singular or not finite there"
+                f"simulation of '{self.model.name}': the rates cannot be solved for at the state "
+                f"{points.mean(axis=0)}; the mass matrix is singular or not finite there"
             )
         return Linearised.from_residual(*mean, s.states, late_of)
 

@@ -15,7 +15,7 @@ class Trajectory:
     ----------
     time : (N,) [s].
     x : (N, n) states, y : (N, m) outputs; rows after the end of a run that diverged are NaN.
-    wrt : names of the unknowns of the sensitivities: parameters, then ``<state>(0)``.
+    wrt : names of the unknowns of the sensitivities: parameters, then ``<state>(0)``, then what only a gain depends on.
     dx : (N, n, q) and dy : (N, m, q) derivatives of x and y, or None.
     reached : samples before the run diverged; N if it did not.
     state_names, output_names : of the columns of x and y.

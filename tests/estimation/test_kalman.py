@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from symid.estimation.fitting.kalman import kalman_gain
+from symid.estimation.fitting.kalman import KalmanFilter
 from symid.estimation.signals.segment import _between
 from symid.simulation import Linearised
 
@@ -18,7 +18,7 @@ def gain_of(states: np.ndarray, outputs: np.ndarray) -> np.ndarray:
     a, g, c = A * states[:, None] / states, G * states[:, None], C * outputs[:, None] / states
     none = np.zeros((0,))
     linear = Linearised(a, g, c, np.zeros((3, 0)), np.zeros((2, 0)), none, none.astype(int))
-    return kalman_gain(linear, 0.01, VALVE, NOISE * outputs) / states[:, None] * outputs
+    return KalmanFilter.of(linear, 0.01, VALVE, NOISE * outputs).gain / states[:, None] * outputs
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e-4, 1e5, 1e9])
@@ -36,3 +36,38 @@ def test_both_sensors_are_used():
 def test_gains_between_samples_are_on_the_line_between_theirs():
     gain = np.array([0.0, 1.0, 4.0])[:, None, None]
     assert _between(gain, 2).ravel().tolist() == [0, 0.5, 1, 2.5, 4]
+
+
+def test_slopes_are_those_of_the_gain():
+    none = np.zeros(0)
+
+    def linear(stiffness: float, lag: float) -> Linearised:
+        a, late = np.array([[0, 1.0], [-stiffness, -0.5]]), np.array([[0.0], [-3.0]])
+        seen, unseen = np.array([[1.0, 0.0]]), np.zeros((1, 1))
+        if lag == 0:
+            return Linearised(a, none_g, seen, np.zeros((2, 0)), np.zeros((1, 0)), none, none.astype(int))
+        return Linearised(a, none_g, seen, late, unseen, np.array([lag]), np.array([0]))
+
+    none_g = np.array([[0.0], [1.0]])
+    for lag in (0.0, 0.03):
+
+        def gain(stiffness: float, force: float, sensor: float, lag: float = lag) -> np.ndarray:
+            return KalmanFilter.of(linear(stiffness, lag), 0.01, np.array([force]), np.array([sensor])).gain
+
+        here = KalmanFilter.of(linear(9.0, lag), 0.01, np.array([2.0]), np.array([1e-3]))
+        step = 1e-4
+        got = here.slopes(
+            [
+                (9.0 * step, linear(9.0 * (1 + step), lag), np.array([2.0]), np.array([1e-3])),
+                (step, here.linear, np.array([2.0 * np.exp(step)]), np.array([1e-3])),
+                (step, here.linear, np.array([2.0]), np.array([1e-3 * np.exp(step)])),
+            ]
+        )
+        h = 1e-3
+        wanted = [
+            (gain(9.0 + h, 2.0, 1e-3) - gain(9.0 - h, 2.0, 1e-3)) / (2 * h),
+            (gain(9.0, 2.0 * np.exp(h), 1e-3) - gain(9.0, 2.0 * np.exp(-h), 1e-3)) / (2 * h),
+            (gain(9.0, 2.0, 1e-3 * np.exp(h)) - gain(9.0, 2.0, 1e-3 * np.exp(-h))) / (2 * h),
+        ]
+        for a, b in zip(got, wanted, strict=True):
+            np.testing.assert_allclose(a, b, atol=1e-3 * np.abs(b).max())

@@ -91,6 +91,7 @@ def test_both_loops_give_the_same_results(method, lag, hold):
         "history": (np.linspace(-0.2, 0, 3), np.outer([0.9, 1.2, 1.0], [0.4, 0.0])),
         "recorded": seen,
         "gain": rng.uniform(0, 0.1, (1 if lag is None else 8, 2, 2)),
+        "gain_slopes": rng.uniform(0, 0.1, (2, 1 if lag is None else 8, 2, 2)),
         "sensitivity": ("damping",),
         "initial_sensitivity": ("rate",),
     }
@@ -281,3 +282,25 @@ def test_corrections_of_the_past_reach_delayed_signals_and_sensitivities(Simulat
         np.testing.assert_allclose(got.sensitivity("seen", key), slope[:, 0], atol=2e-5 * np.abs(slope[:, 0]).max())
     only_now = sim.simulate(values, **(common | {"gain": gain[0]}))
     assert not np.allclose(only_now.y, got.y)
+
+
+@pytest.mark.parametrize("lag", [None, 0.07])
+def test_sensitivities_know_that_the_gain_depends_on_parameters_and_more(Simulator, lag):
+    t, rng = np.linspace(0, 4, 201), np.random.default_rng(3)
+    sim, values = Simulator(oscillator(lag)), VALUES | ({} if lag is None else {"lag": lag})
+    recorded = rng.normal(size=(201, 2)) * 0.1
+    recorded[40, 1] = np.nan
+    gain, *slopes = rng.uniform(0, 0.1, (3, 2, 2) if lag is None else (3, 6, 2, 2))
+    common = {"initial_state": [0.1, 0.0], "time": t, "inputs": {"push": np.sin(2 * t)}, "recorded": recorded}
+    got = sim.simulate(
+        values, gain=gain, gain_slopes=slopes, sensitivity=["damping"], initial_sensitivity=["rate"], **common
+    )
+    assert got.wrt == ("damping", "rate(0)", "gain 1")
+
+    def moved(v: dict[str, float]) -> np.ndarray:
+        more = gain + (v["damping"] - values["damping"]) * slopes[0] + v["more"] * slopes[1]
+        return sim.simulate({k: v[k] for k in values}, gain=more, **common).y
+
+    for column, key in ((0, "damping"), (2, "more")):
+        slope = central(moved, values | {"more": 0.0}, key, 1e-4)
+        np.testing.assert_allclose(got.dy[:, :, column], slope, atol=1e-6 * np.abs(slope).max())

@@ -20,6 +20,11 @@ from symid.estimation.signals.data import Data
 from symid.model import Model
 from symid.simulation import Trajectory
 
+NEAR = 10.0
+"""What an iteration promises of twice the log-likelihood near the end, from where slopes know that the Kalman gain
+depends on the parameters, too: without that a fit ends a standard error away, but it comes from farther."""
+UNTOLD = 1e-3
+"""The size of a noise keeps its value where a change by a factor of e changes twice the log-likelihood by less."""
 TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
 PATIENCE = 8
@@ -67,6 +72,9 @@ class Fitter(Refining):
         tuned = [*range(self.noises)] if self.driven else []
         tuned += range(self.noises, self.noises + data.cutoff_free + ratios)
         self.tuned = tuned if tune else []
+        most = np.full(self.noises + data.cutoff_free + ratios, np.inf)
+        most[self.noises :], most[self.noises : self.noises + data.cutoff_free] = FARTHEST, SHARPEST
+        self.farthest = np.log(most[self.tuned])
         self.own = np.ones(data.cutoff_free + ratios)
         self.near = near
 
@@ -88,6 +96,7 @@ class Fitter(Refining):
             fit goes on, so that a fit from which others begin is had for a small part of the work without.
         """
         self.bounded = self.driven and self.near is not None and self.near.bounded
+        self.gain_moves = not self.driven
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
         left = iterations  # for all descents that follow
@@ -107,13 +116,20 @@ class Fitter(Refining):
     def _descend(self, at: _Point, iterations: int, tolerance: float) -> tuple[int, bool]:
         """Move `at` uphill; how many iterations that took, and whether it converged."""
         damping, converged, k = 1e-3, False, 0
+        self.gain_moves = not self.driven
         for k in range(1, iterations + 1):
             system = self._system(at)
+            if system and not self.gain_moves and self._step(system, at, damping) @ system[1] < NEAR:
+                self.gain_moves, at.runs = True, None
+                system = self._system(at)
             if system is None:
                 break
             new, step, damping = self._improved(at, system, damping)
+            if new is None and not self.gain_moves:
+                self.gain_moves, at.runs, damping = True, None, 1e-3
+                continue
             if new is None:
-                # No step gains although little is left to gain: the Kalman gain's own change is not in the slopes.
+                # No step gains although little is left to gain: the path of the gain is not in the slopes.
                 converged = float(step @ system[1]) < 1.0
                 break
             change = new.value - at.value
@@ -135,7 +151,11 @@ class Fitter(Refining):
         return True
 
     def _step(self, system, at: _Point, damping: float) -> np.ndarray:
-        return damped_step(system, damping, self.bounds[self.index], at.p[self.index], at.x0.shape)
+        here, farthest = np.log(at.process[self.tuned]), self.farthest
+        told = np.diag(system[0])[len(self.index) :][: len(here)] > UNTOLD
+        within = np.column_stack([np.where(told, -farthest, here), np.where(told, farthest, here)])
+        bounds, place = np.vstack([self.bounds[self.index], within]), np.append(at.p[self.index], here)
+        return damped_step(system, damping, bounds, place, at.x0.shape)
 
     def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
         """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).
@@ -143,6 +163,7 @@ class Fitter(Refining):
         As everywhere the size of the errors is concentrated out, so that the part R^2 of them that the step explains
         is worth -log(1 - R^2) a sample.
         """
+        self.gain_moves = True
         try:
             at = self._begin(start, initial, process, None)
             system = self._system(at)
@@ -176,12 +197,13 @@ class Fitter(Refining):
         path = self.path(p, x0, self.kalman_gain(p, process, x0) if known is None else known)
         gain = self.kalman_gain(p, process, path)
         self._begin_corrections()
-        value, runs = self._followed(p, x0, gain, process, "outputs", sensitivities=True)
-        if not np.isfinite(value) and known is not None:
-            gain, (value, runs) = known, self._followed(p, x0, known, process, "outputs", sensitivities=True)
-        if not np.isfinite(value) and self._refined(p, x0, gain, process):
+        runs = self.sensitive(p, x0, gain, process, path)
+        if not runs and known is not None:
+            gain, runs = known, self.sensitive(p, x0, known, process, path)
+        if not runs and self._refined(p, x0, gain, process):
             path = self.path(p, x0, gain)
-            value, runs = self._followed(p, x0, gain, process, "outputs", sensitivities=True)
+            runs = self.sensitive(p, x0, gain, process, path)
+        value = self.score(self.innovations(runs, process), process)[0] if runs else -np.inf
         if not np.isfinite(value):
             raise DiagnosisError(f"model '{self.model.name}' diverges from the start values {start}")
         if self._recorrected(p, x0, gain, process, runs):
@@ -204,9 +226,10 @@ class Fitter(Refining):
         sensitivities : whether they are simulated, too: most first steps are taken, and then go on from there.
         """
         try:
-            gain = self.kalman_gain(p, process, path)
-            keep = "states" if self.driven else "outputs"
-            value, runs = self._followed(p, x0, gain, process, keep, sensitivities)
+            filter = self.kalman_filter(p, process, path) if self.driven else None
+            gain, keep = filter and filter.gain, "states" if filter else "outputs"
+            slopes = self.gain_slopes(filter, p, process, path) if filter and sensitivities else None
+            value, runs = self._followed(p, x0, gain, process, keep, sensitivities, slopes)
             value -= self._growth_penalty(p, path)
         except SymidError:
             return _Point(p, x0, process, None, path, -np.inf)
@@ -223,17 +246,17 @@ class Fitter(Refining):
         p1[self.index] += step[:q]
         p1 = np.clip(p1, *self.bounds.T)
         process1 = process.copy()
-        process1[self.tuned] *= np.exp(np.clip(step[q : q + len(self.tuned)], -1.5, 1.5))
-        if self.sharpness_at is not None:
-            process1[self.sharpness_at] = np.clip(process1[self.sharpness_at], 1 / SHARPEST, SHARPEST)
-        process1[self.ratios_at] = np.clip(process1[self.ratios_at], 1 / FARTHEST, FARTHEST)
+        tuned = np.log(process[self.tuned]) + np.clip(step[q : q + len(self.tuned)], -1.5, 1.5)
+        process1[self.tuned] = np.exp(np.clip(tuned, -self.farthest, self.farthest))
         # What is forgotten at once, such as a strain, may begin anywhere as far as the recording tells.
         return p1, np.clip(x0 + step[-E * n :].reshape(E, n), *self.within.T), process1
 
     def _result(self, at: _Point, iterations: int, converged: bool, errors_too: bool) -> Fit:
-        runs = at.runs or self.run(at.p, at.x0, at.kalman_gain, errors_too, process=at.process)
-        innovations = self.innovations(runs, at.process)
+        if not self.gain_moves:
+            self.gain_moves, at.runs = True, None
         point = (at.p, at.x0, at.kalman_gain, at.process, at.path)
+        runs = at.runs or (self.sensitive(*point) if errors_too else self.run(*point[:3], False, process=at.process))
+        innovations = self.innovations(runs, at.process)
         system = normal_equations(self, *point, runs) if errors_too else None
         loglik2, whitening = self.score(innovations, at.process)
         errors = {}

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import LinAlgError, expm, matrix_balance, solve_discrete_are
@@ -14,6 +15,8 @@ HOLD, MOST_HOLDS = 0.01, 8
 FLOOR = 1e-12
 """Every state is moved by at least so small a variance, that of a sensor's noise being one: a mode that nothing moves
 has no stationary gain."""
+MOST_DOUBLINGS, FORGOTTEN = 40, 1e-9
+"""A change of the covariance is followed over at most 2^40 samples, until so small a part of it is left."""
 
 
 def linearised_along(
@@ -25,38 +28,126 @@ def linearised_along(
     ----------
     inputs : the mean of each: a rope's length or a vehicle's speed, which a model may multiply by or divide by.
     """
-    rows = states[np.isfinite(states).all(axis=1)]
-    rows = rows[np.linspace(0, len(rows) - 1, points).astype(int)] if len(rows) else states[:1]
+    rows = points_along(states, points)
     return simulator.linearise(values, rows, np.array([inputs[u] for u in simulator.source.inputs]))
 
 
-def kalman_gain(linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray) -> np.ndarray:
-    """Gain that moves the state after a sample by gain @ (recorded - predicted).
+def points_along(states: np.ndarray, points: int = 16) -> np.ndarray:
+    """(P, n) states of a trajectory at which it is linearised: of themselves they give the same ones again."""
+    rows = states[np.isfinite(states).all(axis=1)]
+    return rows[np.linspace(0, len(rows) - 1, points).astype(int)] if len(rows) else states[:1]
 
-    (n, m), or (1 + k, n, m) where the model has delayed states: then also for the states 1 ... k
-    samples before, P (F - F K C)'^j C' S^-1 (fixed-lag smoothing; Anderson & Moore 1979, 7.3).
 
-    Parameters
+@dataclass(frozen=True, eq=False)
+class KalmanFilter:
+    """The stationary Kalman filter of a linearised model; its states are divided by `size`, its outputs by `sensor`.
+
+    Attributes
     ----------
-    step : seconds between samples; the process noise is held over the whole part of a sample nearest to `HOLD`
-        seconds, an eighth at least: forces that change within a sample move position and speed apart.
-    process : (w,) standard deviation of each noise of the model; sensor : (m,) of each output.
+    linear : the model. step : seconds between samples.
+    sensor : (m,) standard deviation of each output. size : (n,) of the states.
+    F, Q, C : (n, n), (n, n), (m, n) transition over a sample, what random forces add to the covariance, and outputs.
+    P : (n, n) covariance of the predicted state; None where there is no stationary one.
+    leak : part of the state that is kept from sample to sample, below one where only that makes P stationary.
     """
-    A, G, C = linear.without_delay()
-    F, Q = _moved(A, G, step, process)
-    C = C / sensor[:, None]
-    size = _sizes(F, C)
+
+    linear: Linearised
+    step: float
+    sensor: np.ndarray
+    size: np.ndarray
+    F: np.ndarray
+    Q: np.ndarray
+    C: np.ndarray
+    P: np.ndarray | None = None
+    leak: float = 1.0
+
+    @classmethod
+    def of(cls, linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray) -> KalmanFilter:
+        """The filter of a linearised model.
+
+        Parameters
+        ----------
+        process : (w,) standard deviation of each noise of the model, held over the whole part of a sample nearest to
+            `HOLD` seconds, an eighth at least: forces that change within a sample move position and speed apart.
+        """
+        A, G, C = linear.without_delay()
+        F, Q = _moved(A, G, step, process)
+        size = _sizes(F, C / sensor[:, None])
+        found = cls(linear, step, sensor, size, *_scaled(F, Q, C / sensor[:, None], size))
+        moved, alike = found.Q + FLOOR * np.eye(len(F)), np.eye(len(C))
+        for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
+            try:
+                with np.errstate(over="ignore", invalid="ignore"):
+                    P = solve_discrete_are((leak * found.F).T, found.C.T, moved, alike)
+                return replace(found, P=P, leak=leak)
+            except (LinAlgError, ValueError):
+                continue
+        return found
+
+    @property
+    def gain(self) -> np.ndarray:
+        """Gain that moves the state after a sample by gain @ (recorded - predicted).
+
+        (n, m), or (1 + k, n, m) where the model has delayed states: then also for the states 1 ... k
+        samples before, P (F - F K C)'^j C' S^-1 (fixed-lag smoothing; Anderson & Moore 1979, 7.3).
+        """
+        if self.P is None:
+            return np.zeros((len(self.linear.A), len(self.C)))
+        return self._gain(self.F, self.C, self.P, self.sensor)
+
+    def _gain(self, F: np.ndarray, C: np.ndarray, P: np.ndarray, sensor: np.ndarray) -> np.ndarray:
+        own, lags = len(self.linear.A), self.linear.lag[self.linear.late_state >= 0]
+        inverse = np.linalg.inv(C @ P @ C.T + np.eye(len(C)))
+        now = P @ C.T @ inverse
+        back, error, gains = P, (F - F @ now @ C).T, [now]
+        for _ in range(int(np.ceil(lags.max() / self.step)) + 1 if len(lags) else 0):
+            back = back @ error
+            gains.append(back @ C.T @ inverse)
+        out = np.array(gains)[:, :own] * self.size[:own, None] / sensor
+        return out if len(lags) else out[0]
+
+    def slopes(self, others: Sequence[tuple[float, Linearised, np.ndarray, np.ndarray]]) -> np.ndarray | None:
+        """(B, *gain.shape) change of the gain per unit towards each of B filters that differ little from this one.
+
+        Their P follows from this one by one step of Newton's method for the Riccati equation (Hewer 1971), whose linear
+        equation is solved by doubling.
+
+        Parameters
+        ----------
+        others : how far each is, and its model, process noise and sensor noise.
+        """
+        n = len(self.F)
+        models = [linear.without_delay() for _, linear, _, _ in others]
+        if self.P is None or any(len(A) != n for A, _, _ in models):
+            return None
+        process, sensor = (np.array([o[k] for o in others]) for k in (2, 3))
+        A, G, C = (np.stack(k) for k in zip(*models, strict=True))
+        F, Q, C = _scaled(*_moved(A, G, self.step, process), C / sensor[:, :, None], self.size)
+        now = self.P @ self.C.T @ np.linalg.inv(self.C @ self.P @ self.C.T + np.eye(len(self.C)))
+        left, kept, moved = np.eye(n) - now @ C, self.leak * F, self.leak * F @ now
+        after = kept @ left @ self.P @ (kept @ left).swapaxes(1, 2) + moved @ moved.swapaxes(1, 2)
+        change = after + Q + FLOOR * np.eye(n) - self.P
+        power = self.leak * self.F @ (np.eye(n) - now @ self.C)
+        for _ in range(MOST_DOUBLINGS):
+            with np.errstate(over="ignore", invalid="ignore"):  # of a filter that is not stable after all
+                change = change + power @ change @ power.T
+                power = power @ power
+            if not np.abs(power).max() >= FORGOTTEN:
+                break
+        if not np.isfinite(change).all():
+            return None
+        here = self.gain
+        return np.array(
+            [
+                (self._gain(*model, own) - here) / far
+                for (far, *_), own, *model in zip(others, sensor, F, C, self.P + change, strict=True)
+            ]
+        )
+
+
+def _scaled(F, Q, C, size: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     with np.errstate(all="ignore"):  # hopeless candidates overflow, and have no gain
-        F, Q, C = F * size / size[:, None], Q / np.outer(size, size), C * size
-    for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
-        try:
-            with np.errstate(over="ignore", invalid="ignore"):
-                P = solve_discrete_are((leak * F).T, C.T, Q + FLOOR * np.eye(len(F)), np.eye(len(C)))
-            gains = _gains(F, P, C, np.linalg.inv(C @ P @ C.T + np.eye(len(C))), linear, step)
-            return gains * size[: len(linear.A), None] / sensor
-        except (LinAlgError, ValueError):
-            continue
-    return np.zeros((len(linear.A), len(C)))
+        return F * size / size[:, None], Q / np.outer(size, size), C * size
 
 
 def _sizes(F: np.ndarray, C: np.ndarray) -> np.ndarray:
@@ -78,27 +169,17 @@ def held(step: float) -> tuple[int, float]:
 
 
 def _moved(A, G, step: float, process: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Transition over a sample and the covariance of what the noise adds (Anderson & Moore 1979, 4.4)."""
-    n, w = G.shape
+    """Transition over a sample and the covariance of what the noise adds (Anderson & Moore 1979, 4.4).
+
+    (..., n, n) each, for (..., n, n), (..., n, w) and (..., w).
+    """
+    n, w = G.shape[-2:]
     holds, size = held(step)
-    block = np.zeros((n + w, n + w))
-    block[:n, :n], block[:n, n:] = A * step / holds, G * step / holds
+    block = np.zeros((*A.shape[:-2], n + w, n + w))
+    block[..., :n, :n], block[..., :n, n:] = A * step / holds, G * step / holds
     exact = expm(block)
-    F, B = exact[:n, :n], exact[:n, n:] * process * size
-    one, Q = B @ B.T, np.zeros((n, n))
+    F, B = exact[..., :n, :n], exact[..., :n, n:] * process[..., None, :] * size
+    one, Q = B @ B.swapaxes(-1, -2), np.zeros(A.shape)
     for _ in range(holds):
-        Q = F @ Q @ F.T + one
+        Q = F @ Q @ F.swapaxes(-1, -2) + one
     return np.linalg.matrix_power(F, holds), Q
-
-
-def _gains(F, P, C, inverse, linear: Linearised, step: float) -> np.ndarray:
-    own = len(linear.A)
-    now = P @ C.T @ inverse
-    lags = linear.lag[linear.late_state >= 0]
-    if len(lags) == 0:
-        return now[:own]
-    back, error, gains = P, (F - F @ now @ C).T, [now[:own]]
-    for _ in range(int(np.ceil(lags.max() / step)) + 1):
-        back = back @ error
-        gains.append((back @ C.T @ inverse)[:own])
-    return np.array(gains)

@@ -7,9 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from symid.estimation.fitting.growth import growth_normal
-from symid.estimation.fitting.kalman import kalman_gain
 from symid.estimation.fitting.predictor import Predictor
+from symid.estimation.sensors.whitening import past_of
 from symid.simulation import Trajectory
+
+SHARPNESS_STEP = 1e-3
+"""Slopes by the logarithm of a filter's sharpness are differences over this."""
 
 
 def normal_equations(
@@ -31,57 +34,95 @@ def normal_equations(
     p : (parameters,) values. x0 : (E, n) states. gain, process : as of a `Fit`.
     path : (N, n) states that the gain was made for. runs : those of the point with sensitivities, if they are known.
     """
-    runs = runs or predictor.run(p, x0, gain, sensitivities=True, process=process)
+    runs = runs or predictor.sensitive(p, x0, gain, process, path)
     if runs is None:
         return None
-    innovations = predictor.innovations(runs, process)
-    _, whitening = predictor.score(innovations, process)
-    noise = (
-        _tuned_columns(predictor, p, x0, gain, process, path, innovations)
-        if predictor.tuned
-        else [np.zeros((*s.shape, 0)) for s in innovations]
-    )
-    q, n, w, E = len(predictor.free), x0.shape[1], noise[0].shape[2], len(runs)
-    size = q + w + E * n
-    H, g = np.zeros((size, size)), np.zeros(size)
-    with np.errstate(over="ignore", invalid="ignore"):
-        for i, (t, s, extra) in enumerate(zip(runs, innovations, noise, strict=True)):
-            J = whitening(np.concatenate([t.dy[:, :, :q], -extra, t.dy[:, :, q:]], axis=2))
-            r = whitening(s[:, :, None])[:, 0]
-            where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
-            H[np.ix_(where, where)] += J.T @ J
-            g[where] += J.T @ r
-        if predictor.data.cutoff_free and predictor.tuned:
-            _, slope, bend = predictor.data.filter.log_volume(predictor.step, predictor.sharpness(process))
-            samples, at = sum(s.size for s in innovations), q + predictor.tuned.index(predictor.noises)
-            H[at, at] += samples * (slope - bend)
-            g[at] += samples * slope
-        if predictor.bounded:
-            own, pull = growth_normal(predictor, p, path)
-            H[:q, :q] += own
-            g[:q] += pull
+    if not (predictor.tuned and predictor.data.cutoff_free):
+        found = _gauss_newton(predictor, runs, process)
+    else:
+        sharper = process.copy()
+        sharper[predictor.sharpness_at] *= np.exp(SHARPNESS_STEP)
+        more = predictor.sensitive(p, x0, gain, sharper, path)
+        if more is None:
+            return None
+        found = _with_sharpness(predictor, runs, process, more, sharper)
+    H, g = found
+    q = len(predictor.free)
+    if predictor.bounded:
+        own, pull = growth_normal(predictor, p, path)
+        H[:q, :q] += own
+        g[:q] += pull
     # Sensitivities of an unstable predictor overflow before the run itself does.
     return (H, g, q) if np.isfinite(H).all() and np.isfinite(g).all() else None
 
 
-def _tuned_columns(predictor: Predictor, p, x0, gain, process, path, innovations):
-    """Change of the innovations per unit of the logarithm of what is tuned, by differences."""
-    linear, columns = predictor.linearised(p, path) if predictor.driven else None, []
-    for j in predictor.tuned:
-        more = process.copy()
-        more[j] *= np.exp(0.1)
-        moved = (
-            gain
-            if j == predictor.sharpness_at
-            else kalman_gain(linear, predictor.step, more[: predictor.noises], predictor.sensors(more))
-        )
-        other = predictor.run(p, x0, moved, False, process=more)
-        columns.append(
-            [np.zeros_like(s) for s in innovations]
-            if other is None
-            else [(a - b) / 0.1 for a, b in zip(predictor.innovations(other, more), innovations, strict=True)]
-        )
-    return [np.stack([c[i] for c in columns], axis=2) for i in range(len(innovations))]
+def _gauss_newton(
+    predictor: Predictor, runs: Sequence[Trajectory], process: np.ndarray, sharpness: Sequence[np.ndarray] | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """The matrix and right side from the products of the slopes of the innovations.
+
+    sharpness : (N, m) of each segment, slopes of the innovations by the logarithm of the sharpness of a filter.
+    """
+    innovations = predictor.innovations(runs, process)
+    _, whitening = predictor.score(innovations, process)
+    q, n, w = len(predictor.free), len(predictor.sim.states), len(predictor.tuned)
+    size = q + w + len(runs) * n
+    H, g = np.zeros((size, size)), np.zeros(size)
+    own = [predictor.tuned.index(j) for j in predictor.tuned_gain]
+    memory = predictor.data.memory
+    # Segments know nothing of each other's initial states: these stay apart where there are several.
+    shared = slice(0, size if len(runs) == 1 else q + w)
+    past, told = 0.0, 0.0
+    with np.errstate(over="ignore", invalid="ignore"):
+        for i, (t, s) in enumerate(zip(runs, innovations, strict=True)):
+            tuned = np.zeros((*s.shape, w))
+            if t.dy.shape[2] > q + n:
+                tuned[:, :, own] = t.dy[:, :, q + n :]
+            if sharpness:
+                tuned[:, :, predictor.tuned.index(predictor.sharpness_at)] = -sharpness[i]
+            J = whitening(np.concatenate([t.dy[:, :, :q], tuned, t.dy[:, :, q : q + n]], axis=2))
+            r = whitening(s[:, :, None])[:, 0]
+            where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
+            H[np.ix_(where, where)] += J.T @ J
+            g[where] += J.T @ r
+            if memory:
+                before = past_of(s, memory)
+                past = past + before.T @ before
+                told = told + np.tensordot(before, J.reshape(*s.shape, -1)[memory:, :, shared], (0, 0))
+        if memory:
+            # The autoregression that whitens follows the parameters, and takes up a part of what they change.
+            taken = np.linalg.lstsq(past, told.reshape(len(past), -1), rcond=1e-12)[0]
+            H[shared, shared] -= told.reshape(-1, shared.stop).T @ taken.reshape(-1, shared.stop)
+    return H, g
+
+
+def _with_sharpness(predictor: Predictor, runs, process, more, sharper) -> tuple[np.ndarray, np.ndarray]:
+    """The same where the sharpness of a filter is tuned, too, with `more` runs at a little more of it.
+
+    All innovations together balance the volume of the filter, so that products of their slopes are far from the
+    curvature; its row is the change of the right side. Where that is not convex, far away, the products must do.
+    """
+    at, samples = len(predictor.free) + predictor.tuned.index(predictor.sharpness_at), sum(t.y.size for t in runs)
+    here, there = predictor.innovations(runs, process), predictor.innovations(more, sharper)
+    ratio = float(np.exp(SHARPNESS_STEP))
+    slopes = [(b - a) / (ratio - 1) for a, b in zip(here, there, strict=True)]
+    H, g = _gauss_newton(predictor, runs, process, slopes)
+    _, moved = _gauss_newton(predictor, more, sharper, [ratio * s for s in slopes])
+    volume, bend = _volume(predictor, process)
+    g[at] += samples * volume
+    moved[at] += samples * _volume(predictor, sharper)[0]
+    H[at, at] += samples * (volume - bend)
+    newton = H.copy()
+    newton[at] = newton[:, at] = (g - moved) / SHARPNESS_STEP
+    size = np.sqrt(np.maximum(np.diag(H), 1e-300))
+    with np.errstate(invalid="ignore"):
+        convex = np.isfinite(newton).all() and np.linalg.eigvalsh(newton / np.outer(size, size))[0] > 0
+    return (newton if convex else H), g
+
+
+def _volume(predictor: Predictor, process: np.ndarray) -> tuple[float, float]:
+    """First and second derivative of what undoing a filter adds to the log-likelihood of each sample."""
+    return predictor.data.filter.log_volume(predictor.step, predictor.sharpness(process))[1:]
 
 
 def covariance_of(H: np.ndarray) -> np.ndarray:

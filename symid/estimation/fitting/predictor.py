@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from symid.estimation.fitting.kalman import kalman_gain, linearised_along
+from symid.estimation.fitting.kalman import KalmanFilter, linearised_along, points_along
 from symid.estimation.sensors.whitening import Whitening, whitening_of
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
@@ -22,6 +22,8 @@ from symid.simulation import Linearised, simulator
 
 LONGEST_STEP = 0.02
 """First longest step of the integrator [s], of a motion with the pace of a second."""
+SLOPE_STEP = 1e-4
+"""Slopes of the gain are differences over such a part of a parameter."""
 REACH = 0.03
 """The motion at the start of a segment is continued backwards for so long [s], for signals that are late."""
 
@@ -37,12 +39,14 @@ class Predictor:
     Attributes
     ----------
     tuned : places in `process` of what a fit looks for. bounded : whether it keeps growth without end away.
+    gain_moves : whether slopes by parameters know that the gain depends on these.
     fewest : substeps of a smooth motion with the data's pace.
     defect : (N, m) of each segment, by which the outputs of these steps are corrected; None where they are not.
     """
 
     tuned: Sequence[int] = ()
     bounded = False
+    gain_moves = True
     defect: Sequence[np.ndarray] | None = None
 
     def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), substeps: int = 1, method: str = "rk4"):
@@ -64,8 +68,11 @@ class Predictor:
         """How the integrator steps, as `Simulator.simulate` takes it."""
         return {"substeps": self.substeps, "method": self.method}
 
-    def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs", process=()):
-        """Trajectories of all segments, or None if one diverged; `p` are values in the order of `sim`, or by name."""
+    def run(self, p, x0, gain, sensitivities: bool, keep: str = "outputs", process=(), gain_slopes=None):
+        """Trajectories of all segments, or None if one diverged; `p` are values in the order of `sim`, or by name.
+
+        gain_slopes : of `gain`, as the method of that name makes them: where known, a part of the sensitivities.
+        """
         out = []
         for e, start in zip(self.segments(process), x0, strict=True):
             t = e.simulate(
@@ -73,6 +80,7 @@ class Predictor:
                 p,
                 start,
                 gain,
+                gain_slopes=gain_slopes,
                 keep=keep,
                 sensitivity=self.free if sensitivities else (),
                 initial_sensitivity=self.sim.states if sensitivities else (),
@@ -126,16 +134,44 @@ class Predictor:
     def evaluate(self, p, x0, gain, process=()) -> float:
         return self._followed(p, x0, gain, process, keep="outputs")[0]
 
-    def _followed(self, p, x0, gain, process, keep: str, sensitivities: bool = False):
+    def _followed(self, p, x0, gain, process, keep: str, sensitivities: bool = False, gain_slopes=None):
         """Twice the log-likelihood, -inf where a run diverges, and the runs."""
-        runs = self.run(p, x0, gain, sensitivities, process=process, keep=keep)
+        runs = self.run(p, x0, gain, sensitivities, keep, process, gain_slopes)
         return (-np.inf if runs is None else self.score(self.innovations(runs, process), process)[0]), runs
+
+    def sensitive(self, p, x0, gain, process, path):
+        """`run` with the sensitivities of all that is free, tuned, or where a segment begins."""
+        slopes = self.gain_slopes(self.kalman_filter(p, process, path), p, process, path) if self.driven else None
+        return self.run(p, x0, gain, True, process=process, gain_slopes=slopes)
 
     def kalman_gain(self, p, process, path):
         """Kalman gain at these values, linearised along a path of states; None without random forces."""
-        if not self.driven:
-            return None
-        return kalman_gain(self.linearised(p, path), self.step, process[: self.noises], self.sensors(process))
+        return self.kalman_filter(p, process, path).gain if self.driven else None
+
+    def kalman_filter(self, p, process, path) -> KalmanFilter:
+        """The filter at these values, linearised along a path of states."""
+        return KalmanFilter.of(self.linearised(p, path), self.step, process[: self.noises], self.sensors(process))
+
+    def gain_slopes(self, filter: KalmanFilter, p, process, path) -> np.ndarray | None:
+        """Slopes of its gain by the free parameters, and by the logarithms of what is tuned of it; None without any."""
+        others, path = [], points_along(path)
+        for i in self.index if self.gain_moves else ():
+            moved = p.copy()
+            moved[i] += SLOPE_STEP * abs(p[i]) or SLOPE_STEP**2
+            others.append((moved[i] - p[i], self.linearised(moved, path), process[: self.noises], filter.sensor))
+        for j in self.tuned_gain:
+            more = process.copy()
+            more[j] *= np.exp(SLOPE_STEP)
+            others.append((SLOPE_STEP, filter.linear, more[: self.noises], self.sensors(more)))
+        slopes = filter.slopes(others) if others else None
+        if slopes is None or self.gain_moves:
+            return slopes
+        return np.concatenate([np.zeros((len(self.index), *slopes.shape[1:])), slopes])
+
+    @property
+    def tuned_gain(self) -> list[int]:
+        """What is tuned but the sharpness of a filter, of which the gain does not know."""
+        return [j for j in self.tuned if j != self.sharpness_at]
 
     def linearised(self, p, path) -> Linearised:
         """The model linearised along a path of states and at the mean of each input."""

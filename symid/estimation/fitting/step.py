@@ -9,28 +9,28 @@ TINY = 1e-13
 
 
 def damped_step(system, damping: float, bounds: np.ndarray, at: np.ndarray, initial: tuple[int, int]) -> np.ndarray:
-    """The damped step; parameters that would leave their bounds are held there.
+    """The damped step; the first unknowns, which have bounds, are held there if they would leave them.
 
     Parameters
     ----------
-    system : as `normal_equations` makes it. bounds : (q, 2). at : (q,), where the parameters are.
+    system : as `normal_equations` makes it. bounds : (b, 2) of the first unknowns. at : (b,), where these are.
     initial : number of segments and of states that each begins from, the last unknowns.
     """
-    H, g, q = system
+    H, g, _ = system
     held = np.zeros(len(g), dtype=bool)
     d = np.where(np.diag(H) > 0, np.diag(H), 1.0)  # units of the unknowns may differ by any power of ten
-    for _ in range(q + 1):
+    for _ in range(len(at) + 1):
         use = ~held
         scale = np.sqrt(d[use])
         A = H[np.ix_(use, use)] / np.outer(scale, scale) + damping * np.eye(use.sum())
         step = np.zeros(len(g))
         step[use] = _solved(A, g[use] / scale, *initial) / scale
-        target = at + step[:q]
+        target = at + step[: len(at)]
         out = ((target < bounds[:, 0]) & (at <= bounds[:, 0])) | ((target > bounds[:, 1]) & (at >= bounds[:, 1]))
-        out &= ~held[:q]
+        out &= ~held[: len(at)]
         if not out.any():
             return step
-        held[:q] |= out
+        held[: len(at)] |= out
     return step
 
 

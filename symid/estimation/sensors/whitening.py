@@ -58,7 +58,7 @@ def whitening_of(innovations: Sequence[np.ndarray], memory: int) -> Whitening:
     m = innovations[0].shape[1]
     lags = np.zeros((memory, m, m))
     if memory:
-        past = np.vstack([_past(s, memory) for s in innovations])
+        past = np.vstack([past_of(s, memory) for s in innovations])
         now = np.vstack([s[memory:] for s in innovations])
         lags = np.linalg.lstsq(past, now, rcond=1e-12)[0].reshape(memory, m, m).transpose(0, 2, 1)
     left = np.vstack([_less_memory(lags, s[:, :, None])[:, :, 0] for s in innovations])
@@ -84,7 +84,7 @@ def longest_memory(innovations: Sequence[np.ndarray]) -> int:
     return min(LONGEST, min(len(s) for s in innovations) // SHORTEST)
 
 
-def _past(s: np.ndarray, memory: int) -> np.ndarray:
+def past_of(s: np.ndarray, memory: int) -> np.ndarray:
     """(N - k, k m): the k samples before each."""
     return np.hstack([s[memory - j : len(s) - j] for j in range(1, memory + 1)])
 

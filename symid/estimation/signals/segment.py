@@ -94,6 +94,7 @@ class Segment:
         initial_state,
         gain: np.ndarray | None = None,
         *,
+        gain_slopes: np.ndarray | None = None,
         substeps: int = 1,
         **options,
     ) -> Trajectory:
@@ -109,6 +110,7 @@ class Segment:
             initial_state,
             self._signals(simulator),
             gain=_between(gain, self.ratio),
+            gain_slopes=None if gain_slopes is None else np.array([_between(g, self.ratio) for g in gain_slopes]),
             recorded=self._compared,
             substeps=-(-substeps // self.ratio),
             **options,
