@@ -38,6 +38,7 @@ class Projection:
         self.scans: list[Callable[[np.ndarray], np.ndarray]] = []
         fitter = Fitter.of(fit, data, known)
         self.steps = fitter.steps
+        # The Kalman gain stands still here, as it does for what suspects change: theirs are then no news to these.
         runs = fitter.run(np.array(list(fit.values.values())), fit.initial, fit.kalman_gain, sensitivities=True)
         self.outputs = len(data.sensor_noise)
         q, n = len(fitter.free), fit.initial.shape[1]

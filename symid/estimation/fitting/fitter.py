@@ -184,6 +184,12 @@ class Fitter(Refining):
         """A fit that goes on from where `fit` of the same model ended, perhaps with another error model."""
         return self.fit(fit.values, fit.initial, fit.process, iterations, kalman_gain=fit.kalman_gain, exact=exact)
 
+    def ended(self, fit: Fit) -> Sequence[Trajectory] | None:
+        """Runs with sensitivities where `fit` of the same model ended; None where one diverges."""
+        p = np.array([fit.values[k] for k in self.sim.parameters])
+        path = self.path(p, fit.initial, fit.kalman_gain)
+        return self.sensitive(p, fit.initial, fit.kalman_gain, fit.process, path)
+
     def _system(self, at: _Point):
         """The normal equations there, for which alone the runs are kept."""
         runs, at.runs = at.runs, None

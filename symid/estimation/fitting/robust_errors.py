@@ -24,7 +24,7 @@ def with_robust_errors(fit: Fit, data: Data) -> Fit:
     squares add up to the variance. Blocks are segments, or stretches of a long one.
     """
     fitter = Fitter.of(fit, data)
-    runs = fitter.run(fit.values, fit.initial, fit.kalman_gain, sensitivities=True)
+    runs = fitter.ended(fit)
     if runs is None or not fitter.free or not fit.errors:
         return fit
     whiten, q, m = fit.whitening, len(fitter.free), len(fit.whitening.covariance)
