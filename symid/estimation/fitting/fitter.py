@@ -6,7 +6,7 @@ Without random forces the Kalman gain of the predictor is zero, and the fit is p
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.growth import growth, runs_away
 from symid.estimation.fitting.normal_equations import covariance_of, normal_equations
 from symid.estimation.fitting.refining import Refining
+from symid.estimation.fitting.secant import Secant
 from symid.estimation.fitting.step import damped_step
 from symid.estimation.signals.data import Data
 from symid.model import Model
@@ -115,15 +116,19 @@ class Fitter(Refining):
 
     def _descend(self, at: _Point, iterations: int, tolerance: float) -> tuple[int, bool]:
         """Move `at` uphill; how many iterations that took, and whether it converged."""
-        damping, converged, k = 1e-3, False, 0
-        self.gain_moves = not self.driven
+        damping, converged, k, before = 1e-3, False, 0, None
+        self.gain_moves, secant = not self.driven, Secant(len(self.free) + len(self.tuned))
         for k in range(1, iterations + 1):
             system = self._system(at)
             if system and not self.gain_moves and self._step(system, at, damping) @ system[1] < NEAR:
-                self.gain_moves, at.runs = True, None
+                self.gain_moves, at.runs, before = True, None, None
                 system = self._system(at)
             if system is None:
                 break
+            if self.driven:
+                if before:
+                    secant.learn(self._between(before[0], at), before[1], system)
+                before, system = (replace(at), system), secant.corrected(system)
             new, step, damping = self._improved(at, system, damping)
             if new is None and not self.gain_moves:
                 self.gain_moves, at.runs, damping = True, None, 1e-3
@@ -138,6 +143,11 @@ class Fitter(Refining):
                 converged = True
                 break
         return k, converged
+
+    def _between(self, one: _Point, other: _Point) -> np.ndarray:
+        """The step between two points, as a solution of normal equations."""
+        process = np.log(other.process[self.tuned] / one.process[self.tuned])
+        return np.concatenate([(other.p - one.p)[self.index], process, (other.x0 - one.x0).reshape(-1)])
 
     def _misled(self, at: _Point) -> bool:
         """Shorten the coarse steps where the slopes of fine ones lead on from where a fit ended; whether it did."""

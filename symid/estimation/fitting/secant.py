@@ -1,0 +1,45 @@
+"""What the products of slopes leave out of the curvature, learned from how the slope changed along each step.
+
+Where a model is wrong its innovations are not white, and their second derivatives are not small beside the products
+of their slopes: the size of a noise then overshoots, again and again (Dennis, Gay & Welsch 1981, section 3).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+class Secant:
+    """A correction (k, k) of the matrix of normal equations in their first k unknowns."""
+
+    def __init__(self, size: int):
+        self.left_out = np.zeros((size, size))
+
+    def learn(self, step: np.ndarray, before: tuple, after: tuple) -> None:
+        """From a `step` (u,) between two points with these normal equations."""
+        k = len(self.left_out)
+        own, change = step[:k], (before[1] - after[1])[:k]
+        along = float(own @ change)
+        if not along > 0:
+            return
+        missed = change - (after[0] @ step)[:k]
+        known = self.left_out @ own
+        self.left_out *= min(1.0, abs(float(own @ missed)) / max(abs(float(own @ known)), 1e-300))
+        rest = missed - self.left_out @ own
+        self.left_out += (np.outer(rest, change) + np.outer(change, rest)) / along
+        self.left_out -= float(rest @ own) * np.outer(change, change) / along**2
+
+    def corrected(self, system: tuple) -> tuple:
+        """The normal equations with what was learned, where they stay convex with it."""
+        H, g, q = system
+        k = len(self.left_out)
+        whole, size = H.copy(), np.sqrt(np.maximum(np.diag(H), 1e-300))
+        whole[:k, :k] += self.left_out
+        with np.errstate(invalid="ignore"):
+            scaled = whole / np.outer(size, size)
+        convex = np.isfinite(scaled).all() and np.linalg.eigvalsh(scaled)[0] > CONVEX
+        return (whole, g, q) if convex else system
+
+
+CONVEX = 1e-9
+"""The least eigenvalue of a convex matrix with a unit diagonal: rounding leaves less."""
