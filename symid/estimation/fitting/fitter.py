@@ -121,11 +121,11 @@ class Fitter(Refining):
         for k in range(1, iterations + 1):
             system = self._system(at)
             if system and not self.gain_moves and self._step(system, at, damping) @ system[1] < NEAR:
-                self.gain_moves, at.runs, before = True, None, None
+                self.gain_moves, at.runs = True, None
                 system = self._system(at)
             if system is None:
                 break
-            if self.driven:
+            if self.driven and self.gain_moves:  # farther away it leads astray
                 if before:
                     secant.learn(self._between(before[0], at), before[1], system)
                 before, system = (replace(at), system), secant.corrected(system)
