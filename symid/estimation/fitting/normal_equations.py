@@ -8,6 +8,7 @@ import numpy as np
 
 from symid.estimation.fitting.growth import growth_normal
 from symid.estimation.fitting.predictor import Predictor
+from symid.estimation.fitting.secant import is_convex
 from symid.estimation.sensors.whitening import past_of
 from symid.simulation import Trajectory
 
@@ -114,10 +115,7 @@ def _with_sharpness(predictor: Predictor, runs, process, more, sharper) -> tuple
     H[at, at] += samples * (volume - bend)
     newton = H.copy()
     newton[at] = newton[:, at] = (g - moved) / SHARPNESS_STEP
-    size = np.sqrt(np.maximum(np.diag(H), 1e-300))
-    with np.errstate(invalid="ignore"):
-        convex = np.isfinite(newton).all() and np.linalg.eigvalsh(newton / np.outer(size, size))[0] > 0
-    return (newton if convex else H), g
+    return (newton if is_convex(newton, H) else H), g
 
 
 def _volume(predictor: Predictor, process: np.ndarray) -> tuple[float, float]:

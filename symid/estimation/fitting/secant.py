@@ -8,6 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
+CONVEX = 1e-9
+"""The least eigenvalue of a convex matrix with a unit diagonal: rounding leaves less."""
+
 
 class Secant:
     """A correction (k, k) of the matrix of normal equations in their first k unknowns."""
@@ -32,14 +35,14 @@ class Secant:
     def corrected(self, system: tuple) -> tuple:
         """The normal equations with what was learned, where they stay convex with it."""
         H, g, q = system
-        k = len(self.left_out)
-        whole, size = H.copy(), np.sqrt(np.maximum(np.diag(H), 1e-300))
+        whole, k = H.copy(), len(self.left_out)
         whole[:k, :k] += self.left_out
-        with np.errstate(invalid="ignore"):
-            scaled = whole / np.outer(size, size)
-        convex = np.isfinite(scaled).all() and np.linalg.eigvalsh(scaled)[0] > CONVEX
-        return (whole, g, q) if convex else system
+        return (whole, g, q) if is_convex(whole, H) else system
 
 
-CONVEX = 1e-9
-"""The least eigenvalue of a convex matrix with a unit diagonal: rounding leaves less."""
+def is_convex(matrix: np.ndarray, products: np.ndarray) -> bool:
+    """Whether a matrix of normal equations is, in units in which the one made of products has a unit diagonal."""
+    size = np.sqrt(np.maximum(np.diag(products), 1e-300))
+    with np.errstate(invalid="ignore"):
+        scaled = matrix / np.outer(size, size)
+    return bool(np.isfinite(scaled).all() and np.linalg.eigvalsh(scaled)[0] > CONVEX)
