@@ -15,7 +15,7 @@ from symid.simulation.run import Run
 _SIZES = ("N", "early", "substeps", "method", "nq", "nqp", "nqx", "nh", "npast")
 _ARRAYS = ("t", "u", "du", "ddu", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "dgain", "ht", "hx")
 _RESULTS = ("X", "Y", "SX", "SY")
-WIDE = 4
+PADDED_TO = 4
 """Rows of sensitivities are padded to a multiple of it (run.h)."""
 
 
@@ -55,7 +55,7 @@ class CompiledLoop:
         sizes = {n: getattr(run, n) for n in _SIZES}
         arrays = {n: getattr(run, n) for n in (*_ARRAYS, *_RESULTS)}
         if run.dgain is not None:
-            arrays["dgain"] = np.zeros((*run.dgain.shape[:-1], -(-run.nq // WIDE) * WIDE))
+            arrays["dgain"] = np.zeros((*run.dgain.shape[:-1], -(-run.nq // PADDED_TO) * PADDED_TO))
             arrays["dgain"][..., : run.nq] = run.dgain
         places = {n: None if a is None else a.ctypes.data for n, a in arrays.items()}
         given = _Run(**sizes, limit=run.limit, **places)

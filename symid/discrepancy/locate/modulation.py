@@ -26,7 +26,7 @@ LASTS = 10.0
 """So many times the pace the answer to a push is followed."""
 PARTS = 4
 """Position and rate, each times sine and cosine."""
-TOGETHER = 16
+CONVOLVED_AT_ONCE = 16
 """So many frequencies are convolved in one call: what it costs to call is then lost in the work."""
 
 
@@ -53,7 +53,7 @@ def modulated(projection: Projection) -> list[tuple[str, float, int]]:
         motion = [(x - x.mean()) / (x.std() or 1.0) for x in motion]
         push = _Push(answer, len(time))
         gains = []
-        for some in np.array_split(frequencies, int(np.ceil(len(frequencies) / TOGETHER))):
+        for some in np.array_split(frequencies, int(np.ceil(len(frequencies) / CONVOLVED_AT_ONCE))):
             waves = [wave(2 * np.pi * np.outer(time, some)) for wave in (np.sin, np.cos)]
             columns = push.convolved(np.stack([x[:, None] * w for x in motion for w in waves], axis=2))
             gains += slow.gains(columns)

@@ -21,10 +21,10 @@ from symid.estimation.signals.data import Data
 from symid.model import Model
 from symid.simulation import Trajectory
 
-NEAR = 10.0
+NEAR_THE_END = 10.0
 """What an iteration promises of twice the log-likelihood near the end, from where slopes know that the Kalman gain
 depends on the parameters, too: without that a fit ends a standard error away, but it comes from farther."""
-UNTOLD = 1e-3
+NOT_TOLD = 1e-3
 """The size of a noise keeps its value where a change by a factor of e changes twice the log-likelihood by less."""
 TOLERANCE = 0.02
 """A fit has converged when twice the log-likelihood changes by less than this."""
@@ -120,7 +120,7 @@ class Fitter(Refining):
         self.gain_moves, secant = not self.driven, Secant(len(self.free) + len(self.tuned))
         for k in range(1, iterations + 1):
             system = self._system(at)
-            if system and not self.gain_moves and self._step(system, at, damping) @ system[1] < NEAR:
+            if system and not self.gain_moves and self._step(system, at, damping) @ system[1] < NEAR_THE_END:
                 self.gain_moves, at.runs = True, None
                 system = self._system(at)
             if system is None:
@@ -162,7 +162,7 @@ class Fitter(Refining):
 
     def _step(self, system, at: _Point, damping: float) -> np.ndarray:
         here, farthest = np.log(at.process[self.tuned]), self.farthest
-        told = np.diag(system[0])[len(self.index) :][: len(here)] > UNTOLD
+        told = np.diag(system[0])[len(self.index) :][: len(here)] > NOT_TOLD
         within = np.column_stack([np.where(told, -farthest, here), np.where(told, farthest, here)])
         bounds, place = np.vstack([self.bounds[self.index], within]), np.append(at.p[self.index], here)
         return damped_step(system, damping, bounds, place, at.x0.shape)

@@ -15,7 +15,7 @@ HOLD, MOST_HOLDS = 0.01, 8
 FLOOR = 1e-12
 """Every state is moved by at least so small a variance, that of a sensor's noise being one: a mode that nothing moves
 has no stationary gain."""
-MOST_DOUBLINGS, FORGOTTEN = 40, 1e-9
+MOST_DOUBLINGS, DIED_OUT = 40, 1e-9
 """A change of the covariance is followed over at most 2^40 samples, until so small a part of it is left."""
 
 
@@ -132,7 +132,7 @@ class KalmanFilter:
             with np.errstate(over="ignore", invalid="ignore"):  # of a filter that is not stable after all
                 change = change + power @ change @ power.T
                 power = power @ power
-            if not np.abs(power).max() >= FORGOTTEN:
+            if not np.abs(power).max() >= DIED_OUT:
                 break
         if not np.isfinite(change).all():
             return None
