@@ -15,8 +15,6 @@ from symid.simulation.run import Run
 _SIZES = ("N", "early", "substeps", "method", "nq", "nqp", "nqx", "nh", "npast")
 _ARRAYS = ("t", "u", "du", "ddu", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "dgain", "ht", "hx")
 _RESULTS = ("X", "Y", "SX", "SY")
-PADDED_TO = 4
-"""Rows of sensitivities are padded to a multiple of it (run.h)."""
 
 
 class _Run(ct.Structure):
@@ -55,7 +53,8 @@ class CompiledLoop:
         sizes = {n: getattr(run, n) for n in _SIZES}
         arrays = {n: getattr(run, n) for n in (*_ARRAYS, *_RESULTS)}
         if run.dgain is not None:
-            arrays["dgain"] = np.zeros((*run.dgain.shape[:-1], -(-run.nq // PADDED_TO) * PADDED_TO))
+            wide = ct.c_long.in_dll(self._loop, "padded_to").value  # of rows of sensitivities in C
+            arrays["dgain"] = np.zeros((*run.dgain.shape[:-1], -(-run.nq // wide) * wide))
             arrays["dgain"][..., : run.nq] = run.dgain
         places = {n: None if a is None else a.ctypes.data for n, a in arrays.items()}
         given = _Run(**sizes, limit=run.limit, **places)

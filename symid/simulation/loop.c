@@ -1,6 +1,8 @@
 /* Fixed-step integration of M(x) x' = -force with forward sensitivities, lags and gains.
  * Compiled once after symid/codegen/ode.h, run.h, rates.c and steps.c; the model is a table of generated functions. */
 
+const long padded_to = WIDE;
+
 /* Rows of sensitivities without their padding. */
 static void shown(double *out, const double *S, long rows, long nq, long padded)
 {

@@ -109,7 +109,8 @@ class Simulator:
         signals = time if isinstance(time, Signals) else self.signals(time, inputs, noise, earlier)
         n, q, corrected, slopes = len(signals.w), len(sensitivity) + len(initial_sensitivity), gain is not None, None
         if corrected and gain_slopes is not None:
-            slopes = np.insert(_array(gain_slopes), [len(sensitivity)] * len(initial_sensitivity), 0.0, axis=0)
+            slopes = self._slopes_of(_array(gain), _array(gain_slopes), len(sensitivity))
+            slopes = np.insert(slopes, [len(sensitivity)] * len(initial_sensitivity), 0.0, axis=0)
             q, slopes = len(slopes), np.ascontiguousarray(np.moveaxis(slopes, 0, -1))
         run = Run(
             substeps,
@@ -227,6 +228,14 @@ class Simulator:
                 f"{names}, found {out}"
             )
         return out
+
+    def _slopes_of(self, gain: np.ndarray, slopes: np.ndarray, parameters: int) -> np.ndarray:
+        if slopes.shape[1:] != gain.shape or len(slopes) < parameters:
+            raise SymidError(
+                f"simulation of '{self.model.name}': gain_slopes must be at least {parameters} arrays of the gain's "
+                f"shape {gain.shape}, one for each parameter of sensitivity first; found shape {slopes.shape}"
+            )
+        return slopes
 
     def _columns(self, kind: str, names, signals, n: int, missing: float | None = None) -> np.ndarray:
         table = np.zeros((n, max(len(names), 1)))

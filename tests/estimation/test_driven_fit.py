@@ -76,8 +76,7 @@ def test_standard_errors_follow_from_the_curvature(case):
     fit = fit_model(cart(), data)
     fitter = Fitter.of(fit, data)
     p, path = np.array([fit.values[k] for k in fitter.sim.parameters]), fitted_path(fit, data)
-    runs = fitter.sensitive(p, fit.initial, fit.kalman_gain, fit.process, path)
-    H, _, _ = normal_equations(fitter, p, fit.initial, fit.kalman_gain, fit.process, path, runs)
+    H, _, _ = normal_equations(fitter, p, fit.initial, fit.kalman_gain, fit.process, path)
     bends = [bend for _, bend in slopes_and_bends(fit, data).values()]
     units = [*fit.errors.values(), *np.ones(len(fitter.tuned))]
     made = np.diag(H)[: len(bends)] * np.square(units)

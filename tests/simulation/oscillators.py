@@ -19,3 +19,8 @@ def oscillator(lag: float | None = None, hold: str = "smooth") -> Model:
     m.seen = Output(m.angle)
     m.torque = Output(m.stiffness * late + m.damping * m.rate, unit="N*m")
     return m
+
+
+def central(run, values, key, h):
+    """Central difference of `run` by one of its values."""
+    return (run(values | {key: values[key] + h}) - run(values | {key: values[key] - h})) / (2 * h)

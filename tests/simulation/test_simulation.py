@@ -1,21 +1,14 @@
 """The forward simulator against analytic solutions, conservation laws and finite differences."""
 
-from functools import partial
-
 import numpy as np
 import pytest
 import sympy as sm
-from oscillators import VALUES, oscillator
+from oscillators import VALUES, central, oscillator
 from scipy.linalg import expm
 
 from symid.errors import CodegenError, SymidError
 from symid.model import Equation, Input, Model, Output, Parameter, State
 from symid.simulation import Simulator as AnySimulator
-
-
-@pytest.fixture(params=["c", "numpy"])
-def Simulator(request):
-    return partial(AnySimulator, backend=request.param)
 
 
 def double_pendulum() -> Model:
@@ -29,10 +22,6 @@ def double_pendulum() -> Model:
     m.eb = Equation(c * m.va.dot + m.vb.dot - s * m.va**2 + m.g * sm.sin(m.b))
     m.energy = Output(m.va**2 + m.vb**2 / 2 + c * m.va * m.vb - 2 * m.g * sm.cos(m.a) - m.g * sm.cos(m.b), unit="J")
     return m
-
-
-def central(run, values, key, h):
-    return (run(values | {key: values[key] + h}) - run(values | {key: values[key] - h})) / (2 * h)
 
 
 def test_linear_system_matches_the_matrix_exponential(Simulator):
@@ -169,23 +158,6 @@ def test_sensitivities_match_central_differences(lag, Simulator):
         np.testing.assert_allclose(got.sensitivity("torque", f"{key}(0)"), slope[:, 1], atol=1e-6 * np.abs(slope).max())
 
 
-def test_sensitivities_follow_the_sample_corrections(Simulator):
-    t = np.linspace(0, 4, 201)
-    sim = Simulator(oscillator())
-    rng = np.random.default_rng(2)
-    common = {
-        "time": t,
-        "inputs": {"push": np.sin(2 * t)},
-        "gain": np.array([[0.3, 0.01], [1.0, 0.1]]),
-        "recorded": rng.normal(size=(201, 2)) * 0.1,
-        "initial_state": [0.1, 0.0],
-    }
-    got = sim.simulate(VALUES, sensitivity=["stiffness"], **common)
-    slope = central(lambda v: sim.simulate(v, **common).y, VALUES, "stiffness", 1e-3)
-    np.testing.assert_allclose(got.dy[:, :, 0], slope, atol=1e-7 * np.abs(slope).max() + 1e-12)
-    assert not np.allclose(got.y, sim.simulate(VALUES, [0.1, 0.0], t, {"push": np.sin(2 * t)}).y)
-
-
 def test_nonlinear_sensitivities(Simulator):
     t = np.linspace(0, 3, 301)
     sim = Simulator(double_pendulum())
@@ -253,54 +225,3 @@ def test_models_that_cannot_be_simulated(Simulator):
     m.rule = Equation(m.x.dot + m.y)
     with pytest.raises(CodegenError, match="1 equations for 2 states"):
         Simulator(m)
-
-
-def test_corrections_of_the_past_reach_delayed_signals_and_sensitivities(Simulator):
-    t = np.linspace(0, 4, 201)
-    sim = Simulator(oscillator(0.07))
-    rng = np.random.default_rng(2)
-    gain = np.array(
-        [
-            [[0.3, 0.01], [1.0, 0.1]],
-            [[0.2, 0.0], [0.5, 0.1]],
-            [[0.1, 0.0], [0.3, 0.0]],
-            [[0.0, 0.0], [0.1, 0.0]],
-            [[0.0, 0.0], [0.1, 0.0]],
-        ]
-    )
-    common = {
-        "time": t,
-        "inputs": {"push": np.sin(2 * t)},
-        "gain": gain,
-        "recorded": rng.normal(size=(201, 2)) * 0.1,
-        "initial_state": [0.1, 0.0],
-    }
-    values = VALUES | {"lag": 0.073}
-    got = sim.simulate(values, sensitivity=["stiffness", "lag"], **common)
-    for key, h in (("stiffness", 1e-3), ("lag", 1e-6)):
-        slope = central(lambda v: sim.simulate(v, **common).y, values, key, h)
-        np.testing.assert_allclose(got.sensitivity("seen", key), slope[:, 0], atol=2e-5 * np.abs(slope[:, 0]).max())
-    only_now = sim.simulate(values, **(common | {"gain": gain[0]}))
-    assert not np.allclose(only_now.y, got.y)
-
-
-@pytest.mark.parametrize("lag", [None, 0.07])
-def test_sensitivities_know_that_the_gain_depends_on_parameters_and_more(Simulator, lag):
-    t, rng = np.linspace(0, 4, 201), np.random.default_rng(3)
-    sim, values = Simulator(oscillator(lag)), VALUES | ({} if lag is None else {"lag": lag})
-    recorded = rng.normal(size=(201, 2)) * 0.1
-    recorded[40, 1] = np.nan
-    gain, *slopes = rng.uniform(0, 0.1, (3, 2, 2) if lag is None else (3, 6, 2, 2))
-    common = {"initial_state": [0.1, 0.0], "time": t, "inputs": {"push": np.sin(2 * t)}, "recorded": recorded}
-    got = sim.simulate(
-        values, gain=gain, gain_slopes=slopes, sensitivity=["damping"], initial_sensitivity=["rate"], **common
-    )
-    assert got.wrt == ("damping", "rate(0)", "gain 1")
-
-    def moved(v: dict[str, float]) -> np.ndarray:
-        more = gain + (v["damping"] - values["damping"]) * slopes[0] + v["more"] * slopes[1]
-        return sim.simulate({k: v[k] for k in values}, gain=more, **common).y
-
-    for column, key in ((0, "damping"), (2, "more")):
-        slope = central(moved, values | {"more": 0.0}, key, 1e-4)
-        np.testing.assert_allclose(got.dy[:, :, column], slope, atol=1e-6 * np.abs(slope).max())

@@ -1,7 +1,8 @@
 """What the products of slopes leave out of the curvature, learned from how the slope changed along each step.
 
 Where a model is wrong its innovations are not white, and their second derivatives are not small beside the products
-of their slopes: the size of a noise then overshoots, again and again (Dennis, Gay & Welsch 1981, section 3).
+of their slopes: the size of a noise then overshoots, again and again. The correction is the structured secant update
+of NL2SOL (Dennis, Gay & Welsch 1981).
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ class Secant:
         self.left_out = np.zeros((size, size))
 
     def learn(self, step: np.ndarray, before: tuple, after: tuple) -> None:
-        """From a `step` (u,) between two points with these normal equations."""
+        """From a `step` (u,) between two points with these normal equations: (u, u), (u,) and more."""
         k = len(self.left_out)
         own, change = step[:k], (before[1] - after[1])[:k]
         along = float(own @ change)

@@ -102,6 +102,7 @@ class Segment:
 
         Parameters
         ----------
+        gain, gain_slopes : as of `Simulator.simulate`, for the past at samples of the outputs.
         substeps : of the integrator in each sample of the outputs; at least one in each of the inputs.
         options : of `Simulator.simulate`, but no `noise`.
         """
