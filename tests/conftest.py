@@ -2,6 +2,7 @@
 
 import os
 import signal
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import sympy as sm
 
 import symid.model as si
 from symid.recording import Recording
+from symid.simulation import Simulator as AnySimulator
 
 TESTS = Path(__file__).resolve().parent
 ROOT = TESTS.parent
@@ -18,6 +20,12 @@ COMPILED = ("codegen", "discrepancy", "estimation")
 """Folders whose tests compare C with NumPy, or fit by thousands of simulations: in Python these take hours."""
 if SHARED.is_dir():  # for the notebooks, too, which run in processes of their own
     os.environ.setdefault("SYMID_STANDING", str(SHARED / "recordings" / "standing_subject05"))
+
+
+@pytest.fixture(params=["c", "numpy"])
+def Simulator(request):
+    """A simulator with each of its two loops."""
+    return partial(AnySimulator, backend=request.param)
 
 
 @pytest.fixture(scope="session")
