@@ -181,9 +181,13 @@ def by_score(found: Sequence[Hypothesis]) -> list[Hypothesis]:
 
 
 def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothesis | None:
-    """From there; not exact (see `Fitter.fit`), and without standard errors."""
+    """From there; not exact (see `Fitter.fit`), and without standard errors.
+
+    In the first few iterations the cutoff of a filter keeps its value: from a finite delay it went astray, and took the
+    delay along.
+    """
     suspect, model = start.suspect, fit.model.with_term(start.suspect.term)
-    fitter = Fitter(model, data, near=fit)
+    fitter = Fitter(model, data, near=fit, tune_cutoff=iterations > FIRST_ITERATIONS)
     try:
         new = (
             fit_model(model, data, suspect.named(start.values), exact=False)

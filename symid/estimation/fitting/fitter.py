@@ -62,9 +62,18 @@ class Fitter(Refining):
     fixed : parameters that keep their start value.
     near : a fit from which others begin here, with steps of the integrator as small as that one came to need.
     tune : whether the sizes of noise, and the cutoff of a filter, are fitted; else they keep their values, too.
+    tune_cutoff : whether the cutoff is.
     """
 
-    def __init__(self, model: Model, data: Data, fixed: Sequence[str] = (), near: Fit | None = None, tune: bool = True):
+    def __init__(
+        self,
+        model: Model,
+        data: Data,
+        fixed: Sequence[str] = (),
+        near: Fit | None = None,
+        tune: bool = True,
+        tune_cutoff: bool = True,
+    ):
         coarse, enough, method = (near.coarse, near.substeps, near.method) if near else (1, 1, "rk4")
         super().__init__(model, data, fixed, coarse, enough, method)
         self.bounds = np.array([model.parameters[p].bounds for p in self.sim.parameters], dtype=float).reshape(-1, 2)
@@ -72,7 +81,7 @@ class Fitter(Refining):
         ratios = len(data.sensor_noise) - 1 if self.driven and data.ratios_free else 0
         tuned = [*range(self.noises)] if self.driven else []
         tuned += range(self.noises, self.noises + data.cutoff_free + ratios)
-        self.tuned = tuned if tune else []
+        self.tuned = [j for j in tuned if tune and (tune_cutoff or j != self.sharpness_at)]
         most = np.full(self.noises + data.cutoff_free + ratios, np.inf)
         most[self.noises :], most[self.noises : self.noises + data.cutoff_free] = FARTHEST, SHARPEST
         self.farthest = np.log(most[self.tuned])

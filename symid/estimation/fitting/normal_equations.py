@@ -38,7 +38,7 @@ def normal_equations(
     runs = runs or predictor.sensitive(p, x0, gain, process, path)
     if runs is None:
         return None
-    if not (predictor.tuned and predictor.data.cutoff_free):
+    if predictor.sharpness_at not in predictor.tuned:
         found = _gauss_newton(predictor, runs, process)
     else:
         sharper = process.copy()
