@@ -24,7 +24,7 @@ from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import free_run
-from symid.estimation.measurement import fits_of, settled, sharpened_filter
+from symid.estimation.measurement import fits_of, inputs_too, settled, sharpened_filter
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.known_past import with_known_past
@@ -129,9 +129,10 @@ def _under(
         window, c = (task.fit_window, task.segment_length), checked
         return fits_of(task.model, task.recording, *window, plain, c.filter, c.inputs, start, c.known, c.stated)
 
-    def settle(fit: Fit, data: Data) -> tuple[Data, Fit]:
+    def settle(fit: Fit, data: Data, inputs: bool) -> list[tuple[Data, Fit]]:
         window, sharper = (task.fit_window, task.segment_length), sharpened_filter(fit, data)
-        return settled(fit.model, task.recording, *window, plain, sharper, fit.values, checked.stated)
+        found = [settled(fit.model, task.recording, *window, plain, sharper, fit.values, checked.stated)]
+        return [*found, inputs_too(task.recording, *window, plain, checked.filter, *found[0])] if inputs else found
 
     task, plain, possible = fitted_as_given(task, plain, fits)
     unstated = [k for k, u in task.model.inputs.items() if u.hold == "either"]

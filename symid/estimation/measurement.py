@@ -77,14 +77,17 @@ def fits_of(
     if known or isinstance(filter, Smoothing):
         data = _undone(model, recording, part, length, plain, filter, inputs=False, known=True)
         return [(data, _fitted(model, data, start))]
-    data, fit = settled(model, recording, part, length, plain, filter, start, stated)
-    found = [(data, fit)]
-    if inputs:
-        # The log-likelihoods of the two compare where both hold the same frequencies.
-        ratio = data.segments[0].ratio
-        both = _undone(model, recording, part, length, plain, filter, inputs=True, ratio=ratio)
-        found.append((both, _fitted(fit.model, both, fit.values)))
-    return found
+    found = [settled(model, recording, part, length, plain, filter, start, stated)]
+    return [*found, inputs_too(recording, part, length, plain, filter, *found[0])] if inputs else found
+
+
+def inputs_too(
+    recording: Recording, part, length: float | None, plain: Data, filter: ZeroPhase, data: Data, fit: Fit
+) -> tuple[Data, Fit]:
+    """The data with a filter undone of the inputs, too, and the fit to them of the model of `fit`, which is one to
+    `data`; both hold the same frequencies, so that their log-likelihoods compare. The others are as for `fits_of`."""
+    both = _undone(fit.model, recording, part, length, plain, filter, inputs=True, ratio=data.segments[0].ratio)
+    return both, _fitted(fit.model, both, fit.values)
 
 
 def settled(

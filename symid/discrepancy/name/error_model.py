@@ -13,7 +13,6 @@ memory, under which it keeps its value.
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 from functools import reduce
 from math import inf, log
@@ -34,6 +33,8 @@ from symid.estimation.signals.data import Data
 from symid.model.variants import CORRELATION_TIME
 from symid.threads import in_threads
 
+Settle = Callable[[Fit, Data, bool], list[tuple[Data, Fit]]]
+
 FEW = 3
 """So many suspects tell which of two ways to undo a filter is right: these differ by far less than models do. So many
 may be likeliest beside noise with a memory, which differs from suspect to suspect by far less than it explains."""
@@ -42,7 +43,7 @@ may be likeliest beside noise with a memory, which differs from suspect to suspe
 def with_error_model(
     possible: list[tuple[Data, Fit]],
     searched: Callable[[Fit, Data], Search],
-    settle: Callable[[Fit, Data], tuple[Data, Fit]],
+    settle: Settle,
     progress: Callable[[str], None],
 ) -> tuple[Search, Hypothesis, list[Hypothesis]]:
     """The search under the error model that belongs to the recording, what it found, and each suspect alone.
@@ -50,14 +51,10 @@ def with_error_model(
     Parameters
     ----------
     possible : what may have been measured, and the fit of the model as given to it.
-    searched : makes a search. settle : undoes a filter anew with the cutoff that a fit likes, and refits its model.
+    searched : makes a search. settle : undoes a filter anew with the cutoff that a fit likes, and refits its model;
+        what else may have been measured comes after it where that is asked for.
     """
-    search = _likeliest([searched(base, data) for data, base in possible])
-    if not has_settled(search.of_one.fit, search.data):
-        progress("with one suspect the cutoff of the filter moves; looking again")
-        with suppress(SymidError):  # where the model with it cannot be begun anew the cutoff stays where it was
-            data, fit = settle(search.of_one.fit, search.data)
-            search = searched(_refitted(search.base, fit, data), data)
+    search = _likeliest(_of_settled([searched(base, data) for data, base in possible], searched, settle, progress))
     search = _with_colour(search, searched, progress)
     found, ranking = search.run()
     if holds_of(found.fit, search.base) != holds_of(search.base, search.base):
@@ -66,7 +63,8 @@ def with_error_model(
     if not has_settled(found.fit, search.data):
         progress("with what was found the cutoff of the filter moves; looking again")
         try:
-            search, found, ranking = _again(search, found, *settle(found.fit, search.data), searched, to_end=True)
+            anew = settle(found.fit, search.data, False)[0]
+            search, found, ranking = _again(search, found, *anew, searched, to_end=True)
         except SymidError:  # the cutoff stays where it was, and the search that ended there goes on
             found, ranking = search.run(to_end=True)
     data, explained = _coloured(found.fit, search.data)
@@ -184,6 +182,24 @@ def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:
     """Evidence for an error model beyond an earlier one, with the penalty of BIC for each coefficient."""
     coefficients = (data.memory - before.memory) * len(data.sensor_noise) ** 2 + len(fit.values) - len(white.values)
     return fit.loglik2 - white.loglik2 - coefficients * log(data.samples)
+
+
+def _of_settled(
+    searches: list[Search], searched: Callable[[Fit, Data], Search], settle: Settle, progress: Callable[[str], None]
+) -> list[Search]:
+    """The searches with the cutoff that the suspect likes that explains most of the first data.
+
+    A model that lacks a delay liked a cutoff of half, and then data that were measured otherwise.
+    """
+    first = searches[0]
+    if has_settled(first.of_one.fit, first.data):
+        return searches
+    progress("with one suspect the cutoff of the filter moves; looking again")
+    try:
+        possible = settle(first.of_one.fit, first.data, len(searches) > 1)
+        return [searched(_refitted(first.base, fit, data), data) for data, fit in possible]
+    except SymidError:  # where the model with it cannot be begun anew the cutoff stays where it was
+        return searches
 
 
 def _likeliest(searches: list[Search]) -> Search:
