@@ -15,6 +15,7 @@ from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.bodies import bodies
 from symid.mechanics.flows import flow_ports
+from symid.mechanics.missing.laws import force_unit
 from symid.mechanics.missing.stated import stated
 from symid.model import Input, Model, Output, Port, State
 from symid.model.dimensions import unit_of
@@ -40,12 +41,13 @@ def with_places(model: Model) -> Model:
     Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a
     ``joint`` at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed
     is all that the model knows, as of a motor; the position of such a port is 0. A force that drives
-    several joints at once is a ``joint``, too, between them. In another equation of first order, such as that of
+    several joints at once is a ``joint``, too, between them, and so is what would join two neighbours. In another equation of first order, such as that of
     a tank, a force has no rate of its own, and moves the state: a ``balance``; between two of one kind, or such a
     state and an input of its kind, something may flow: an ``exchange``; and a state that is not in it may act on it:
     a ``coupling``. Where no port is declared at all, a
     mass that moves as no coordinate does is a ``body``, and a constant without a role is ``stated``. Outputs
-    without a role become sensors, inputs without one excitations.
+    without a role become sensors, inputs without one excitations. A port of which no unit is known gets that of a
+    force or a torque.
 
     Examples
     --------
@@ -65,6 +67,9 @@ def with_places(model: Model) -> Model:
         for name, half in bodies(model, ports).items():
             setattr(new, name, half)
         new.components.update(stated(model))
+    for name, port in model.ports.items():
+        if not port.unit and port.role in ROLES:
+            new.components[name] = replace(port, unit=force_unit(model, port.at))
     for kind, role, at in ((Output, "sensor", "sensor"), (Input, "excitation", "input")):
         for c in [c for c in new.components.values() if isinstance(c, kind) and not c.role]:
             new.components[c.name] = replace(c, role=role, at=c.at or f"{at}:{c.channel or c.name}")
@@ -88,19 +93,26 @@ def _ports_of_balances(model: Model) -> dict[str, Port]:
         port = _port(model, name, residuals[name], state, rates)
         if name not in entered and port.unit:
             found[name] = port
-    among = _between(found, residuals) | flow_ports(model, found, residuals)
+    among = _between(model, found, residuals) | flow_ports(model, found, residuals)
     return found | among | _of_drives(model, found, residuals)
 
 
-def _between(ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
-    """Ports between neighbours (in order of declaration) with coordinates of one kind and coupled balances.
+def _between(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
+    """Ports between neighbours (in order of declaration) with coordinates of one kind.
 
-    A force between two bodies acts on both, against each other: of a spring or a joint that joins them.
+    A force between two bodies acts on both, against each other: of a spring or a joint that joins them. Between two
+    joints that were both declared there is one where nothing in the model joins them: else their user has said where
+    forces act.
     """
-    found, joints = {}, {n: p for n, p in ports.items() if p.role == "joint"}
+    declared = {e: p for p in model.ports.values() if p.role == "joint" and len(p.into) == 1 for e in p.into}
+    joints = declared | {n: p for n, p in ports.items() if p.role == "joint"}
+    joints = {n: joints[n] for n in residuals if n in joints}
+    together = [set(p.into) for p in model.ports.values()]
+    found = {}
     for (a, p), (b, q) in pairwise(joints.items()):
         met = [residuals[x].has(*y.rate.free_symbols, *y.position.free_symbols) for x, y in ((a, q), (b, p))]
-        if p.unit == q.unit and any(met) and (p.position == 0) == (q.position == 0):
+        told = a in declared and b in declared and (any(met) or any({a, b} <= t for t in together))
+        if not told and p.unit == q.unit and (p.position == 0) == (q.position == 0):
             found[f"{a}_{b}"] = replace(
                 p,
                 position=p.position - q.position,

@@ -52,14 +52,18 @@ def coordinate_unit(model: Model, place: str) -> str:
     return "m" if any(c.unit in ("N", "m", "m/s^2") for c in [*ports, *parts]) else "rad"
 
 
+def force_unit(model: Model, place: str) -> str:
+    """Unit of what can act at `place`, that of a force or a torque where the model does not tell."""
+    stated = next((port.unit for port in _ports_at(model, place)), "")
+    return stated or ("N" if coordinate_unit(model, place) == "m" else "N*m")
+
+
 def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
     """Let a law's parameters, stated for a rotation, fit what acts there: N m/rad reads N/m along a displacement.
 
     In an equation that was divided by the mass, in m/s^2, it reads 1/s^2.
     """
-    force = next((port.unit for port in _ports_at(model, place)), "")
-    length = coordinate_unit(model, place)
-    force = force or ("N" if length == "m" else "N*m")
+    force, length = force_unit(model, place), coordinate_unit(model, place)
     if (force, length) != ("N*m", "rad"):
         for key, s in vars(p).items():
             if key not in _ANGLES_ANYWHERE:
