@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.hypothesis import Hypothesis, extended
+from symid.discrepancy.model.hypothesis import Hypothesis, extended, is_met
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.short_pieces import short_pieces
 from symid.discrepancy.name.starts import Start, starts_of
@@ -91,7 +91,24 @@ def explore(
     near = least_near(found)
     close = [c for c in rest if c.log_ratio > near and not c.fit.converged]
     found += converging(close) + [c for c in rest if c not in close]
-    return by_score(exact_where_leading(found, near))
+    found = found if later else _from_nothing(fit, data, found, converged)
+    return by_score(exact_where_leading(found, least_near(found)))
+
+
+def _from_nothing(fit: Fit, data: Data, found: Sequence[Hypothesis], count: int) -> list[Hypothesis]:
+    """The same, of which those that explain most are fitted as if nothing were known, too, where none meets the motion.
+
+    Only of free motion: a model that lacks what holds it back ends at values beside which the likelihood has other
+    optima. A motor that drives a load by a shaft lacked dry friction at the load, took nearly all inertia for the
+    motor's, and then the friction for it, too (tests/discrepancy/test_from_nothing.py).
+    """
+    first = sorted((h for h in found if h.suspect.scanned is None), key=lambda h: -h.log_ratio)[:count]
+    if fit.kalman_gain is not None or any(is_met(h.fit, data) for h in first):
+        return list(found)
+    begin = [Start(h.forecast, h.suspect, h.suspect.starts(off=False)[0], afresh=True) for h in first]
+    anew = in_threads(lambda s: _refit(fit, data, s), begin)
+    best = {h.suspect: h for h in sorted([*found, *filter(None, anew)], key=lambda h: h.log_ratio)}
+    return list(best.values())
 
 
 def least_near(found: Sequence[Hypothesis]) -> float:
