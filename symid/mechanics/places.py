@@ -41,10 +41,10 @@ def with_places(model: Model) -> Model:
     Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a
     ``joint`` at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed
     is all that the model knows, as of a motor; the position of such a port is 0. A force that drives
-    several joints at once is a ``joint``, too, between them, and so is what would join two neighbours. In another equation of first order, such as that of
-    a tank, a force has no rate of its own, and moves the state: a ``balance``; between two of one kind, or such a
-    state and an input of its kind, something may flow: an ``exchange``; and a state that is not in it may act on it:
-    a ``coupling``. Where no port is declared at all, a
+    several joints at once is a ``joint``, too, between them, and so is what would join two neighbours. In another
+    equation of first order, such as that of a tank, a force has no rate of its own, and moves the state: a
+    ``balance``; between two of one kind, or such a state and an input of its kind, something may flow: an
+    ``exchange``; and a state that is not in it may act on it: a ``coupling``. Where no port is declared at all, a
     mass that moves as no coordinate does is a ``body``, and a constant without a role is ``stated``. Outputs
     without a role become sensors, inputs without one excitations. A port of which no unit is known gets that of a
     force or a torque.

@@ -71,6 +71,6 @@ def test_a_motion_that_is_met_or_held_is_not_fitted_from_nothing(monkeypatch, me
     begun = []
     monkeypatch.setattr(exploring, "is_met", lambda *_: met)
     monkeypatch.setattr(exploring, "_refit", lambda *a: begun.append(a))
-    found = [SimpleNamespace(suspect=SimpleNamespace(scanned=None), log_ratio=1.0, fit=None)]
+    found = [SimpleNamespace(suspect=SimpleNamespace(scanned=None, size=1), log_ratio=1.0, fit=None)]
     fit = SimpleNamespace(kalman_gain=np.eye(2) if driven else None)
     assert exploring._from_nothing(fit, None, found, 3) == found and begun == []

@@ -100,9 +100,11 @@ def _from_nothing(fit: Fit, data: Data, found: Sequence[Hypothesis], count: int)
 
     Only of free motion: a model that lacks what holds it back ends at values beside which the likelihood has other
     optima. A motor that drives a load by a shaft lacked dry friction at the load, took nearly all inertia for the
-    motor's, and then the friction for it, too (tests/discrepancy/test_from_nothing.py).
+    motor's, and then the friction for it, too (tests/discrepancy/test_from_nothing.py). And only laws with one unknown:
+    they tell the place, from where others of their family begin, and find their size from anywhere.
     """
-    first = sorted((h for h in found if h.suspect.scanned is None), key=lambda h: -h.log_ratio)[:count]
+    simple = [h for h in found if h.suspect.size == 1 and h.suspect.scanned is None]
+    first = sorted(simple, key=lambda h: -h.log_ratio)[:count]
     if fit.kalman_gain is not None or any(is_met(h.fit, data) for h in first):
         return list(found)
     begin = [Start(h.forecast, h.suspect, h.suspect.starts(off=False)[0], afresh=True) for h in first]
