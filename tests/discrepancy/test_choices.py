@@ -10,8 +10,9 @@ import symid.discrepancy.name.error_model as error_model
 import symid.discrepancy.name.explore as exploring
 import symid.discrepancy.name.scan as scanning
 from symid.discrepancy import Suspect
-from symid.discrepancy.name.error_model import _likeliest
+from symid.discrepancy.name.error_model import _likeliest, _of_settled
 from symid.discrepancy.policy import POLICY
+from symid.errors import DiagnosisError
 from symid.mechanics import LIBRARY
 from symid.simulation import simulator
 
@@ -23,7 +24,7 @@ def tried_beside(monkeypatch, leader: str, *alike: str, explains: float) -> set[
     pool = [Suspect(LIBRARY[name].at(f"place{max(0, i - 2)}")) for i, name in enumerate(laws)]
     pool.append(Suspect(LIBRARY[alike[0]].at("another")))
     promised = {leader: 50.0, "cubic_stiffness": 20.0}
-    fit = SimpleNamespace(converged=True)
+    fit = SimpleNamespace(converged=True, kalman_gain=object())  # as under random forces
 
     def starts(_fit, _data, _projection, s):
         return [exploring.Start(promised.get(s.term.name, 0.0), s, {s.strength.key: s.strength.null})]
@@ -114,3 +115,26 @@ def test_the_few_suspects_that_explain_most_tell_which_data_are_likeliest(monkey
     searches = [first, other]
     assert _likeliest(searches) is searches[chosen]
     assert asked == [["explains 5.0", "explains 4.0", "explains 3.0"]]
+
+
+@pytest.mark.parametrize(("others", "fails"), [(0, False), (1, False), (1, True)])
+def test_what_was_measured_is_asked_with_the_cutoff_that_the_best_suspect_likes(monkeypatch, others, fails):
+    """A person whose feedback is late: the model without the delay liked half the cutoff, and then filtered inputs."""
+    asked = []
+
+    def settle(fit, data, inputs):
+        asked.append((fit, data, inputs))
+        if fails:
+            raise DiagnosisError("cannot be begun anew")
+        return [(f"settled {k}", f"fit {k}") for k in range(1 + inputs)]
+
+    monkeypatch.setattr(error_model, "has_settled", lambda fit, data: data != "half")
+    monkeypatch.setattr(error_model, "_refitted", lambda base, fit, data: f"{base} near {fit}")
+    first = SimpleNamespace(of_one=SimpleNamespace(fit="with delay"), data="half", base="base")
+    searches = [first, *["inputs filtered"] * others]
+    found = _of_settled(searches, lambda base, data: (base, data), settle, lambda text: None)
+    assert asked == [("with delay", "half", others == 1)]
+    anew = [(f"base near fit {k}", f"settled {k}") for k in range(1 + others)]
+    assert found == (searches if fails else anew)
+    first.data = "settled"
+    assert _of_settled(searches, None, settle, lambda text: None) is searches and len(asked) == 1

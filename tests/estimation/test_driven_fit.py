@@ -82,3 +82,12 @@ def test_standard_errors_follow_from_the_curvature(case):
     made = np.diag(H)[: len(bends)] * np.square(units)
     np.testing.assert_allclose(made[: len(p)], bends[: len(p)], rtol=0.05)
     np.testing.assert_allclose(made[len(p) :], bends[len(p) :], rtol=0.5)  # on average alike
+
+
+def test_a_cutoff_that_is_not_tuned_keeps_its_value():
+    data = filtered(data_of(recorded()))
+    fit = fit_model(cart(), data)
+    at = Fitter.of(fit, data).sharpness_at
+    kept = Fitter(cart(), data, near=fit, tune_cutoff=False).fit(fit.values, fit.initial, np.ones_like(fit.process))
+    assert kept.process[at] == 1.0 and kept.process[0] != 1.0 and abs(fit.process[at] - 1.0) > 0.1
+    assert kept.loglik2 < fit.loglik2
