@@ -67,9 +67,9 @@ def with_places(model: Model) -> Model:
         for name, half in bodies(model, ports).items():
             setattr(new, name, half)
         new.components.update(stated(model))
-    for name, port in model.ports.items():
+    for name, port in new.ports.items():
         if not port.unit and port.role in ROLES:
-            new.components[name] = replace(port, unit=force_unit(model, port.at))
+            new.components[name] = replace(port, unit=force_unit(new, port.at))
     for kind, role, at in ((Output, "sensor", "sensor"), (Input, "excitation", "input")):
         for c in [c for c in new.components.values() if isinstance(c, kind) and not c.role]:
             new.components[c.name] = replace(c, role=role, at=c.at or f"{at}:{c.channel or c.name}")
@@ -100,9 +100,8 @@ def _ports_of_balances(model: Model) -> dict[str, Port]:
 def _between(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
     """Ports between neighbours (in order of declaration) with coordinates of one kind.
 
-    A force between two bodies acts on both, against each other: of a spring or a joint that joins them. Between two
-    joints that were both declared there is one where nothing in the model joins them: else their user has said where
-    forces act.
+    A force between two bodies acts on both, against each other: of a spring or a joint that joins them. Where one of
+    them was declared there is one if nothing in the model joins them: else their user has said where forces act.
     """
     declared = {e: p for p in model.ports.values() if p.role == "joint" and len(p.into) == 1 for e in p.into}
     joints = declared | {n: p for n, p in ports.items() if p.role == "joint"}
@@ -111,8 +110,9 @@ def _between(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm
     found = {}
     for (a, p), (b, q) in pairwise(joints.items()):
         met = [residuals[x].has(*y.rate.free_symbols, *y.position.free_symbols) for x, y in ((a, q), (b, p))]
-        told = a in declared and b in declared and (any(met) or any({a, b} <= t for t in together))
-        if not told and p.unit == q.unit and (p.position == 0) == (q.position == 0):
+        told = (a in declared or b in declared) and (any(met) or any({a, b} <= t for t in together))
+        alike = dimension(signal_unit(model, coordinate(p))) == dimension(signal_unit(model, coordinate(q)))
+        if not told and alike and p.unit == q.unit and (p.position == 0) == (q.position == 0):
             found[f"{a}_{b}"] = replace(
                 p,
                 position=p.position - q.position,
