@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -129,10 +129,12 @@ def _under(
         window, c = (task.fit_window, task.segment_length), checked
         return fits_of(task.model, task.recording, *window, plain, c.filter, c.inputs, start, c.known, c.stated)
 
-    def settle(fit: Fit, data: Data, inputs: bool) -> list[tuple[Data, Fit]]:
+    def settle(fit: Fit, data: Data) -> Iterator[tuple[Data, Fit]]:
         window, sharper = (task.fit_window, task.segment_length), sharpened_filter(fit, data)
-        found = [settled(fit.model, task.recording, *window, plain, sharper, fit.values, checked.stated)]
-        return [*found, inputs_too(task.recording, *window, plain, checked.filter, *found[0])] if inputs else found
+        found = settled(fit.model, task.recording, *window, plain, sharper, fit.values, checked.stated)
+        yield found
+        if checked.inputs:
+            yield inputs_too(task.recording, *window, plain, checked.filter, *found)
 
     task, plain, possible = fitted_as_given(task, plain, fits)
     unstated = [k for k, u in task.model.inputs.items() if u.hold == "either"]

@@ -45,7 +45,7 @@ def predictions(fit: Fit, data: Data) -> Predictions:
     ------
     DiagnosisError : the model cannot follow these data.
     """
-    fitter = Fitter(fit.model, data, fixed=tuple(fit.values), near=fit, tune=False)
+    fitter = Fitter(fit.model, data, fixed=tuple(fit.values), near=fit, tune="nothing")
     begin = first_states(fit, data)
     found = fitter.fit(fit.values, begin, fit.process, errors=False, kalman_gain=fit.kalman_gain)
     m, step = len(data.sensor_noise), data.segments[0].step

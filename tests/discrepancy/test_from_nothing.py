@@ -61,16 +61,19 @@ def test_inertia_that_a_model_without_friction_took_for_the_motors_is_given_back
     assert base.values["load_inertia"] < 0.1 * TRUE["load_inertia"]
     (suspect,) = [s for s in si.suspects(model) if str(s.term) == "coulomb_friction@load"]
     stuck = exploring._refit(base, data, Start(0.0, suspect, {"torque_Nm": 0.0}))
-    (found,) = exploring._from_nothing(base, data, [stuck], 1)
+    (found,) = exploring._from_nothing([stuck], data, 1)
     assert found.log_ratio > stuck.log_ratio and stuck.fit.values["load_inertia"] < 0.5 * TRUE["load_inertia"]
     assert found.fit.values["load_inertia"] == pytest.approx(TRUE["load_inertia"], rel=0.05)
 
 
-@pytest.mark.parametrize(("met", "driven"), [(True, False), (False, True)])
-def test_a_motion_that_is_met_or_held_is_not_fitted_from_nothing(monkeypatch, met, driven):
-    begun = []
+@pytest.mark.parametrize(
+    ("met", "size", "scanned", "anew"),
+    [(False, 1, None, True), (True, 1, None, False), (False, 2, None, False), (False, 1, "start", False)],
+)
+def test_only_laws_with_one_unknown_are_fitted_from_nothing_where_none_meets_the_motion(
+    monkeypatch, met, size, scanned, anew
+):
     monkeypatch.setattr(exploring, "is_met", lambda *_: met)
-    monkeypatch.setattr(exploring, "_refit", lambda *a: begun.append(a))
-    found = [SimpleNamespace(suspect=SimpleNamespace(scanned=None, size=1), log_ratio=1.0, fit=None)]
-    fit = SimpleNamespace(kalman_gain=np.eye(2) if driven else None)
-    assert exploring._from_nothing(fit, None, found, 3) == found and begun == []
+    monkeypatch.setattr(exploring, "begun_anew", lambda found: "begun anew")
+    found = [SimpleNamespace(suspect=SimpleNamespace(scanned=scanned, size=size), log_ratio=1.0, fit=None)]
+    assert exploring._from_nothing(found, None, 3) == (["begun anew"] if anew else found)

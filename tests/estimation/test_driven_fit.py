@@ -88,6 +88,6 @@ def test_a_cutoff_that_is_not_tuned_keeps_its_value():
     data = filtered(data_of(recorded()))
     fit = fit_model(cart(), data)
     at = Fitter.of(fit, data).sharpness_at
-    kept = Fitter(cart(), data, near=fit, tune_cutoff=False).fit(fit.values, fit.initial, np.ones_like(fit.process))
+    kept = Fitter(cart(), data, near=fit, tune="noise").fit(fit.values, fit.initial, np.ones_like(fit.process))
     assert kept.process[at] == 1.0 and kept.process[0] != 1.0 and abs(fit.process[at] - 1.0) > 0.1
     assert kept.loglik2 < fit.loglik2

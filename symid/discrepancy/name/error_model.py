@@ -12,7 +12,7 @@ memory, under which it keeps its value.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import reduce
 from math import inf, log
@@ -33,7 +33,7 @@ from symid.estimation.signals.data import Data
 from symid.model.variants import CORRELATION_TIME
 from symid.threads import in_threads
 
-Settle = Callable[[Fit, Data, bool], list[tuple[Data, Fit]]]
+Settle = Callable[[Fit, Data], Iterator[tuple[Data, Fit]]]
 
 FEW = 3
 """So many suspects tell which of two ways to undo a filter is right: these differ by far less than models do. So many
@@ -52,7 +52,7 @@ def with_error_model(
     ----------
     possible : what may have been measured, and the fit of the model as given to it.
     searched : makes a search. settle : undoes a filter anew with the cutoff that a fit likes, and refits its model;
-        what else may have been measured comes after it where that is asked for.
+        what else may have been measured comes after.
     """
     search = _likeliest(_of_settled([searched(base, data) for data, base in possible], searched, settle, progress))
     search = _with_colour(search, searched, progress)
@@ -63,7 +63,7 @@ def with_error_model(
     if not has_settled(found.fit, search.data):
         progress("with what was found the cutoff of the filter moves; looking again")
         try:
-            anew = settle(found.fit, search.data, False)[0]
+            anew = next(settle(found.fit, search.data))
             search, found, ranking = _again(search, found, *anew, searched, to_end=True)
         except SymidError:  # the cutoff stays where it was, and the search that ended there goes on
             found, ranking = search.run(to_end=True)
@@ -196,7 +196,7 @@ def _of_settled(
         return searches
     progress("with one suspect the cutoff of the filter moves; looking again")
     try:
-        possible = settle(first.of_one.fit, first.data, len(searches) > 1)
+        possible = settle(first.of_one.fit, first.data)
         return [searched(_refitted(first.base, fit, data), data) for data, fit in possible]
     except SymidError:  # where the model with it cannot be begun anew the cutoff stays where it was
         return searches

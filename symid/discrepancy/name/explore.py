@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.model.begun_anew import begun_anew
 from symid.discrepancy.model.hypothesis import Hypothesis, extended, is_met
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.short_pieces import short_pieces
@@ -91,26 +92,22 @@ def explore(
     near = least_near(found)
     close = [c for c in rest if c.log_ratio > near and not c.fit.converged]
     found += converging(close) + [c for c in rest if c not in close]
-    found = found if later else _from_nothing(fit, data, found, converged)
+    found = found if later else _from_nothing(found, data, converged)
     return by_score(exact_where_leading(found, least_near(found)))
 
 
-def _from_nothing(fit: Fit, data: Data, found: Sequence[Hypothesis], count: int) -> list[Hypothesis]:
-    """The same, of which those that explain most are fitted as if nothing were known, too, where none meets the motion.
+def _from_nothing(found: list[Hypothesis], data: Data, count: int) -> list[Hypothesis]:
+    """The same, where none meets a free motion with those that explain most fitted as if nothing were known.
 
-    Only of free motion: a model that lacks what holds it back ends at values beside which the likelihood has other
-    optima. A motor that drives a load by a shaft lacked dry friction at the load, took nearly all inertia for the
-    motor's, and then the friction for it, too (tests/discrepancy/test_from_nothing.py). And only laws with one unknown:
-    they tell the place, from where others of their family begin, and find their size from anywhere.
+    A motor that drives a load by a shaft lacked dry friction at the load, took nearly all inertia for the motor's, and
+    then the friction for it, too (tests/discrepancy/test_from_nothing.py). Only laws with one unknown: they tell the
+    place, from where others of their family begin, and find their size from anywhere.
     """
     simple = [h for h in found if h.suspect.size == 1 and h.suspect.scanned is None]
     first = sorted(simple, key=lambda h: -h.log_ratio)[:count]
-    if fit.kalman_gain is not None or any(is_met(h.fit, data) for h in first):
-        return list(found)
-    begin = [Start(h.forecast, h.suspect, h.suspect.starts(off=False)[0], afresh=True) for h in first]
-    anew = in_threads(lambda s: _refit(fit, data, s), begin)
-    best = {h.suspect: h for h in sorted([*found, *filter(None, anew)], key=lambda h: h.log_ratio)}
-    return list(best.values())
+    if any(is_met(h.fit, data) for h in first):
+        return found
+    return in_threads(begun_anew, first) + [h for h in found if h not in first]
 
 
 def least_near(found: Sequence[Hypothesis]) -> float:
@@ -206,7 +203,7 @@ def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothes
     delay along.
     """
     suspect, model = start.suspect, fit.model.with_term(start.suspect.term)
-    fitter = Fitter(model, data, near=fit, tune_cutoff=iterations > FIRST_ITERATIONS)
+    fitter = Fitter(model, data, near=fit, tune="all" if iterations > FIRST_ITERATIONS else "noise")
     try:
         new = (
             fit_model(model, data, suspect.named(start.values), exact=False)

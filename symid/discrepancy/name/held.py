@@ -149,7 +149,7 @@ def _promise(found: Hypothesis, rest: tuple[Suspect, ...], model: Model, data: D
     """
     for s in rest:
         model = model.with_term(s.term)
-    fitter, fit = Fitter(model, data, near=found.fit, tune=False), found.fit
+    fitter, fit = Fitter(model, data, near=found.fit, tune="nothing"), found.fit
     values = {k: fit.values[k] for k in fitter.sim.parameters}
     begin = fitter.run(values, fit.initial, fit.kalman_gain, False, process=fit.process)
     if begin is None or not is_near(fitter.innovations(begin, fit.process), data):

@@ -41,7 +41,7 @@ def starts_of(fit: Fit, data: Data, projection: Projection, suspect: Suspect) ->
     if suspect.scanned is not None:
         found = scan(projection, suspect, model)
         return [Start(g, suspect, v) for g, v in found[:1] + [f for f in found[1:] if f[0] > 0.7 * found[0][0]][:2]]
-    fitter, found = Fitter(model, data, near=fit, tune=False), []
+    fitter, found = Fitter(model, data, near=fit, tune="nothing"), []
     if suspect.strength is not None:
         for values in suspect.starts():
             try:

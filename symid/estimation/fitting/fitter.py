@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -20,6 +21,8 @@ from symid.estimation.fitting.step import damped_step
 from symid.estimation.signals.data import Data
 from symid.model import Model
 from symid.simulation import Trajectory
+
+Tune = Literal["all", "noise", "nothing"]
 
 NEAR_THE_END = 10.0
 """What an iteration promises of twice the log-likelihood near the end, from where slopes know that the Kalman gain
@@ -61,18 +64,11 @@ class Fitter(Refining):
     ----------
     fixed : parameters that keep their start value.
     near : a fit from which others begin here, with steps of the integrator as small as that one came to need.
-    tune : whether the sizes of noise, and the cutoff of a filter, are fitted; else they keep their values, too.
-    tune_cutoff : whether the cutoff is.
+    tune : what else is fitted: the sizes of noise and the cutoff of a filter, the noise alone, or nothing.
     """
 
     def __init__(
-        self,
-        model: Model,
-        data: Data,
-        fixed: Sequence[str] = (),
-        near: Fit | None = None,
-        tune: bool = True,
-        tune_cutoff: bool = True,
+        self, model: Model, data: Data, fixed: Sequence[str] = (), near: Fit | None = None, tune: Tune = "all"
     ):
         coarse, enough, method = (near.coarse, near.substeps, near.method) if near else (1, 1, "rk4")
         super().__init__(model, data, fixed, coarse, enough, method)
@@ -81,7 +77,7 @@ class Fitter(Refining):
         ratios = len(data.sensor_noise) - 1 if self.driven and data.ratios_free else 0
         tuned = [*range(self.noises)] if self.driven else []
         tuned += range(self.noises, self.noises + data.cutoff_free + ratios)
-        self.tuned = [j for j in tuned if tune and (tune_cutoff or j != self.sharpness_at)]
+        self.tuned = [j for j in tuned if tune == "all" or tune == "noise" and j != self.sharpness_at]
         most = np.full(self.noises + data.cutoff_free + ratios, np.inf)
         most[self.noises :], most[self.noises : self.noises + data.cutoff_free] = FARTHEST, SHARPEST
         self.farthest = np.log(most[self.tuned])
