@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import sympy as sm
 
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.swings import swing
@@ -19,8 +20,8 @@ and a motion that dies away shows the other. Between them what sticks creeps by 
 noise in half a swing: a smoothed jump lets it creep at up to its width, and the angle of a shaft keeps that."""
 WIDER = 0.05, 0.15, 0.5
 """Parts of the usual speed over which friction may set in that does not jump: of rubber, grease or skin."""
-
-
+ROUNDED = 1e-9
+"""Of a coordinate, what a sum of outputs may leave: rounding in the last digits, no other motion."""
 INDIRECT = 0.3
 """Amplitude [rad or m] of what outputs show indirectly, such as the angle of an arm of which a camera sees the tip."""
 
@@ -46,22 +47,25 @@ def with_friction_speeds(model: Model, segments: Sequence[Segment], noise: np.nd
 
 
 def weights_of(model: Model, expr: Any) -> np.ndarray | None:
-    """(m,) of the outputs in a linear expression of the states; None where it is not recorded.
+    """(m,) of the outputs in a linear expression of the states; None where no sum of outputs shows it.
 
-    A state is recorded where an output shows it, whatever its zero.
+    Where several sums do, the shortest; outputs that are not linear in the states take no part, zeros do not count.
     """
-    shown = {}
-    for i, y in enumerate(model.outputs.values()):
-        own = [s for s in model.states.values() if y.expr.has(s.symbol)]
-        if len(own) == 1 and y.expr.diff(own[0].symbol) == 1:
-            shown[own[0].name] = i
-    if not {str(s) for s in expr.free_symbols} <= shown.keys():
+    asked = _slopes(model, expr)
+    if asked is None or not asked.any():
         return None
-    weights = np.zeros(len(model.outputs))
-    for s in model.states.values():
-        if s.name in shown:
-            weights[shown[s.name]] = float(expr.coeff(s.symbol))
-    return weights if weights.any() else None
+    shown = [_slopes(model, y.expr) for y in model.outputs.values()]
+    each = np.array([np.zeros_like(asked) if row is None else row for row in shown])
+    weights = np.linalg.lstsq(each.T, asked)[0]
+    missed = np.abs(each.T @ weights - asked).max()
+    return weights if missed < ROUNDED * np.abs(asked).max() else None
+
+
+def _slopes(model: Model, expr: Any) -> np.ndarray | None:
+    """(n,) derivatives of an expression with respect to the states; None where these are no known numbers."""
+    known = {c.symbol: c.value for c in model.constants.values()}
+    slopes = [sm.sympify(expr).diff(s.symbol).subs(known) for s in model.states.values()]
+    return np.array(slopes, float) if all(s.is_number for s in slopes) else None
 
 
 def widths(model: Model, port: Port, segments: Sequence[Segment], noise: np.ndarray) -> tuple[float, ...]:
