@@ -127,9 +127,10 @@ def solved(monkeypatch) -> list[str]:
     return done
 
 
-def example(thing, name: str, text: str):
+def example(thing, name: str, text: str, slow: bool = False):
     """A parameter of a test that runs `text`, which takes more than ten minutes in Python where it is a diagnosis."""
-    return pytest.param(thing, id=name, marks=[pytest.mark.compiled] if "diagnose" in text else [])
+    marks = [pytest.mark.slow] if slow else []
+    return pytest.param(thing, id=name, marks=[*marks, pytest.mark.compiled] if "diagnose" in text else marks)
 
 
 def pytest_configure() -> None:

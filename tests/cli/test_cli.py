@@ -18,6 +18,7 @@ TRUTH = json.loads((DATA / "truth.json").read_text())["parameters"]
 IDENTIFY = ["identify", str(DATA / "recording.csv"), "--body", str(DATA / "body.json")]
 
 
+@pytest.mark.slow
 @pytest.mark.elsewhere
 def test_identify_writes_summary_json_and_report(tmp_path, capsys):
     out, report = tmp_path / "a.json", tmp_path / "a.html"

@@ -105,6 +105,7 @@ def test_the_scorer_takes_the_answer_and_the_prediction(folder, finding, tmp_pat
     )
 
 
+@pytest.mark.slow
 def test_the_report_says_it_all_without_a_file_beside_it(finding, tmp_path):
     path = write_diagnosis_report(finding, tmp_path / "report.html", "My rig", {"recording": "rig.csv"})
     html = path.read_text()
@@ -124,6 +125,7 @@ def test_the_report_says_it_all_without_a_file_beside_it(finding, tmp_path):
     assert f"symid {version('symid')}" in html and "command" in html and "doi:" in html
 
 
+@pytest.mark.slow
 def test_the_report_on_a_model_that_is_right_shows_no_improvement(tmp_path):
     write_case(draw_case("rig", [], (1, 0)), tmp_path, "r01")
     case = read_case(tmp_path / "cases" / "r01")
@@ -176,6 +178,7 @@ def test_figures_show_the_numbers_of_the_finding(finding):
     assert len(plots.plot_spectra(finding).axes[0].lines) == 2
 
 
+@pytest.mark.slow
 def test_a_number_of_the_finding_is_the_same_wherever_the_report_says_it(finding):
     """Of a moment the words say a mean over many peaks, the fit itself one of these."""
     (effect,) = finding.named

@@ -31,7 +31,8 @@ def laws(found: si.Diagnosis) -> set[str]:
     return {e.name for e in found.effects}
 
 
-@pytest.mark.parametrize("seed", [pytest.param(1, marks=pytest.mark.slow), 2])
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
 def test_noise_that_remembers_is_no_rest_of_the_held_out_window(seed):
     time = np.arange(0, 100, 1 / 6)
     rates = lambda t, x: [x[1], -1.36 * np.sin(x[0]) - 0.012 * x[1] + 0.012]  # noqa: E731

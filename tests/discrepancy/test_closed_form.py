@@ -63,6 +63,7 @@ def bump_found():
     return finding(recorded(3, bump, {"size": 1.0}), few()[:3])
 
 
+@pytest.mark.slow
 def test_a_diagnosis_proposes_the_law_that_acts_with_its_numbers():
     found = bump_found()
     assert found.verdict == "unexplained" and found.proposal is not None
@@ -97,6 +98,7 @@ def test_the_true_form_is_proposed(force, size, shape):
     assert closed_form(fitted(force, size)).shapes == (shape,)
 
 
+@pytest.mark.slow
 def test_nothing_is_proposed_where_no_form_does_as_well():
     def hills(x, v):
         return sum(s * sm.exp(-(((x - c) / 0.012) ** 2)) for s, c in ((1, -0.07), (-1, -0.035), (1, 0.0), (1, 0.05)))

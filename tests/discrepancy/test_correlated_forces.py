@@ -66,6 +66,7 @@ def test_forces_that_last_are_no_missing_physics(seed):
     assert "correlated over 0." in str(found)
 
 
+@pytest.mark.slow
 def test_a_law_beside_forces_that_last_is_found():
     term = si.mechanics.LIBRARY["coulomb_friction"].at("spring")
     name = term.parameter_name("torque_Nm")

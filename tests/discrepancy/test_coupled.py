@@ -64,6 +64,7 @@ def test_a_spring_between_two_pendulums_is_found():
     assert abs(value - SPRING) < 3 * error
 
 
+@pytest.mark.slow
 def test_what_no_law_names_is_told_of_a_place_without_a_unit():
     """It was told in watts, of the product of no unit and a speed: an exception."""
     m, made = pendulums(joined=True), recorded(seed=4)

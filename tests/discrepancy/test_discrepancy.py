@@ -194,6 +194,7 @@ def _displaced_damping(model, place, p):
     model.add_effort("cart", -p.size_Ns_m3 * port.position**2 * port.rate)
 
 
+@pytest.mark.slow
 def test_physics_of_no_list_is_unexplained_and_placed():
     odd = Law("displaced_damping", "joint", (LawParameter("size_Ns_m3", "N*s/m^3"),), _displaced_damping)
     finding_ = finding(recorded(7, odd.at("cart"), {"size_Ns_m3": 4000.0}))

@@ -56,6 +56,7 @@ def recorded(true: si.Model, random: bool, seed: int) -> si.Recording:
     return si.Recording("shaft", time, channels, {"angle": "rad"} | dict.fromkeys(inputs, "N*m"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("random", "dry", "viscous"), [(False, 0.05, 0.02), (True, 0.1, 0.1)])
 def test_both_are_found_with_their_sizes(random, dry, viscous):
     """A jump over half of the speeds, and drag beside it, were found in their place."""

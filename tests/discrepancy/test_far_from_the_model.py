@@ -36,6 +36,7 @@ def drone() -> tuple[si.Model, si.Recording]:
     return m, si.Recording("drone", time, channels, {"thrust": "N", "height": "m", "climb": "m/s"})
 
 
+@pytest.mark.slow
 def test_a_gain_is_named_however_far_off_the_model_is_without_it():
     """It misses by metres: what the true gain explains is forty times what its slope at the start can promise."""
     model, recording = drone()
@@ -45,6 +46,7 @@ def test_a_gain_is_named_however_far_off_the_model_is_without_it():
     assert value == pytest.approx(GAIN, abs=3 * error) and error < 1e-3
 
 
+@pytest.mark.slow
 def test_dry_friction_that_sets_in_over_twice_the_sharpest_width_is_no_stribeck_friction():
     m = si.Model("wheel")
     m.angle, m.speed, m.torque = si.State(unit="rad"), si.State(unit="rad/s"), si.Input(unit="N*m")
@@ -100,6 +102,7 @@ def drive() -> tuple[si.Model, si.Recording]:
     return m, si.Recording("drive", time, {"force": forces, "position": noisy}, {"force": "N", "position": "m"})
 
 
+@pytest.mark.slow
 def test_dry_friction_is_tried_wherever_a_law_like_it_explains_more_than_it_promised():
     """Beside a constant force the model's mass is wrong by a third, and the slope of dry friction promises little."""
     model, recording = drive()

@@ -43,6 +43,7 @@ def recorded(pull_N: float) -> si.Recording:
     return si.Recording("slide", time[::EVERY], channels, {"q": "m", "force": "N"})
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pull_N", [0.0, PULL_N])
 def test_how_abruptly_friction_sets_in_is_no_gain_of_the_sensor_and_hides_no_delay(pull_N):
     asked = [s for s in si.suspects(slide()) if s.term.name in ASKED]

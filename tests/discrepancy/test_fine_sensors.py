@@ -72,6 +72,7 @@ def test_the_floor_of_an_encoder_may_be_the_rounding_of_a_file_after_a_filter(dr
     assert not plain.filtered and plain.filter is None and plain.noise[0] == pytest.approx(1e-6, rel=0.5)
 
 
+@pytest.mark.slow
 def test_dry_friction_of_a_drive_is_found_with_its_encoder(driven):
     model, asked = positioning(), ("coulomb_friction", "constant_torque", "cubic_stiffness")
     suspects = [s for s in si.suspects(model) if s.term.name in asked]
@@ -82,6 +83,7 @@ def test_dry_friction_of_a_drive_is_found_with_its_encoder(driven):
     assert abs(value - DRY_N) < max(3 * error, 0.01 * DRY_N)
 
 
+@pytest.mark.slow
 def test_dry_friction_and_a_pull_of_a_drive_whose_input_may_be_held_are_found_together():
     """Either alone explains little, a stiffness more; how abruptly friction sets in hangs on what the input does."""
     model, asked = positioning("either"), ("coulomb_friction", "constant_torque", "cubic_stiffness")
@@ -108,6 +110,7 @@ def test_a_file_with_digits_after_a_filter_stays_filtered():
     assert found.filter.cutoff == pytest.approx(8.0, rel=0.15)
 
 
+@pytest.mark.slow
 def test_a_filter_is_undone_from_all_samples_that_it_made(monkeypatch):
     """A fit of free motion takes one sample in several of so many; the noise of those is not what the filter left."""
     monkeypatch.setattr("symid.estimation.signals.data.MOST_SAMPLES", 1500)

@@ -87,6 +87,7 @@ def test_a_joint_and_the_link_that_moves_alike_are_one_place():
     ]
 
 
+@pytest.mark.slow
 def test_a_distorted_sensor_is_unexplained_and_placed():
     found = finding(recorded(7, RIPPLE, {"size_m": 0.004, "wave_m": 0.02}))
     assert found.verdict == "unexplained" and found.effects[0].location == "sensor:cart"

@@ -59,7 +59,7 @@ def test_an_input_that_is_no_level_has_no_exchange():
     assert "exchange" not in {p.role for p in with_places(m).ports.values()}
 
 
-@pytest.mark.parametrize("leak", [0.8, 0.0])
+@pytest.mark.parametrize("leak", [pytest.param(0.8, marks=pytest.mark.slow), 0.0])
 def test_a_room_that_loses_to_the_outside(leak):
     rng, time = np.random.default_rng(3), np.arange(0, 30000, 20.0)
     heat, outside = steps(rng, time, 600, 0, 150), 280 + 5 * np.sin(2 * np.pi * time / 21000)
@@ -180,6 +180,7 @@ def test_a_tank_that_drains_as_torricelli_says():
     assert value == pytest.approx(4e-4, abs=4 * error) and found.values["outlet"] < 1e-5
 
 
+@pytest.mark.slow
 def test_a_tank_that_drains_as_no_law_says():
     found = diagnosed_tank(lambda h: 0.08 + 0.12 * sm.sin(18 * h) ** 2)
     # A level alone does not tell whether its sensor is bent or its outflow: the law that stands for it is a flow.

@@ -55,7 +55,7 @@ def diagnosed(recording: si.Recording) -> si.Diagnosis:
     return si.diagnose(model, recording, fit_window=(0, 30), held_out=(30, 44.9), suspects=few, threads=1)
 
 
-@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("seed", [pytest.param(0, marks=pytest.mark.slow), 1])
 def test_noise_of_an_input_is_no_missing_physics(seed):
     found = diagnosed(recorded(pendulum(), seed, 0.1))
     assert found.verdict == "adequate" and not found.effects
@@ -63,6 +63,7 @@ def test_noise_of_an_input_is_no_missing_physics(seed):
     assert found.baseline.process[0] == pytest.approx(0.1, rel=0.15)
 
 
+@pytest.mark.slow
 def test_a_law_beside_noise_of_an_input_is_found():
     term = si.mechanics.LIBRARY["coulomb_friction"].at("pivot")
     found = diagnosed(recorded(pendulum().with_term(term), 2, 0.1, **{term.parameter_name("torque_Nm"): 0.12}))
@@ -70,6 +71,7 @@ def test_a_law_beside_noise_of_an_input_is_found():
     assert effect.name == "coulomb_friction" and effect.parameters["torque_Nm"][0] == pytest.approx(0.12, rel=0.1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [0.1, pytest.param(1.0, marks=pytest.mark.slow)])
 def test_a_law_that_has_no_name_is_not_taken_for_noise_of_an_input(size):
     found = diagnosed(

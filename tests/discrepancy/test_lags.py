@@ -51,9 +51,9 @@ def recorded(seed: int, late_s: float = 0.0, pump_lag_s: float = 0.0, gauge_lag_
 @pytest.mark.parametrize(
     ("how", "name", "value"),
     [
-        ({"pump_lag_s": 0.15}, "input_lag@input:left", 0.15),
-        ({"gauge_lag_s": 0.15}, "sensor_lag@sensor:gauge", 0.15),
-        ({"late_s": 0.06}, "inputs_delay@global", 0.06),
+        pytest.param({"pump_lag_s": 0.15}, "input_lag@input:left", 0.15, marks=pytest.mark.slow),
+        pytest.param({"gauge_lag_s": 0.15}, "sensor_lag@sensor:gauge", 0.15, marks=pytest.mark.slow),
+        pytest.param({"late_s": 0.06}, "inputs_delay@global", 0.06, marks=pytest.mark.slow),
         ({"late_s": 0.25}, "inputs_delay@global", 0.25),
         ({}, None, 0.0),
     ],
@@ -80,6 +80,7 @@ def crane() -> si.Model:
     return m
 
 
+@pytest.mark.slow
 def test_a_model_that_divides_by_an_input_is_diagnosed():
     rng = np.random.default_rng(1)
     push, rope = signal(rng, 0.15), signal(rng, 0.05)

@@ -3,6 +3,7 @@
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 import sympy as sm
 from conftest import pendulum
 from driven_cart import cart, data_of, finding, recorded
@@ -42,6 +43,7 @@ def test_a_spring_that_comes_and_goes_is_noticed_and_chance_is_not():
         assert len(chance) == 1 and chance[0].minus_log10_p < 2
 
 
+@pytest.mark.slow
 def test_it_makes_the_finding_unexplained():
     found = finding(breathing(5, 3.0))
     assert found.verdict == "unexplained" and found.effects[0].location == "cart"

@@ -42,6 +42,7 @@ def test_dry_friction_of_a_motor_whose_angle_keeps_every_error_of_the_integrator
     assert found.runs["augmented_heldout"].rms < 1.5 * 0.02
 
 
+@pytest.mark.slow
 def test_a_spring_that_stiffens_and_is_damped_although_neither_explains_much_alone():
     """The amplitude of an undamped model does not change, so that its stiffness makes up for any spring's."""
     m = si.Model("cart")

@@ -55,7 +55,10 @@ def recorded(pace: float, cubic: float, size: float = 1.0, seed: int = 0) -> tup
     )
 
 
-@pytest.mark.parametrize(("pace", "size"), [(1e-3, 1.0), (1e-4, 1e-6), (1.0, 1.0), (200.0, 10.0)])
+@pytest.mark.parametrize(
+    ("pace", "size"),
+    [(1e-4, 1e-6), *(pytest.param(*p, marks=pytest.mark.slow) for p in ((1e-3, 1.0), (1.0, 1.0), (200.0, 10.0)))],
+)
 def test_a_law_is_found_at_any_pace_and_size(pace, size, tmp_path):
     model, recording = recorded(pace, cubic=150.0, size=size)
     found = si.diagnose(model, recording, fit_window=(0, 20 * pace), held_out=(20 * pace, 30 * pace), threads=1)
@@ -96,6 +99,7 @@ def test_an_input_without_high_frequencies_is_no_filter_of_the_output():
     assert audit(model, recording, segments_of(model, recording, (0, 0.03)), None).filter is None
 
 
+@pytest.mark.slow
 def test_dry_friction_sets_in_as_abruptly_as_the_recording_shows():
     from scipy.integrate import solve_ivp
 

@@ -95,7 +95,7 @@ def test_suspects_of_a_model_without_ports_are_those_of_its_joints_sensors_and_d
     assert {"coulomb_friction@slide", "sensor_delay@sensor:slide", "input_dead_zone@input:push"} <= found
 
 
-@pytest.mark.parametrize("friction", [0.0, 0.4])
+@pytest.mark.parametrize("friction", [pytest.param(0.0, marks=pytest.mark.slow), 0.4])
 def test_dry_friction_is_found_without_a_port_and_nothing_where_nothing_is(friction):
     found = si.diagnose(
         slide(), recorded(lambda x, v, u: -friction * np.tanh(v / 1e-3)), fit_window=(0, 20), held_out=(20, 29.9)
@@ -211,6 +211,7 @@ def test_a_force_between_two_bodies_is_a_suspect_and_acts_on_both():
     assert "a-b_place" not in with_places(cart_with_pole()).components  # a length and an angle have no difference
 
 
+@pytest.mark.slow
 def test_a_pendulum_that_is_driven_over_the_top_is_compared_in_pieces():
     m = si.Model("rod")
     m.a, m.w = si.State(unit="rad"), si.State(unit="rad/s")
@@ -244,6 +245,7 @@ def test_a_pendulum_that_is_driven_over_the_top_is_compared_in_pieces():
     assert "compared in pieces of about" in str(found)
 
 
+@pytest.mark.slow
 def test_two_gliders_that_lose_energy_lose_each_by_its_own_plain_law():
     """What the first of several losses took up of the others is given back."""
     m = si.Model("gliders")

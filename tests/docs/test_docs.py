@@ -14,8 +14,9 @@ from symid.cli.main import build_parser, command_names, main
 PAGES = ROOT / "docs" / "pages"
 
 
+LONG = "diagnose", "reports"
 WITH_CODE = [
-    example(p, p.stem, text)
+    example(p, p.stem, text, slow=p.stem in LONG)
     for p in sorted(PAGES.rglob("*.md"))
     if "```python" in (text := p.read_text(encoding="utf-8"))
 ]
@@ -72,6 +73,7 @@ def test_a_command_on_files_that_ship_runs(command, tmp_path, monkeypatch, capsy
         assert (tmp_path / path).stat().st_size > 0
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(find_spec("mkdocs") is None, reason="the extra `docs` is not installed")
 def test_the_pages_build_without_a_warning(tmp_path):
     command = [

@@ -18,7 +18,8 @@ def code(path: Path) -> str:
     return "\n".join(cell.source for cell in code_cells(nbformat.read(path, as_version=4)))
 
 
-@pytest.mark.parametrize("path", [example(p, p.stem, code(p)) for p in NOTEBOOKS])
+# What a newcomer opens first runs each time; the others, minutes together, with the slow studies.
+@pytest.mark.parametrize("path", [example(p, p.stem, code(p), slow=p != NOTEBOOKS[0]) for p in NOTEBOOKS])
 def test_runs_from_a_clean_kernel(path, monkeypatch):
     from nbclient import NotebookClient
 

@@ -249,6 +249,7 @@ def coloured(recording, size, seed=4):
     return replace(recording, channels=dict(recording.channels) | {"position": recording["position"] + noise})
 
 
+@pytest.mark.slow
 def test_noise_that_remembers_is_not_taken_for_physics_and_physics_not_for_noise():
     finding_of = finding(coloured(recorded(6), 8 * SENSOR))
     assert finding_of.verdict == "adequate" and "not white" in finding_of.words

@@ -53,6 +53,7 @@ def test_a_cold_start_finds_a_damping_that_explicit_steps_cannot_follow(friction
     assert np.std(fit.innovations[0]) < 1.1 * NOISE
 
 
+@pytest.mark.slow
 def test_dry_friction_is_found_where_an_axis_sticks_most_of_the_time():
     model, recording = geared(False), recorded(True, 24.0)
     laws = ("coulomb_friction", "viscous_friction", "cubic_stiffness", "sensor_delay", "periodic_torque")

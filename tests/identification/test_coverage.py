@@ -56,6 +56,7 @@ def line(name: str, found: dict) -> str:
     return f"{name:<30} {found['count']} repeats  coloured {100 * found['coloured']:.1f} %  {cells}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["integrator", "algebraic, channels together"])
 def test_intervals_hold_the_truth(name):
     found = counted([repeat(name, seed) for seed in range(8)])

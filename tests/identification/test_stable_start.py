@@ -83,6 +83,7 @@ def test_a_loop_has_to_survive_the_larger_input_too(monkeypatch):
     assert not survives(t, np.array([0.4]), 0.1)
 
 
+@pytest.mark.slow
 def test_stable_start_survives_follows_and_is_solved(problem):
     z = stable_start(problem, seed=0, number=0)
     t = problem.transcription
@@ -92,6 +93,7 @@ def test_stable_start_survives_follows_and_is_solved(problem):
     assert result.solved and survives(t, t.layout.parameters(result.z), 1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.compiled
 def test_stable_start_is_the_same_for_a_seed(problem):
     first = problem.start("stable", 3, 2)
@@ -134,6 +136,7 @@ def test_a_search_that_stops_simulating_what_is_worse_finds_the_same_loops(probl
     assert runs.count(loops[0]) < runs.count(loops[1])
 
 
+@pytest.mark.slow
 @pytest.mark.compiled
 def test_starts_of_other_numbers_of_episodes_share_their_first_step(problem, monkeypatch):
     fewer = replace(problem, episodes=Episodes(2, amplitude=0.3, seed=5))

@@ -195,6 +195,7 @@ def test_a_random_start_whose_multipliers_run_away_goes_on_from_softened_equatio
     assert bool(softened) == (beyond >= often) and (softened or bound > 0)
 
 
+@pytest.mark.slow
 def test_a_random_start_that_does_not_end_begins_anew_from_softened_equations(monkeypatch):
     """Before, such starts wandered about for a minute; a limit of the user's is kept."""
     begun = []
@@ -213,6 +214,7 @@ def test_a_random_start_that_does_not_end_begins_anew_from_softened_equations(mo
     assert begun == [10] and not row.solved and row.status == "Maximum_Iterations_Exceeded"
 
 
+@pytest.mark.slow
 def test_multipliers_that_run_away_twice_are_an_honest_refusal(monkeypatch):
     system = small_systems.mass_spring_damper(np.random.default_rng([0, 7]))
     for name, value in {"RAN_AWAY": -1.0, "OFTEN": 1}.items():

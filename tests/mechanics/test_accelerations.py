@@ -58,6 +58,7 @@ def test_a_friction_that_is_added_is_felt():
     assert run.y[0, 0] == pytest.approx(-(1e3 + 640.0) * 0.5 / 320.0)
 
 
+@pytest.mark.slow
 def test_an_output_with_a_rate_is_identified_as_what_the_equations_give_for_it():
     time = np.arange(0, 3, 0.01)
     road = 0.02 * np.sin(9 * time) + 0.01 * np.sin(31 * time + 1)

@@ -156,6 +156,7 @@ def test_a_rig_from_the_command_line(rig, tmp_path, capsys, quick):
     assert [h["name"] for h in answer["halves"]] == ["coulomb_friction"] and answer["halves"][0]["survives"]
 
 
+@pytest.mark.slow
 @pytest.mark.compiled
 def test_a_case_directory_may_leave_out_what_can_be_told(rig, quick):
     (rig / "case.json").write_text(json.dumps({"system": "rig", "parameters": SINGLE}))
@@ -226,6 +227,7 @@ def losing():
     )
 
 
+@pytest.mark.slow
 @pytest.mark.compiled
 def test_several_losses_are_told_apart_and_no_clock_is_needed():
     recording, model = losing(), rig_model(SINGLE)

@@ -108,6 +108,7 @@ def test_any_number_of_threads_gives_the_same_bits():
     assert (one == five).all()
 
 
+@pytest.mark.slow
 def test_any_width_of_vectors_gives_the_same_bits(monkeypatch):
     """Where products are not fused, which the width does not decide."""
     from symid.kkt import library
