@@ -47,4 +47,4 @@ def test_the_sum_of_outputs_that_shows_a_travel(outputs, expected):
 
 
 def test_a_place_that_does_not_move_along_a_state_is_not_shown():
-    assert weights_of(two_masses(lambda x, z, c: x), sm.Integer(0)) is None
+    assert weights_of(two_masses(lambda x, z, c: x), 0) is None

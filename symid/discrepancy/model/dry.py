@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import sympy as sm
 
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.swings import swing
@@ -51,8 +50,8 @@ def weights_of(model: Model, expr: Any) -> np.ndarray | None:
 
     Where several sums do, the shortest; outputs that are not linear in the states take no part, zeros do not count.
     """
-    asked = _slopes(model, expr)
-    if asked is None or not asked.any():
+    asked = None if expr == 0 else _slopes(model, expr)
+    if asked is None:
         return None
     shown = [_slopes(model, y.expr) for y in model.outputs.values()]
     each = np.array([np.zeros_like(asked) if row is None else row for row in shown])
@@ -64,7 +63,7 @@ def weights_of(model: Model, expr: Any) -> np.ndarray | None:
 def _slopes(model: Model, expr: Any) -> np.ndarray | None:
     """(n,) derivatives of an expression with respect to the states; None where these are no known numbers."""
     known = {c.symbol: c.value for c in model.constants.values()}
-    slopes = [sm.sympify(expr).diff(s.symbol).subs(known) for s in model.states.values()]
+    slopes = [expr.diff(s.symbol).subs(known) for s in model.states.values()]
     return np.array(slopes, float) if all(s.is_number for s in slopes) else None
 
 
