@@ -10,7 +10,7 @@ import numpy as np
 
 from symid.discrepancy.locate.audit import Audit, audit, unfiltered
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
-from symid.discrepancy.locate.given import fitted_as_given
+from symid.discrepancy.locate.given import fitted_as_given, regressed
 from symid.discrepancy.model.dry import with_friction_speeds
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.sizes import sizes_of
@@ -32,6 +32,7 @@ from symid.estimation.signals.pieces import free_pieces, joined
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.swings import pace_of
 from symid.estimation.signals.windows import segments_of
+from symid.model import Model
 
 CLEARER = 0.7
 """No filter was there where a free run of what explains the recording without one leaves less than this part of the
@@ -145,11 +146,15 @@ def _under(
     pool = list(suspects_of(task.model, sizes_of(fit, data))) if named is None else list(named)
     progress(f"the model as given is fitted ({fit.iterations} iterations)")
 
+    def regression(model: Model) -> dict[str, float]:
+        return regressed(replace(task, model=model, start={}), plain)
+
     def searched(base: Fit, data: Data) -> Search:
         nothing = Hypothesis((), base, base, data)
         flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
         jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.model.constants]
-        return Search(base, data, pool, flexible, unsteady, jumps=jumps, unstated=unstated, progress=progress)
+        own = {"jumps": jumps, "unstated": unstated, "regression": regression}
+        return Search(base, data, pool, flexible, unsteady, **own, progress=progress)
 
     search, found, ranking = with_error_model(possible, searched, settle, progress)
     return Explained(task, checked, plain, search, found, ranking)

@@ -1,13 +1,17 @@
 """A fit that ended in a wrong optimum, since it began at a model that lacks what matters, is begun anew."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import sympy as sm
 
 import symid as si
 from symid.discrepancy import Suspect
+from symid.discrepancy.model import begun_anew as anew
 from symid.discrepancy.model.begun_anew import begun_anew
-from symid.discrepancy.model.hypothesis import hypothesis, polished
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
+from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between
@@ -61,6 +65,31 @@ def test_a_spring_that_was_left_out_is_found_where_a_fit_from_the_model_without_
     data = Data(segments_between(model, time, channels, (0, 24), None), np.full(2, NOISE), False)
     base = fit_model(model, data)
     stuck = polished(hypothesis([SPRING], base, base, data, SPRING.named({"k_Nm_rad": 0.0})))
-    found = begun_anew(stuck)
+    found = begun_anew(stuck, lambda model: {})
     assert found.log_ratio > 2 * stuck.log_ratio
     assert found.fit.values == pytest.approx(TRUE, rel=1e-3)
+
+
+def test_it_begins_where_regression_says_too_and_keeps_the_likeliest(monkeypatch):
+    """From nothing a fit may fail, or end beside the optimum that the equations of the motion tell."""
+    stuck = Hypothesis((SPRING,), SimpleNamespace(kalman_gain=None, model="with spring", loglik2=10.0), None, None)
+    ends = {"nothing": SymidError("it diverges"), "regression": SimpleNamespace(loglik2=40.0)}
+
+    def fit(model, data, start=None, exact=True):
+        end = ends["regression" if start else "nothing"]
+        if isinstance(end, SymidError):
+            raise end
+        return end
+
+    monkeypatch.setattr(anew, "fit_model", fit)
+    monkeypatch.setattr(anew, "is_met", lambda *_: False)
+    monkeypatch.setattr(anew, "polished", lambda h: h)
+    assert begun_anew(stuck, lambda model: {"stiffness": 3.0} if model == "with spring" else {}).fit.loglik2 == 40.0
+    assert begun_anew(stuck, lambda model: {}) is stuck
+    ends["nothing"] = SimpleNamespace(loglik2=60.0)
+    assert begun_anew(stuck, lambda model: {"stiffness": 3.0}).fit.loglik2 == 60.0
+
+    def unknown(model):
+        raise SymidError("no equation is linear")
+
+    assert begun_anew(stuck, unknown).fit.loglik2 == 60.0

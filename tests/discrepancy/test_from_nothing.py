@@ -23,6 +23,11 @@ FINE = 10
 PLACES = "motor", "load"
 
 
+def nowhere(model: si.Model) -> dict[str, float]:
+    """No regression knows where to begin."""
+    return {}
+
+
 def drive(friction: float = 0.0) -> si.Model:
     m = si.Model("drive")
     m.a, m.va, m.b, m.vb = (si.State(unit=u) for u in ("rad", "rad/s", "rad", "rad/s"))
@@ -61,7 +66,7 @@ def test_inertia_that_a_model_without_friction_took_for_the_motors_is_given_back
     assert base.values["load_inertia"] < 0.1 * TRUE["load_inertia"]
     (suspect,) = [s for s in si.suspects(model) if str(s.term) == "coulomb_friction@load"]
     stuck = exploring._refit(base, data, Start(0.0, suspect, {"torque_Nm": 0.0}))
-    (found,) = exploring._from_nothing([stuck], data, 1)
+    (found,) = exploring._from_nothing([stuck], data, 1, nowhere)
     assert found.log_ratio > stuck.log_ratio and stuck.fit.values["load_inertia"] < 0.5 * TRUE["load_inertia"]
     assert found.fit.values["load_inertia"] == pytest.approx(TRUE["load_inertia"], rel=0.05)
 
@@ -74,6 +79,6 @@ def test_only_laws_with_one_unknown_are_fitted_from_nothing_where_none_meets_the
     monkeypatch, met, size, scanned, anew
 ):
     monkeypatch.setattr(exploring, "is_met", lambda *_: met)
-    monkeypatch.setattr(exploring, "begun_anew", lambda found: "begun anew")
+    monkeypatch.setattr(exploring, "begun_anew", lambda found, regression: "begun anew")
     found = [SimpleNamespace(suspect=SimpleNamespace(scanned=scanned, size=size), log_ratio=1.0, fit=None)]
-    assert exploring._from_nothing(found, None, 3) == (["begun anew"] if anew else found)
+    assert exploring._from_nothing(found, None, 3, nowhere) == (["begun anew"] if anew else found)

@@ -51,7 +51,7 @@ def fitted_as_given(task: Task, plain: Data, fits: Fitting) -> tuple[Task, Data,
     start = dict(task.start)
     if lost(fit, data):
         with suppress(SymidError):
-            start = _start(task, plain, solved=True)
+            start = regressed(task, plain, solved=True)
     lasts = followed(task.model, plain, fit, start, is_met)
     if lasts is None and lost(fit, data):
         longest = max(e.time[-1] - e.time[0] for e in plain.segments)
@@ -108,13 +108,13 @@ def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
     except DiagnosisError as error:
         problem = error
     with suppress(SymidError):
-        found.append(fits(task, plain, _start(task, plain)))
+        found.append(fits(task, plain, regressed(task, plain)))
     if not found:
         raise problem
     return _likelier(found)
 
 
-def _start(task: Task, plain: Data, solved: bool = False) -> Start:
+def regressed(task: Task, plain: Data, solved: bool = False) -> Start:
     """Values [SI] with which the recorded motion satisfies the equations best, improved by simulation.
 
     And the states by and large: of a tank that no sensor sees, an empty one is no start.

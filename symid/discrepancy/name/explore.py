@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.begun_anew import begun_anew
+from symid.discrepancy.model.begun_anew import Regression, begun_anew
 from symid.discrepancy.model.hypothesis import Hypothesis, extended, is_met
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.short_pieces import short_pieces
@@ -39,13 +39,14 @@ def explore(
     projection: Projection | None = None,
     known: dict[Suspect, list[Start]] | None = None,
     jumps: Sequence[str] = (),
+    regression: Regression = lambda model: {},
     progress: Callable[[str], None] = lambda text: None,
 ) -> list[Hypothesis]:
     """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found.
 
     least : log-likelihood ratio below which a suspect is of no use; those that promise too little of it are not fitted.
     known : starts of suspects that were explored on top of this fit before; those of others are added.
-    jumps : friction speeds of the model that nobody stated.
+    jumps : friction speeds of the model that nobody stated. regression : where fits from nothing begin, too.
     """
     projection = projection or Projection(fit, data)
     refitted, converged = (
@@ -92,11 +93,11 @@ def explore(
     near = least_near(found)
     close = [c for c in rest if c.log_ratio > near and not c.fit.converged]
     found += converging(close) + [c for c in rest if c not in close]
-    found = found if later else _from_nothing(found, data, converged)
+    found = found if later else _from_nothing(found, data, converged, regression)
     return by_score(exact_where_leading(found, least_near(found)))
 
 
-def _from_nothing(found: list[Hypothesis], data: Data, count: int) -> list[Hypothesis]:
+def _from_nothing(found: list[Hypothesis], data: Data, count: int, regression: Regression) -> list[Hypothesis]:
     """The same, where none meets a free motion with those that explain most fitted as if nothing were known.
 
     A motor that drives a load by a shaft lacked dry friction at the load, took nearly all inertia for the motor's, and
@@ -105,9 +106,9 @@ def _from_nothing(found: list[Hypothesis], data: Data, count: int) -> list[Hypot
     """
     simple = [h for h in found if h.suspect.size == 1 and h.suspect.scanned is None]
     first = sorted(simple, key=lambda h: -h.log_ratio)[:count]
-    if any(is_met(h.fit, data) for h in first):
+    if any(is_met(h.fit, data, POLICY.sensors) for h in first):
         return found
-    return in_threads(begun_anew, first) + [h for h in found if h not in first]
+    return in_threads(lambda h: begun_anew(h, regression), first) + [h for h in found if h not in first]
 
 
 def least_near(found: Sequence[Hypothesis]) -> float:

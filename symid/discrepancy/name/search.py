@@ -8,7 +8,7 @@ from functools import cached_property
 from math import inf
 
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.begun_anew import begun_anew
+from symid.discrepancy.model.begun_anew import Regression, begun_anew
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, exact_where_leading, explore, least_near
@@ -33,12 +33,14 @@ class Search(Judge):
     ----------
     jumps : constants of the model that say how abruptly dry friction sets in and that nobody stated.
     unstated : inputs of which nobody stated what they do between their samples.
+    regression : where a model that is fitted as if nothing were known begins, too.
     starts : where fits on top of the model as given begin, until each suspect was tried alone.
     known : suspects alone, best first, where they are known from another error model; the search goes on from the best.
     """
 
     jumps: Sequence[str] = ()
     unstated: Sequence[str] = ()
+    regression: Regression = lambda model: {}
     progress: Callable[[str], None] = lambda text: None
     starts: dict[Suspect, list[Start]] = field(default_factory=dict)
     tried: list[Hypothesis] = field(default_factory=list)
@@ -85,7 +87,7 @@ class Search(Judge):
         holds = Holds(self.data, self.unstated, self.better, self.jumps)
         more = self.known[0] if self.known else self._more(best, single)
         while more is not None:
-            best = with_jumps_beside(begun_anew(polished(more)), self.jumps, best)
+            best = with_jumps_beside(begun_anew(polished(more), self.regression), self.jumps, best)
             if (otherwise := holds.asked_again(best)) is not best:
                 return otherwise, single
             curved = with_likeliest_curves(best.fit, self.data)
@@ -137,7 +139,7 @@ class Search(Judge):
     def of_one(self) -> Hypothesis:
         """The one suspect that is believed most, fitted to the end, or nothing where none is worth its price."""
         one = self._preferred(self.nothing, self.single)
-        return begun_anew(polished(one)) if one else self.nothing
+        return begun_anew(polished(one), self.regression) if one else self.nothing
 
     def most_of_one(self) -> float:
         """Evidence for the one suspect or flexible law that explains most; infinite where one explains everything."""
@@ -224,6 +226,7 @@ class Search(Judge):
             projection=None if best.suspects else self.projection,
             known=None if best.suspects else self.starts,
             jumps=self.jumps,
+            regression=self.regression,
         )
         base = {h: with_jumps_of(h.fit, self.base, self.jumps) for h in found}
         return [Hypothesis((*best.suspects, h.suspect), h.fit, base[h], self.data, h.forecast) for h in found]

@@ -95,7 +95,7 @@ class Fitter(Refining):
         kalman_gain: np.ndarray | None = None,
         exact: bool = True,
     ) -> Fit:
-        """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if the start itself diverges.
+        """Levenberg-Marquardt from `start`, with standard `errors`; DiagnosisError if that or the end diverges.
 
         kalman_gain : one that is known to hold the start together, of an earlier fit that ended there.
         exact : whether the likelihood may not see what shorter steps of the integrator change. Each time it does the
@@ -277,6 +277,8 @@ class Fitter(Refining):
             self.gain_moves, at.runs = True, None
         point = (at.p, at.x0, at.kalman_gain, at.process, at.path)
         runs = at.runs or (self.sensitive(*point) if errors_too else self.run(*point[:3], False, process=at.process))
+        if runs is None:  # shorter steps of the integrator may show that a motion does not end
+            raise DiagnosisError(f"model '{self.model.name}' diverges with the values that were fitted")
         innovations = self.innovations(runs, at.process)
         system = normal_equations(self, *point, runs) if errors_too else None
         loglik2, whitening = self.score(innovations, at.process)
