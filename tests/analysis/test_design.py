@@ -110,7 +110,7 @@ SWUNG = {"duration": 4, "noise": {"seen": 0.002}, "rate": 100, "nodes": 81, "sta
 VALUES = {"inertia": 0.0125, "damping": 0.006}
 
 
-@pytest.mark.parametrize("criterion", ["D", "A", "E"])
+@pytest.mark.parametrize("criterion", ["D", *(pytest.param(c, marks=pytest.mark.slow) for c in "AE")])
 def test_an_experiment_within_a_path_constraint_is_found(criterion):
     m = swung()
     m.cage = si.Constraint(abs(m.angle) <= 2)
@@ -138,6 +138,7 @@ def simulated_errors(m: si.Model, drive: np.ndarray) -> np.ndarray:
     return p * np.sqrt(np.diag(np.linalg.inv(np.array(slopes) @ np.transpose(slopes))))
 
 
+@pytest.mark.slow
 def test_an_information_without_limit_is_no_optimum():
     best = si.design(swung(), VALUES, **SWUNG)
     assert not best.is_optimum and best.plan.solved and "not an optimum" in repr(best)

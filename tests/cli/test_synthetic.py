@@ -99,6 +99,7 @@ def check_three_standard_errors(model, seeds: range) -> None:
     assert np.sqrt(np.mean(far**2)) > 0.5
 
 
+@pytest.mark.slow
 def test_true_gains_within_three_standard_errors(model):
     check_three_standard_errors(model, range(8))
 

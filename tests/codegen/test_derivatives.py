@@ -32,7 +32,7 @@ def smooth_recording(model: si.Model) -> si.Recording:
     )
 
 
-@pytest.mark.parametrize("backend", ["c", "numpy"])
+@pytest.mark.parametrize("backend", ["c", pytest.param("numpy", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("name", MODELS)
 def test_derivatives_agree_with_central_differences(name, scheme, backend):

@@ -56,7 +56,7 @@ def balanced(lacking) -> Data:
 @pytest.mark.parametrize(
     ("law", "size", "lacking"),
     [
-        ("torsional_spring", 3.0, lambda x, v: -3.0 * x),
+        pytest.param("torsional_spring", 3.0, lambda x, v: -3.0 * x, marks=pytest.mark.slow),
         ("coulomb_friction", 0.8, lambda x, v: -0.8 * np.tanh(v / 5e-3)),
     ],
 )

@@ -46,7 +46,7 @@ def test_no_right_recording_of_systems_that_nothing_was_tuned_on_is_blamed(syste
         assert model_remarks(drawn.model, drawn.recordings[0]) == [], seed
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(s, marks=pytest.mark.slow) for s in (1, 2))])
 def test_mistakes_beside_unknown_masses_are_named(seed):
     """Cart, bob and length of a cart-pole are unknown: they enter the accelerations nonlinearly."""
     drawn = cart_pole(np.random.default_rng([seed, 23]))
