@@ -2,7 +2,7 @@
 
 Each function takes a whole number and gives one `Exam`, the same on every call. Half of the recordings are spoilt the
 way laboratories spoil them: low-pass filtered without phase shift, with noise that remembers, coarse encoders, short.
-Machines of other kinds are in `machines`.
+Machines of other kinds are in `machines` and `mechanisms`.
 """
 
 import tempfile
@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 from machines import MACHINES, MISSING, Made
+from mechanisms import MECHANISMS, made
 from scipy.signal import butter, filtfilt, lfilter
 
 import symid as si
@@ -153,7 +154,20 @@ def machine(seed: int) -> Exam:
     rng = np.random.default_rng((9006, seed))
     of, how = MACHINES[seed % len(MACHINES)], MACHINES_SPOILT[seed // 5 % 4]
     name = MISSING[int(rng.integers(len(MISSING)))] if seed // 20 % 2 else None
-    made: Made = of(rng, name)
+    return _exam(of.__name__, of(rng, name), how, rng)
+
+
+def mechanism(seed: int) -> Exam:
+    """One of `MECHANISMS`, in three of four with a force, a drive or a sensor that its model lacks, spoilt likewise."""
+    rng = np.random.default_rng((9007, seed))
+    of, how = MECHANISMS[seed % len(MECHANISMS)], MACHINES_SPOILT[seed // 5 % 4]
+    plant = of(rng)
+    lacking = plant.missing[int(rng.integers(len(plant.missing)))] if seed // 20 % 4 else None
+    return _exam(of.__name__, made(rng, plant, lacking), how, rng)
+
+
+def _exam(name: str, made: Made, how: str, rng: np.random.Generator) -> Exam:
+    """What a machine did, recorded with noise and spoilt in one of `MACHINES_SPOILT`."""
     rate, level = 1 / (made.time[1] - made.time[0]), 10 ** rng.uniform(*NOISE_LEVELS)
     filtered = (int(rng.choice((2, 4))), rng.uniform(5, 9) * made.pace_Hz)
     channels = dict(made.inputs)
@@ -162,12 +176,10 @@ def machine(seed: int) -> Exam:
         noisy = y + sigma * rng.standard_normal(len(y))
         channels[k] = _measured(noisy, how, rng, rate, sigma, 5 / rate, filtered)
     until = made.time[-1]
-    windows, made_by = ((0.0, 0.65 * until), (0.65 * until, until)), of.__name__
-    case = Case(
-        made_by, made.model, si.Recording(made_by, made.time, channels, made.units), *windows, None, None, True, 0.0
-    )
+    windows = (0.0, 0.65 * until), (0.65 * until, until)
+    case = Case(name, made.model, si.Recording(name, made.time, channels, made.units), *windows, None, None, True, 0.0)
     facts = {"filter": (*filtered, rate)} if how == "filtered" else {}
-    return Exam(case, made.truth, {"system": made_by, "spoilt": how} | facts)
+    return Exam(case, made.truth, {"system": name, "spoilt": how} | facts)
 
 
 # ---- persons like that of the article ------------------------------------------------------------------
@@ -230,4 +242,4 @@ def _gains(delay: float) -> dict[str, float]:
     }
 
 
-DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, machine, person)}
+DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, machine, mechanism, person)}
