@@ -11,6 +11,7 @@ import numpy as np
 from symid.discrepancy.locate.audit import Audit, audit, unfiltered
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.locate.given import fitted_as_given, regressed
+from symid.discrepancy.model.begun_anew import given_anew
 from symid.discrepancy.model.dry import with_friction_speeds
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.sizes import sizes_of
@@ -157,4 +158,7 @@ def _under(
         return Search(base, data, pool, flexible, unsteady, **own, progress=progress)
 
     search, found, ranking = with_error_model(possible, searched, settle, progress)
+    if (given_fit := given_anew(found)) is not None:
+        progress("the model as given explains more from where that led; looking again")
+        search, found, ranking = with_error_model([(found.data, given_fit)], searched, settle, progress)
     return Explained(task, checked, plain, search, found, ranking)

@@ -9,7 +9,7 @@ import sympy as sm
 import symid as si
 from symid.discrepancy import Suspect
 from symid.discrepancy.model import begun_anew as anew
-from symid.discrepancy.model.begun_anew import begun_anew
+from symid.discrepancy.model.begun_anew import begun_anew, given_anew
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
@@ -93,3 +93,29 @@ def test_it_begins_where_regression_says_too_and_keeps_the_likeliest(monkeypatch
         raise SymidError("no equation is linear")
 
     assert begun_anew(stuck, unknown).fit.loglik2 == 60.0
+
+
+@pytest.mark.parametrize(
+    ("suspects", "gain", "ends", "expected"),
+    [
+        pytest.param((SPRING,), None, 60.0, 60.0, id="the model as given had ended beside"),
+        pytest.param((SPRING,), None, 10.5, None, id="it ends where it did"),
+        pytest.param((SPRING,), None, None, None, id="it cannot be fitted from there"),
+        pytest.param((SPRING,), np.eye(2), 60.0, None, id="random forces act"),
+        pytest.param((), None, 60.0, None, id="nothing was found"),
+    ],
+)
+def test_the_model_as_given_is_asked_again_from_where_a_finding_led(monkeypatch, suspects, gain, ends, expected):
+    """A suspect without effect, fitted from nothing, had led out of a wrong optimum, and was a finding."""
+    fit = SimpleNamespace(kalman_gain=gain, loglik2=60.0)
+    found = Hypothesis(suspects, fit, SimpleNamespace(loglik2=10.0), None)
+    asked = []
+
+    def refit(suspects, near, base, data):
+        asked.append((suspects, near, base))
+        return None if ends is None else SimpleNamespace(loglik2=ends)
+
+    monkeypatch.setattr(anew, "refit", refit)
+    better = given_anew(found)
+    assert (better and better.loglik2) == expected
+    assert all(a == ((), fit, found.base) for a in asked)

@@ -22,6 +22,9 @@ pytestmark = pytest.mark.slow
         pytest.param("machine", 9, id="gliders, filtered"),
         pytest.param("machine", 21, id="a rod with drag and a smooth input"),
         pytest.param("machine", 25, id="a slide with dry friction, filtered"),
+        pytest.param("mechanism", 17, id="a drive seen by coarse encoders, nothing missing"),
+        pytest.param("mechanism", 21, id="a rotary pendulum with dry friction"),
+        pytest.param("mechanism", 22, id="a drive whose load a spring holds"),
     ],
 )
 def test_what_is_concealed_is_named_and_nothing_else(draw, seed):

@@ -6,10 +6,11 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 
-from symid.discrepancy.model.hypothesis import Hypothesis, is_met, polished
+from symid.discrepancy.model.hypothesis import Hypothesis, is_met, polished, refit
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.fitting.fit import Fit
 from symid.model import Model
 
 Regression = Callable[[Model], dict[str, float]]
@@ -37,3 +38,15 @@ def begun_anew(found: Hypothesis, regression: Regression) -> Hypothesis:
             fits.append(fit_model(found.fit.model, found.data, start, exact=False))
     best = max(fits, key=lambda f: f.loglik2)
     return polished(replace(found, fit=best)) if best.loglik2 > found.fit.loglik2 + BETTER else found
+
+
+def given_anew(found: Hypothesis) -> Fit | None:
+    """The model without what was found, from where that ended; None unless it explains more there than it did.
+
+    A suspect of no size, fitted from nothing, may lead a free motion out of the wrong optimum of the model as given:
+    what it then explains more is none of its doing. A late input of 0.26 +- 0.19 ms was found so.
+    """
+    if found.fit.kalman_gain is not None or not found.suspects:
+        return None
+    fit = refit((), found.fit, found.base, found.data)
+    return fit if fit is not None and fit.loglik2 > found.base.loglik2 + POLICY.accept else None
