@@ -70,8 +70,8 @@ def test_a_spring_that_was_left_out_is_found_where_a_fit_from_the_model_without_
     assert found.fit.values == pytest.approx(TRUE, rel=1e-3)
 
 
-def test_it_begins_where_regression_says_too_and_keeps_the_likeliest(monkeypatch):
-    """From nothing a fit may fail, or end beside the optimum that the equations of the motion tell."""
+def test_it_begins_where_regression_says_and_keeps_what_is_likelier(monkeypatch):
+    """From the middle of its bounds a fit may fail, end beside the optimum, or take minutes for a stiff tyre."""
     stuck = Hypothesis((SPRING,), SimpleNamespace(kalman_gain=None, model="with spring", loglik2=10.0), None, None)
     ends = {"nothing": SymidError("it diverges"), "regression": SimpleNamespace(loglik2=40.0)}
 
@@ -81,18 +81,18 @@ def test_it_begins_where_regression_says_too_and_keeps_the_likeliest(monkeypatch
             raise end
         return end
 
+    def unknown(model):
+        raise SymidError("no equation is linear")
+
     monkeypatch.setattr(anew, "fit_model", fit)
     monkeypatch.setattr(anew, "is_met", lambda *_: False)
     monkeypatch.setattr(anew, "polished", lambda h: h)
     assert begun_anew(stuck, lambda model: {"stiffness": 3.0} if model == "with spring" else {}).fit.loglik2 == 40.0
-    assert begun_anew(stuck, lambda model: {}) is stuck
+    assert begun_anew(stuck, unknown) is stuck
     ends["nothing"] = SimpleNamespace(loglik2=60.0)
-    assert begun_anew(stuck, lambda model: {"stiffness": 3.0}).fit.loglik2 == 60.0
-
-    def unknown(model):
-        raise SymidError("no equation is linear")
-
     assert begun_anew(stuck, unknown).fit.loglik2 == 60.0
+    ends["regression"] = SimpleNamespace(loglik2=10.5)
+    assert begun_anew(stuck, lambda model: {"stiffness": 3.0}) is stuck
 
 
 @pytest.mark.parametrize(

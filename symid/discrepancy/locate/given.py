@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 
 from symid.discrepancy.model.hypothesis import is_met
-from symid.discrepancy.policy import POLICY
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.fitting.fit import Fit
@@ -91,27 +90,27 @@ def _fitted_in_shorter_pieces(task: Task, plain: Data, fits: Fitting, error: Dia
 
 
 def fitted_in_pieces(task: Task, plain: Data, fits: Fitting) -> Fits:
-    """What `fits` makes of the start values of a task, or of those that regression finds, whichever is likelier.
+    """What `fits` makes of the values that regression finds or, where that is lost, of the task's start values.
 
-    Regression is asked where the first way fails, and where free motion leaves more than the sensors' noise: output
-    errors have local optima, the errors of equations that are linear in their parameters have none. A drive of which
-    coarse encoders saw 3.3 times their noise had a load without inertia (tests/examination, mechanism 17).
+    Output errors have local optima, the errors of equations that are linear in their parameters have none: from the
+    middle of its bounds the tyre of a car stayed as stiff as that, and a load without inertia. Random forces hold a fit
+    together from anywhere; there, and where all values are known, the start values come first.
 
     Raises
     ------
     DiagnosisError : neither way leads to a fit.
     """
-    start, problem, found = dict(task.start), None, []
-    try:
-        found.append(fits(task, plain, start))
-        data, fit = found[0][0]
-        enough = fit.kalman_gain is not None or start.keys() >= task.model.parameters.keys()
-        if enough or is_met(fit, data, POLICY.sensors):
-            return found[0]
-    except DiagnosisError as error:
-        problem = error
-    with suppress(SymidError):
-        found.append(fits(task, plain, regressed(task, plain)))
+    known = plain.driven or task.start.keys() >= task.model.parameters.keys()
+    found, problem = [], DiagnosisError(f"model '{task.model.name}' could not be fitted from any start")
+    for regression in (False, True) if known else (True, False):
+        try:
+            found.append(fits(task, plain, regressed(task, plain) if regression else dict(task.start)))
+        except SymidError as error:
+            problem = problem if regression or not isinstance(error, DiagnosisError) else error
+            continue
+        data, fit = found[-1][0]
+        if known or not lost(fit, data):
+            break
     if not found:
         raise problem
     return _likelier(found)
