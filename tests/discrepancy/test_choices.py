@@ -41,7 +41,7 @@ def tried_beside(monkeypatch, leader: str, *alike: str, explains: float) -> set[
     monkeypatch.setattr(exploring, "_converge", lambda fit, data, first, others, jumps: first)
     monkeypatch.setattr(exploring, "_continued", lambda data, begun, exact: begun)
     monkeypatch.setattr(exploring, "by_score", lambda found: found)
-    monkeypatch.setattr(exploring, "is_met", lambda fit, data: True)
+    monkeypatch.setattr(exploring, "is_met", lambda fit, data, times: True)
     exploring.explore(fit, None, pool, projection=object())
     return begun
 
