@@ -23,7 +23,7 @@ def test_a_motion_that_cannot_be_followed_at_all_is_fitted_in_shorter_pieces(mon
     def fits(task, plain, start):
         if any(e.time[-1] - e.time[0] > 7 for e in plain.segments):
             raise si.DiagnosisError("diverges")
-        return [(plain, SimpleNamespace(kalman_gain=1, rms_errors=np.zeros(2)))]
+        return [(plain, SimpleNamespace(kalman_gain=1, rms_errors=np.zeros(2), loglik2=0.0))]
 
     task, plain, found = given.fitted_as_given(task, plain, fits)
     assert task.segment_length == pytest.approx(6, rel=0.01) and found[0][0] is plain
