@@ -145,6 +145,7 @@ def test_an_information_without_limit_is_no_optimum():
     assert best.std_errors["inertia"] < 1e-6
 
 
+@pytest.mark.slow
 def test_what_is_not_told_at_all_has_no_finite_error():
     """Without a drive nothing moves, and no small drive tells anything in the first order."""
     best = si.design(swung(), VALUES, **(SWUNG | {"start": None}))

@@ -34,6 +34,7 @@ def test_a_region_of_a_linear_model_is_its_ellipse():
         si.likelihood_region(solution, "a", "c")
 
 
+@pytest.mark.slow
 def test_recordings_that_differ_are_counted_by_a_bootstrap_over_them():
     m, recordings = lines(count=12)
     solution = si.Identification(m, recordings).solve()
@@ -47,6 +48,7 @@ def test_recordings_that_differ_are_counted_by_a_bootstrap_over_them():
         si.bootstrap(solution, 5, over="people")
 
 
+@pytest.mark.slow
 def test_a_model_is_judged_on_blocks_and_recordings_that_it_did_not_see():
     recording = pendulum_recording(duration=6, noise=0.01)
     right = si.Identification(pendulum(), recording).solve()

@@ -110,6 +110,7 @@ def measured(solves: dict) -> dict:
     }
 
 
+@pytest.mark.slow
 def test_growth_of_the_cost_is_measured_and_drawn(monkeypatch, tmp_path, capsys, run_here):
     for name, value in {"SECONDS": (4, 8), "EPISODES": (1, 2), "EPISODE_SECONDS": 4, "RUNS": 1}.items():
         monkeypatch.setattr(f"symid.bench.growth.{name}", value)
@@ -181,6 +182,7 @@ def test_exponents_are_those_of_the_law():
     assert "NOT MET" in growth_table({"nodes": [r | {"memory_mb": 1.0} for r in runs]})
 
 
+@pytest.mark.slow
 def test_long_recordings(monkeypatch, run_here):
     monkeypatch.setattr("symid.bench.growth.LOAD", (4, 8))
     monkeypatch.setattr("symid.bench.growth.run_fresh", import_module("symid.bench.measure").run_fresh)

@@ -266,6 +266,7 @@ def test_sealed_answers_suit_the_scorer(tmp_path, shared, offset, standing):
     assert "self-test passed: 3 cases" in done.stdout, done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.compiled
 def test_what_the_noise_hides_is_equivalent_and_what_it_does_not_is_not():
     """The same recording under the same noise, and under noise a thousand times as large."""

@@ -78,6 +78,7 @@ def test_a_diagnosis_proposes_the_law_that_acts_with_its_numbers():
     assert said in found.words and found.answer()["proposal"]["parameters"]["a"]["unit"] == "N"
 
 
+@pytest.mark.slow
 def test_a_proposal_can_be_accepted_into_the_user_s_model():
     law, found = bump_found().proposal.law, bump_found()
     accepted = cart().with_term(law.at("cart")).check()
@@ -108,6 +109,7 @@ def test_nothing_is_proposed_where_no_form_does_as_well():
     assert closed_form(law) is None
 
 
+@pytest.mark.slow
 def test_without_held_out_data_a_proposal_says_that_it_was_not_tested():
     data = data_of(recorded(1, law_of(lambda x, v: -(v**3)).at("cart"), {"size": 8.0}))
     base = fit_model(cart(), data)

@@ -58,7 +58,8 @@ def diagnosed(recording: si.Recording) -> si.Diagnosis:
     return si.diagnose(model, recording, fit_window=(0, 60), held_out=(60, 99.9), suspects=few, threads=1)
 
 
-@pytest.mark.parametrize("seed", [0, pytest.param(1, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [0, 1])
 def test_forces_that_last_are_no_missing_physics(seed):
     found = diagnosed(recorded(sail(), seed))
     assert found.verdict == "adequate" and not found.effects

@@ -36,6 +36,7 @@ def test_a_delay_that_no_value_of_a_wrong_model_survives_begins_from_nothing(mon
     assert begun.fit.values[late.term.parameter_name("delay_s")] == pytest.approx(0.06, abs=0.005)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "gust", "length"),
     [("periodic_torque", 0.05, None), ("periodic_torque", 0.0, 8.0), ("external_push", 0.05, None)],

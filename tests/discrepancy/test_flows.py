@@ -59,7 +59,8 @@ def test_an_input_that_is_no_level_has_no_exchange():
     assert "exchange" not in {p.role for p in with_places(m).ports.values()}
 
 
-@pytest.mark.parametrize("leak", [pytest.param(0.8, marks=pytest.mark.slow), 0.0])
+@pytest.mark.slow
+@pytest.mark.parametrize("leak", [0.8, 0.0])
 def test_a_room_that_loses_to_the_outside(leak):
     rng, time = np.random.default_rng(3), np.arange(0, 30000, 20.0)
     heat, outside = steps(rng, time, 600, 0, 150), 280 + 5 * np.sin(2 * np.pi * time / 21000)
@@ -123,6 +124,7 @@ def test_a_circuit_whose_capacitor_discharges_by_itself():
     assert value == pytest.approx(1e-6, abs=4 * error)
 
 
+@pytest.mark.slow
 def test_a_motor_whose_model_forgets_that_its_speed_drives_its_current():
     """The voltage that a turning armature makes, 50 mV s/rad (Faraday 1831)."""
     rng, time = np.random.default_rng(9), np.arange(0, 3, 0.002)

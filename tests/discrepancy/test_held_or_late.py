@@ -140,6 +140,7 @@ def test_two_inputs_of_one_computer_are_held_together_or_not_at_all():
     assert again is fit
 
 
+@pytest.mark.slow
 def test_what_follows_a_held_input_with_a_lag_is_told_without_half_a_sample():
     """A lag of several samples and a held input: 0.3 s, not 0.35."""
     rng, time, fine = np.random.default_rng(5), np.arange(0, 24, STEP), 50

@@ -55,7 +55,8 @@ def diagnosed(recording: si.Recording) -> si.Diagnosis:
     return si.diagnose(model, recording, fit_window=(0, 30), held_out=(30, 44.9), suspects=few, threads=1)
 
 
-@pytest.mark.parametrize("seed", [pytest.param(0, marks=pytest.mark.slow), 1])
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [0, 1])
 def test_noise_of_an_input_is_no_missing_physics(seed):
     found = diagnosed(recorded(pendulum(), seed, 0.1))
     assert found.verdict == "adequate" and not found.effects
@@ -72,7 +73,7 @@ def test_a_law_beside_noise_of_an_input_is_found():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("size", [0.1, pytest.param(1.0, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("size", [0.1, 1.0])
 def test_a_law_that_has_no_name_is_not_taken_for_noise_of_an_input(size):
     found = diagnosed(
         recorded(pendulum(lambda m: 0.4 * size * sm.sin(3 * m.angle) * sm.exp(-((m.rate / 2) ** 2))), 3, 0)

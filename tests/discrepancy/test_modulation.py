@@ -32,6 +32,7 @@ def breathing(seed, size):
     return recorded(seed, BREATHING.at("cart"), {"size_N_m": size, "pace_Hz": 0.43})
 
 
+@pytest.mark.slow
 def test_a_spring_that_comes_and_goes_is_noticed_and_chance_is_not():
     for seed in range(4):
         data = data_of(breathing(seed, 3.0))

@@ -32,6 +32,7 @@ def motor(seed: int) -> tuple[si.Model, Recording]:
     return m, Recording("motor", time, {"angle": angle, "voltage": voltage}, {"angle": "rad", "voltage": "V"})
 
 
+@pytest.mark.slow
 def test_dry_friction_of_a_motor_whose_angle_keeps_every_error_of_the_integrator():
     model, recording = motor(seed=0)
     found = si.diagnose(model, recording, fit_window=(0, 10), held_out=(10, 20))

@@ -106,6 +106,7 @@ def test_dry_friction_is_found_without_a_port_and_nothing_where_nothing_is(frict
         assert (e.name, e.location) == ("coulomb_friction", "slide") and abs(value - friction) < 4 * error
 
 
+@pytest.mark.slow
 def test_a_drive_that_does_nothing_below_a_force_is_said_with_that_force():
     found = si.diagnose(
         slide(), recorded(lambda x, v, u: -np.clip(u, -0.5, 0.5)), fit_window=(0, 20), held_out=(20, 29.9)
@@ -176,6 +177,7 @@ def test_where_only_a_speed_is_known_forces_that_follow_it_are_suspects_and_spri
     assert not {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "end_range_stiffness"} & names
 
 
+@pytest.mark.slow
 def test_dry_friction_of_a_motor_is_found_from_its_speed():
     found = si.diagnose(motor(), turned(friction=0.03), fit_window=(0, 13), held_out=(13, 19.9))
     (effect,) = found.effects

@@ -53,10 +53,11 @@ def balanced(lacking) -> Data:
     return Data(tuple(cut(Segment(time, seen, {"force": controlled(time, s)}), 1.5)), NOISE, driven=False)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("law", "size", "lacking"),
     [
-        pytest.param("torsional_spring", 3.0, lambda x, v: -3.0 * x, marks=pytest.mark.slow),
+        ("torsional_spring", 3.0, lambda x, v: -3.0 * x),
         ("coulomb_friction", 0.8, lambda x, v: -0.8 * np.tanh(v / 5e-3)),
     ],
 )

@@ -27,6 +27,7 @@ def fork() -> si.Model:
     return m
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1])
 def test_friction_is_sure_though_its_size_is_not(seed):
     model = fork()

@@ -48,7 +48,8 @@ def test_one_channel_that_moves_is_enough_and_segments_are_taken_together():
     assert not is_first_order([np.hstack([e, motion(rng, len(e), 30, 0.2)[:, None]]) for e in noise[:2]])
 
 
-@pytest.mark.parametrize("seed", [pytest.param(1, marks=pytest.mark.slow), 2])
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
 def test_noise_that_remembers_many_samples_is_no_missing_physics(seed):
     """A sensor that wanders, sampled so fast that each sample nearly repeats the last."""
     quiet = pendulum_recording(duration=40)

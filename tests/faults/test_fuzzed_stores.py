@@ -81,6 +81,7 @@ def test_solutions(tmp_path_factory, data):
         told(lambda: shown(PROBLEM.load(folder)))
 
 
+@pytest.mark.slow
 @fewer
 @given(st.data())
 def test_studies(tmp_path_factory, data):

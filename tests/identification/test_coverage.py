@@ -64,6 +64,7 @@ def test_intervals_hold_the_truth(name):
     assert np.all(np.abs(found["ratio"] - 1) < 0.1), line(name, found)
 
 
+@pytest.mark.slow
 def test_truth_within_three_standard_errors_with_process_noise():
     problems = [SYSTEMS["standing, process noise"](seed) for seed in range(4)]
     tables = [(p.solve().parameters, truth) for p, truth in problems]

@@ -66,6 +66,7 @@ def process_noise(law) -> si.Identification:
     return si.Identification(BODY.with_feedback(law), standing_recording(model, GAINS, seed=3, duration=12))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "problem",
     [

@@ -89,15 +89,10 @@ def own_names_and_gaps(table, path):
     return si.read_recording(path, columns=columns, allow_gaps=True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("read", "ending", "near"),
-    [
-        (own_names_and_gaps, "csv", 0.2),
-        *(
-            pytest.param(*p, marks=pytest.mark.slow)
-            for p in ((c3d, "c3d", 1e-2), (mat73, "mat", 1e-6), (excel, "xlsx", 1e-6))
-        ),
-    ],
+    [(c3d, "c3d", 1e-2), (mat73, "mat", 1e-6), (excel, "xlsx", 1e-6), (own_names_and_gaps, "csv", 0.2)],
 )
 def test_a_file_of_ones_own_leads_to_the_gains_of_the_table(table, model, gains, tmp_path, read, ending, near):
     recording = read(table, tmp_path / f"walk.{ending}")
