@@ -41,6 +41,7 @@ def run_here(monkeypatch):
     monkeypatch.setattr("symid.bench.measure.run_fresh", run)
 
 
+@pytest.mark.slow
 @pytest.mark.compiled
 def test_the_command_prints_ratios_and_targets(tiny, tmp_path, capsys, run_here):
     arguments = ["bench", "--quick", "--recording", tiny.recording, "--body", tiny.body, "--window", "0", "4"]

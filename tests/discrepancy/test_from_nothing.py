@@ -58,7 +58,7 @@ def recorded(seed: int) -> si.Recording:
     return si.Recording("drive", time[::FINE], channels, units=units)
 
 
-@pytest.mark.parametrize("seed", [1, 2])
+@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow)])
 def test_inertia_that_a_model_without_friction_took_for_the_motors_is_given_back_to_the_load(seed):
     made, model = recorded(seed), drive()
     data = Data(segments_of(model, made, (0, DURATION_S), None), np.full(2, NOISE_RAD), False)

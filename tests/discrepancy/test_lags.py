@@ -54,7 +54,7 @@ def recorded(seed: int, late_s: float = 0.0, pump_lag_s: float = 0.0, gauge_lag_
         pytest.param({"pump_lag_s": 0.15}, "input_lag@input:left", 0.15, marks=pytest.mark.slow),
         pytest.param({"gauge_lag_s": 0.15}, "sensor_lag@sensor:gauge", 0.15, marks=pytest.mark.slow),
         pytest.param({"late_s": 0.06}, "inputs_delay@global", 0.06, marks=pytest.mark.slow),
-        ({"late_s": 0.25}, "inputs_delay@global", 0.25),
+        pytest.param({"late_s": 0.25}, "inputs_delay@global", 0.25, marks=pytest.mark.slow),
         ({}, None, 0.0),
     ],
 )

@@ -65,6 +65,7 @@ def test_every_command_that_is_shown_is_one(command, capsys):
         build_parser().parse_args([{"T0": "0", "T1": "1", "K": "2"}.get(w, w) for w in words])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", [example(c, c, c) for c in COMMANDS if " data/" in c])
 def test_a_command_on_files_that_ship_runs(command, tmp_path, monkeypatch, capsys):
     (tmp_path / "data").symlink_to(ROOT / "data")

@@ -68,6 +68,7 @@ def shown(solution) -> None:
     json.dumps(solution.to_dict())
 
 
+@pytest.mark.slow
 @few
 @given(st.data())
 def test_solutions(tmp_path_factory, data):

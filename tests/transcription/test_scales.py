@@ -52,7 +52,7 @@ def solve(motion, length=1.0, time=1.0, speed=1.0, bounded=True, **options):
 
 
 @pytest.fixture(
-    scope="module", params=[True, pytest.param(False, marks=pytest.mark.slow)], ids=["bounded", "unbounded"]
+    scope="module", params=[True, False], ids=["bounded", "unbounded"]
 )
 def reference(request, motion):
     solution = solve(motion, bounded=request.param)
@@ -60,6 +60,7 @@ def reference(request, motion):
     return request.param, solution
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=8)
 @given(EXPONENT, EXPONENT, EXPONENT)
 def test_the_answer_does_not_depend_on_units(motion, reference, length, time, speed):
