@@ -51,9 +51,7 @@ def solve(motion, length=1.0, time=1.0, speed=1.0, bounded=True, **options):
     )
 
 
-@pytest.fixture(
-    scope="module", params=[True, False], ids=["bounded", "unbounded"]
-)
+@pytest.fixture(scope="module", params=[True, False], ids=["bounded", "unbounded"])
 def reference(request, motion):
     solution = solve(motion, bounded=request.param)
     assert solution.solved and solution.values["k"] == pytest.approx(4.0, rel=0.02)
