@@ -154,8 +154,17 @@ def _under(
         nothing = Hypothesis((), base, base, data)
         flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
         jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.model.constants]
-        own = {"jumps": jumps, "unstated": unstated, "regression": regression}
-        return Search(base, data, pool, flexible, unsteady, **own, progress=progress)
+        return Search(
+            base,
+            data,
+            pool,
+            flexible,
+            unsteady,
+            jumps=jumps,
+            unstated=unstated,
+            regression=regression,
+            progress=progress,
+        )
 
     search, found, ranking = with_error_model(possible, searched, settle, progress)
     if (given_fit := given_anew(found)) is not None:

@@ -8,6 +8,7 @@ import sympy as sm
 from scipy.ndimage import gaussian_filter1d
 
 import symid as si
+from symid.discrepancy.model.begun_anew import nowhere
 from symid.discrepancy.name import explore as exploring
 from symid.discrepancy.name.starts import Start
 from symid.estimation.fitting.cold_start import fit_model
@@ -21,11 +22,6 @@ WRONG = TRUE | {"motor_inertia": 0.01, "load_inertia": 1e-4}
 FRICTION_NM, NOISE_RAD, RATE_HZ, DURATION_S = 0.06, 1e-3, 100, 20
 FINE = 10
 PLACES = "motor", "load"
-
-
-def nowhere(model: si.Model) -> dict[str, float]:
-    """No regression knows where to begin."""
-    return {}
 
 
 def drive(friction: float = 0.0) -> si.Model:

@@ -11,8 +11,9 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from lacking import made
 from machines import MACHINES, MISSING, Made
-from mechanisms import MECHANISMS, made
+from mechanisms import MECHANISMS
 from scipy.signal import butter, filtfilt, lfilter
 
 import symid as si

@@ -20,6 +20,11 @@ BETTER = 1.0
 """Of twice the log-likelihood: less is where the same fit ends twice."""
 
 
+def nowhere(model: Model) -> dict[str, float]:
+    """The `Regression` of a motion of which nobody knows the equations' values."""
+    return {}
+
+
 def begun_anew(found: Hypothesis, regression: Regression) -> Hypothesis:
     """What was found, fitted as if nothing were known but what regression knows, where that explains more.
 

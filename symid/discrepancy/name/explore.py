@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.begun_anew import Regression, begun_anew
+from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
 from symid.discrepancy.model.hypothesis import Hypothesis, extended, is_met
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.short_pieces import short_pieces
@@ -39,7 +39,7 @@ def explore(
     projection: Projection | None = None,
     known: dict[Suspect, list[Start]] | None = None,
     jumps: Sequence[str] = (),
-    regression: Regression = lambda model: {},
+    regression: Regression = nowhere,
     progress: Callable[[str], None] = lambda text: None,
 ) -> list[Hypothesis]:
     """Each suspect alone on top of `fit`, best score first; `later` tries fewer, on top of what was found.

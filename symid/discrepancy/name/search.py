@@ -8,7 +8,7 @@ from functools import cached_property
 from math import inf
 
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.begun_anew import Regression, begun_anew
+from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, exact_where_leading, explore, least_near
@@ -40,7 +40,7 @@ class Search(Judge):
 
     jumps: Sequence[str] = ()
     unstated: Sequence[str] = ()
-    regression: Regression = lambda model: {}
+    regression: Regression = nowhere
     progress: Callable[[str], None] = lambda text: None
     starts: dict[Suspect, list[Start]] = field(default_factory=dict)
     tried: list[Hypothesis] = field(default_factory=list)
