@@ -124,6 +124,13 @@ def _volume(predictor: Predictor, process: np.ndarray) -> tuple[float, float]:
 
 
 def covariance_of(H: np.ndarray) -> np.ndarray:
-    """The inverse of a normal matrix (q, q) of unknowns in whatever units; zero along what the data do not show."""
-    d = np.sqrt(np.maximum(np.diag(H), 1e-300))
-    return np.linalg.pinv(H / np.outer(d, d), rcond=1e-13) / np.outer(d, d)
+    """The inverse of a normal matrix (q, q) of unknowns in whatever units; zero along what the data do not show.
+
+    They do not show what has no positive curvature, such as stiffnesses so far away that sensitivities have lost every
+    digit.
+    """
+    inverse, shown = np.zeros_like(H), np.flatnonzero(np.diag(H) > 0)
+    scale = np.sqrt(np.diag(H)[shown])
+    scaled = H[np.ix_(shown, shown)] / scale[:, None] / scale
+    inverse[np.ix_(shown, shown)] = np.linalg.pinv(scaled, rcond=1e-13) / scale[:, None] / scale
+    return inverse
