@@ -1,7 +1,9 @@
 """Where a fit begins that nobody gave a start: motions that ring on for many periods, and that turn over."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
+import driven_cart
 import numpy as np
 import pytest
 import sympy as sm
@@ -10,7 +12,7 @@ from scipy.interpolate import CubicSpline
 from scipy.ndimage import gaussian_filter1d
 
 import symid as si
-from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.fitting.cold_start import fit_model, fit_states
 from symid.estimation.fitting.sensitive import followed, growth
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
@@ -122,3 +124,12 @@ def test_a_small_difference_grows_as_the_motion_falls():
     fit = SimpleNamespace(simulator=simulator(m), values={}, steps={})
     found = growth(fit, Segment(time, np.exp(time)[:, None], {}), np.array([1.0]), 0.5, np.array([1e-3]))
     assert found == pytest.approx(np.exp(2.0), rel=0.05)
+
+
+def test_initial_states_of_several_segments_whose_noise_remembers():
+    """They share no unknown while all parameters keep their values."""
+    recording = driven_cart.recorded(gust=0.0)
+    data = replace(driven_cart.data_of(recording, driven=False, window=(5.0, 35.0), length=10.0), memory=2)
+    fit = fit_states(driven_cart.cart(), data, driven_cart.TRUE)
+    shown = [e.recorded[0, 0] for e in data.segments]
+    assert len(shown) == 3 and fit.initial[:, 0] == pytest.approx(shown, abs=5 * driven_cart.SENSOR)

@@ -90,7 +90,7 @@ def _gauss_newton(
                 before = past_of(s, memory)
                 past = past + before.T @ before
                 told = told + np.tensordot(before, J.reshape(*s.shape, -1)[memory:, :, shared], (0, 0))
-        if memory:
+        if memory and shared.stop:
             # The autoregression that whitens follows the parameters, and takes up a part of what they change.
             taken = np.linalg.lstsq(past, told.reshape(len(past), -1), rcond=1e-12)[0]
             H[shared, shared] -= told.reshape(-1, shared.stop).T @ taken.reshape(-1, shared.stop)
