@@ -14,7 +14,7 @@ from symid.discrepancy.say.story import Story, listed
 from symid.estimation.fitting.correlated import is_correlated
 from symid.model.variants import CORRELATION_TIME
 from symid.recording.signals.between import CURVES
-from symid.units import rough
+from symid.units import rough, unit_symbol
 
 LOSSES = (
     "viscous_friction",
@@ -37,6 +37,7 @@ def words(story: Story) -> str:
     first = (losses, _finding(story)) if len(losses) and " not enough" in losses[0] else (_finding(story) + losses,)
     parts = (
         *first,
+        _at_bounds(story),
         nameless_words(story.evidence.unnamed, story.error) if story.verdict == "unexplained" else [],
         _alike(story),
         proof_words(story) + left_beside_noise(story),
@@ -72,6 +73,20 @@ def _finding(s: Story) -> list[str]:
         *part,
     ]
     return out + (["Besides:", *said] if said else [])
+
+
+def _at_bounds(s: Story) -> list[str]:
+    """A sentence for each parameter of which the model as given asks for a value beyond its bounds.
+
+    Zero is no such bound: nothing has a negative mass, stiffness or damping.
+    """
+    but = ", and what is found may make up for no more than that" if s.effects else ""
+    return [
+        f"In the model as given {k} lies at its bound ({value:.5g} {unit_symbol(p.unit)}): the recording asks for a "
+        f"value beyond it{but}. Widen it with model.with_bounds({k}=(lower, upper))."
+        for k, p in s.model.parameters.items()
+        if (value := s.base.values[k]) != 0 and p.bounds[0] < p.bounds[1] and value in p.bounds
+    ]
 
 
 def _at(location: str) -> str:
