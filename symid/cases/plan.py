@@ -24,6 +24,7 @@ _ANSWER = {
         "constants": _NUMBERS,
         "initial_state": _NUMBERS,
         "random_forces": _NUMBERS,
+        "white_forces": {"type": "boolean"},
     },
 }
 _EXPERIMENT = {

@@ -1,4 +1,4 @@
-"""What the inputs do between their samples, where nobody stated it: straight lines or curves."""
+"""What inputs and random forces do between samples, where nobody stated it: lines or curves, held or white."""
 
 from __future__ import annotations
 
@@ -10,14 +10,19 @@ import numpy as np
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
+from symid.estimation.fitting.kalman import held
 from symid.estimation.fitting.refining import seen
 from symid.estimation.signals.data import Data
-from symid.model import Model
+from symid.model import WHITE, Model
 from symid.recording.signals.between import CURVES
 
+SIZES = (1.0, 2.0, 4.0)
+"""Of white forces, in parts of those that are taken for held: 3.7 where the position of a cart is known to a seventh of
+what they move it within a sample (tests/estimation/test_white_forces.py)."""
 
-def with_likeliest_curves(fit: Fit, data: Data) -> Fit:
-    """The same fit, or that of the model with inputs that are curved between samples where that is likelier.
+
+def with_likeliest_holds(fit: Fit, data: Data) -> Fit:
+    """The same fit, or that of the model with inputs that are curved between samples, or white forces, where likelier.
 
     Straight lines lose the part (w h)^2 / 12 of an input of angular frequency w that is sampled every h: 0.4 % at 30
     samples a period; cubics 6 % at three. With good sensors that is enough to look like a wrong gain or mass.
@@ -27,7 +32,33 @@ def with_likeliest_curves(fit: Fit, data: Data) -> Fit:
         for names in input_groups(fit.model, [k for k in unstated if fit.model.inputs[k].hold == before]):
             if all(fit.model.inputs[k].hold == before for k in names):
                 fit = _likelier(fit, data, names, hold)
-    return fit
+    return _with_likeliest_forces(fit, data)
+
+
+def _with_likeliest_forces(fit: Fit, data: Data) -> Fit:
+    """The same fit, or that with white random forces where these are likelier.
+
+    To a sensor fine enough to see what a force does within a sample, white ones that are taken for held seem to be far
+    smaller, or look like noise that remembers (tests/estimation/test_white_forces.py).
+    """
+    unstated, step = [k for k, w in fit.model.noises.items() if w.hold == "either"], data.segments[0].step
+    if fit.kalman_gain is None or not unstated or held(step) == held(step, white=True):
+        return fit
+    other = Fitter(fit.model.with_holds(**dict.fromkeys(unstated, WHITE)), data, near=fit)
+    p = np.array([fit.values[k] for k in other.sim.parameters])
+    path, sizes = other.path(p, fit.initial, fit.kalman_gain), np.ones(len(fit.process))
+    tried = []
+    for size in SIZES:
+        sizes[: other.noises] = size
+        gain = other.kalman_gain(p, sizes * fit.process, path)
+        tried.append((other.evaluate(p, fit.initial, gain, sizes * fit.process), size))
+    most, sizes[: other.noises] = max(tried)
+    if most <= fit.loglik2:
+        return fit
+    try:
+        return max(fit, other.fit(fit.values, fit.initial, sizes * fit.process), key=lambda f: f.loglik2)
+    except SymidError:
+        return fit  # what cannot be followed is not likelier
 
 
 def _likelier(fit: Fit, data: Data, names: Sequence[str], hold: str) -> Fit:
@@ -54,12 +85,12 @@ def input_groups(model: Model, names: Sequence[str]) -> list[tuple[str, ...]]:
 
 
 def holds_of(fit: Fit, base: Fit) -> dict[str, str]:
-    """What the inputs of `base` do between their samples in the model of another fit."""
-    return {k: fit.model.inputs[k].hold for k in base.model.inputs}
+    """What the inputs and noises of `base` do between samples in the model of another fit."""
+    return {k: fit.model[k].hold for k in (*base.model.inputs, *base.model.noises)}
 
 
 def with_holds_of(fit: Fit, base: Fit, data: Data) -> Fit:
-    """`base`, with inputs that do between their samples what they do in the model of another fit."""
+    """`base`, with inputs and noises that do between samples what they do in the model of another fit."""
     return Fitter(base.model.with_holds(**holds_of(fit, base)), data, near=base).again(base)
 
 

@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 
 from symid.errors import DiagnosisError
-from symid.estimation.between_samples import with_likeliest_curves
+from symid.estimation.between_samples import with_likeliest_holds
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
@@ -123,7 +123,7 @@ def settled(
 
 
 def _fitted(model: Model, data: Data, start: Mapping[str, float]) -> Fit:
-    return with_likeliest_curves(fit_model(model, data, dict(start)), data)
+    return with_likeliest_holds(fit_model(model, data, dict(start)), data)
 
 
 def sharpened_filter(fit: Fit, data: Data) -> ZeroPhase:

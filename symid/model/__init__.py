@@ -4,6 +4,7 @@ from symid.model.c_function import CFunction, c_function, c_texts
 from symid.model.component import Component
 from symid.model.conditions import Boundary, Constraint, Objective, Row
 from symid.model.declare import (
+    WHITE,
     Algebraic,
     Constant,
     Control,
@@ -28,6 +29,7 @@ from symid.model.term import Law, LawParameter, Term
 from symid.model.variants import explicit
 
 __all__ = [
+    "WHITE",
     "TIME",
     "Algebraic",
     "Boundary",

@@ -14,12 +14,14 @@ from symid.errors import ModelError, SymidError
 from symid.model.conditions import Boundary, Constraint, Objective
 from symid.model.declare import (
     HOLDS,
+    NOISE_HOLDS,
     Algebraic,
     Constant,
     Control,
     Equation,
     Expression,
     Input,
+    Noise,
     Output,
     Parameter,
     Port,
@@ -55,7 +57,7 @@ def violations(model: Model, units: bool = True) -> Iterator[str]:
 
 def _values(model: Model) -> Iterator[str]:
     for c in model.components.values():
-        if isinstance(c, (Input, Control)) and c.hold not in _holds(c):
+        if isinstance(c, (Input, Control, Noise)) and c.hold not in _holds(c):
             known = ", ".join(map(repr, _holds(c)))
             yield f"the {type(c).__name__.lower()} '{c.name}' has hold={c.hold!r}; known: {known}"
         if isinstance(c, Process) and c.size is not None and not (isfinite(_number(c.size)) and c.size > 0):
@@ -86,8 +88,10 @@ def _far_outside(prior: Normal, lower: float, upper: float) -> bool:
     return prior.mean + FAR * prior.deviation < lower or prior.mean - FAR * prior.deviation > upper
 
 
-def _holds(part: Input | Control) -> tuple[str, ...]:
+def _holds(part: Input | Control | Noise) -> tuple[str, ...]:
     """What this part may do between samples: a control is not sampled from a smooth signal."""
+    if isinstance(part, Noise):
+        return NOISE_HOLDS
     return HOLDS if isinstance(part, Input) else HOLDS[-2:]
 
 

@@ -22,6 +22,8 @@ from symid.model.quantity import AlongTime, Quantity, symbol
 
 Bounds = tuple[float, float]
 HOLDS = ("smooth", "either", "band-limited", "cubic", "linear", "zero")
+WHITE = "white"
+NOISE_HOLDS = ("either", "held", WHITE)
 REQUIRED: Any = None
 """A unit that was not given: attaching the part to a model refuses it, with the part's name."""
 
@@ -198,6 +200,12 @@ class Constant(Quantity, Component):
 class Noise(Quantity, Component):
     """Process noise: drawn for an episode, then known. Zero in a deterministic problem.
 
+    Parameters
+    ----------
+    hold : what it does between the samples of a recording. "held" keeps a value for about 10 ms, and for a whole part
+        of a sample; "white" changes all the time (Astrom 1970, chapter 3); "either" becomes in a diagnosis "white"
+        where that is likelier.
+
     Raises
     ------
     ModelError : an argument that it does not take; `Model.check` tells what is wrong with its unit.
@@ -208,6 +216,7 @@ class Noise(Quantity, Component):
     """
 
     unit: str = REQUIRED
+    hold: str = "either"
 
 
 @dataclass(frozen=True)

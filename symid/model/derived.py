@@ -62,7 +62,7 @@ class Derived:
         return variants.with_bounds(self._model, bounds)
 
     def with_holds(self, **holds: str) -> Model:
-        """A new model whose inputs do something else between their samples, by name: see `Input`."""
+        """A new model whose inputs or noises do something else between samples, by name: see `Input`, `Noise`."""
         return variants.with_holds(self._model, holds)
 
     def with_unstated_holds(self, hold: str) -> Model:

@@ -55,8 +55,8 @@ def with_bounds(model: Model, bounds: Mapping[str, Bounds]) -> Model:
 
 
 def with_holds(model: Model, holds: Mapping[str, str]) -> Model:
-    """With inputs that do something else between their samples."""
-    return _with(model, {k: replace(part_of(model, k, Input), hold=hold) for k, hold in holds.items()})
+    """With inputs, or noises, that do something else between their samples."""
+    return _with(model, {k: replace(part_of(model, k, (Input, Noise)), hold=hold) for k, hold in holds.items()})
 
 
 def fixed(model: Model, values: Mapping[str, float]) -> Model:

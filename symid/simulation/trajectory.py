@@ -20,6 +20,7 @@ class Trajectory:
     reached : samples before the run diverged; N if it did not.
     state_names, output_names : of the columns of x and y.
     stiff : steps of the integrator in which something was stiff, where those were asked for.
+    unseen : first samples of which an output reads what was before the run.
 
     Examples
     --------
@@ -40,6 +41,7 @@ class Trajectory:
     dy: np.ndarray | None = None
     reached: int = 0
     stiff: int = 0
+    unseen: int = 0
 
     @property
     def diverged(self) -> bool:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import symid as si
-from symid.estimation.between_samples import _differs, with_likeliest_curves
+from symid.estimation.between_samples import _differs, with_likeliest_holds
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
@@ -38,7 +38,7 @@ def test_the_curve_of_an_input_is_told_where_it_is_not_stated(truth, stated):
     model = slide(stated)
     data = Data(segments_of(model, recording, (0.0, 60.0), None), np.array([NOISE_M]), driven=False)
     fit = fit_model(model, data, values)
-    chosen = with_likeliest_curves(fit, data)
+    chosen = with_likeliest_holds(fit, data)
     told = "either" if truth == "linear" else truth  # what is left open is followed along straight lines
     assert chosen.model.inputs["push"].hold == (told if stated == "either" else stated)
     if chosen.model.inputs["push"].hold == told:

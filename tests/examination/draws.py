@@ -163,8 +163,19 @@ def mechanism(seed: int) -> Exam:
     rng = np.random.default_rng((9007, seed))
     of, how = MECHANISMS[seed % len(MECHANISMS)], MACHINES_SPOILT[seed // 5 % 4]
     plant = of(rng)
-    lacking = plant.missing[int(rng.integers(len(plant.missing)))] if seed // 20 % 4 else None
+    lacking = [plant.missing[int(rng.integers(len(plant.missing)))]] if seed // 20 % 4 else []
     return _exam(of.__name__, made(rng, plant, lacking), how, rng)
+
+
+def two(seed: int) -> Exam:
+    """One of `MECHANISMS` that nobody spoilt, of whose model two effects are missing, at two places."""
+    rng = np.random.default_rng((9008, seed))
+    of = MECHANISMS[seed % len(MECHANISMS)]
+    plant = of(rng)
+    one, other = 0, 0
+    while plant.missing[one][1] == plant.missing[other][1]:
+        one, other = rng.integers(len(plant.missing), size=2)
+    return _exam(of.__name__, made(rng, plant, [plant.missing[one], plant.missing[other]]), "plain", rng)
 
 
 def _exam(name: str, made: Made, how: str, rng: np.random.Generator) -> Exam:
@@ -243,4 +254,4 @@ def _gains(delay: float) -> dict[str, float]:
     }
 
 
-DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, machine, mechanism, person)}
+DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, machine, mechanism, two, person)}

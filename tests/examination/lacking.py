@@ -3,7 +3,7 @@
 By SciPy's integrators, which symid does not use.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -79,36 +79,35 @@ class Mechanism:
         ]
 
 
-def made(rng, mechanism: Mechanism, missing: tuple[str, str] | None) -> Made:
-    """What it did, without noise of its sensors."""
+def made(rng, mechanism: Mechanism, missing: Sequence[tuple[str, str]]) -> Made:
+    """What it did, without noise of its sensors. missing : laws and their places, each of its own."""
     f0, step = mechanism.pace_Hz, 1 / (mechanism.samples * mechanism.pace_Hz)
     count = int(mechanism.swings * mechanism.samples)
     time = step * np.arange(-EARLIER, count)
     given = {c: _signal(rng, time, f0, rms) for c, rms in mechanism.inputs.items()}
     acting, force, seen, truth = dict(given), {}, {}, {}
-    law, at = missing or ("", "")
-    if law in FORCES:
-        joint = mechanism.joints[at]
-        force[at], values = _force(rng, law, joint)
-        truth = {LIBRARY[law].at(at): values}
-    elif law in DRIVES:
-        (channel,) = [c for c in mechanism.inputs if mechanism.places[c] == at]
-        acting[channel], values = _driven(rng, law, given[channel], time, mechanism.inputs[channel], f0)
-        truth = {LIBRARY[law].at(at): values}
+    drives, sensors = ({mechanism.places[c]: c for c in of} for of in (mechanism.inputs, mechanism.outputs))
+    for law, at in missing:
+        if law in FORCES:
+            force[at], truth[LIBRARY[law].at(at)] = _force(rng, law, mechanism.joints[at])
+        elif law in DRIVES:
+            c = drives[at]
+            acting[c], truth[LIBRARY[law].at(at)] = _driven(rng, law, given[c], time, mechanism.inputs[c], f0)
 
     def rates(t, x):
         u = {c: float(a(t)) for c, a in acting.items()}
         return mechanism.rates(x, u, {p: f(x) for p, f in force.items()})
 
     options = {"method": "DOP853", "rtol": 1e-9, "atol": 1e-12}
-    if law in ("coulomb_friction", "stribeck_friction"):
+    if any(law in ("coulomb_friction", "stribeck_friction") for law, _ in missing):
         options = {"method": "LSODA", "rtol": 1e-8, "atol": 1e-10}
     done = solve_ivp(rates, (time[0], time[-1]), mechanism.start, t_eval=time, max_step=0.05 / f0, **options)
     for channel, output in mechanism.outputs.items():
         seen[channel] = output(done.y)
-        if law in SENSORS and mechanism.places[channel] == at:
-            seen[channel], values = _late_sensor(rng, law, time, seen[channel], f0)
-            truth = {LIBRARY[law].at(at): values}
+    for law, at in missing:
+        if law in SENSORS:
+            c = sensors[at]
+            seen[c], truth[LIBRARY[law].at(at)] = _late_sensor(rng, law, time, seen[c], f0)
     inputs = {c: s(time[EARLIER:]) for c, s in given.items()}
     units = {p.channel: p.unit for p in (*mechanism.model.inputs.values(), *mechanism.model.outputs.values())}
     outputs = {c: y[EARLIER:] for c, y in seen.items()}

@@ -12,6 +12,7 @@ from symid.discrepancy.design.experiment import Experiment
 from symid.discrepancy.design.simulated import as_recording, course, forces_of, run_times, sensed, start_of
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import DiagnosisError
+from symid.estimation.fitting.kalman import is_white
 from symid.estimation.signals.segment import Segment
 from symid.mechanics import LIBRARY
 from symid.mechanics.places import with_places
@@ -52,6 +53,7 @@ def _answer(h: Hypothesis, experiment: Experiment) -> dict[str, Any]:
         "constants": {c.name: float(c.value) for c in h.fit.model.constants.values()},
         "initial_state": dict(zip(h.fit.model.states, map(float, start), strict=True)),
         "random_forces": forces_of(h.fit),
+        "white_forces": is_white(h.fit.model),
     }
 
 
@@ -87,7 +89,7 @@ def recording_of(plan: Mapping[str, Any], model: Model, truth: str, seed: int) -
     forces = {k: size for k, size in answer["random_forces"].items() if k in model.noises}
     segments = []
     for k in range(plan["recordings"]):
-        seen = sensed(sim, values, start, time, inputs, forces, noise, rng)
+        seen = sensed(sim, values, start, time, inputs, forces, noise, rng, answer.get("white_forces", False))
         if seen is None:
             raise DiagnosisError(f"the motion of '{model.name}' leaves all bounds with {plan['words']}")
         segments.append(Segment(run_times(time, k), seen, inputs))

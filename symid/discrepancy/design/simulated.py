@@ -12,7 +12,7 @@ from symid.discrepancy.design.changes import Design
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.kalman import held
+from symid.estimation.fitting.kalman import held, is_white
 from symid.estimation.fitting.path import fitted_path
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
@@ -70,7 +70,8 @@ def run_times(time: np.ndarray, k: int) -> np.ndarray:
 def _sensed(fit: Fit, data: Data, design: Design, time, inputs, rng) -> np.ndarray | None:
     """(N, m) outputs with noise of one run of an experiment; None where it leaves all bounds."""
     noise = data.sensor_noise * design.noise
-    return sensed(fit.simulator, fit.values, start_of(fit, data, design), time, inputs, forces_of(fit), noise, rng)
+    start, white = start_of(fit, data, design), is_white(fit.model)
+    return sensed(fit.simulator, fit.values, start, time, inputs, forces_of(fit), noise, rng, white)
 
 
 def start_of(fit: Fit, data: Data, design: Design) -> np.ndarray:
@@ -83,7 +84,7 @@ def start_of(fit: Fit, data: Data, design: Design) -> np.ndarray:
 
 
 def forces_of(fit: Fit) -> dict[str, float]:
-    """Standard deviation of the random force at each noise, held as in `kalman.held` [SI]."""
+    """Standard deviation of the random force at each noise, as in `kalman.held` [SI]."""
     return dict(zip(fit.model.noises, map(float, fit.process), strict=False)) if fit.kalman_gain is not None else {}
 
 
@@ -96,10 +97,11 @@ def sensed(
     forces: Mapping[str, float],
     sensor_noise: np.ndarray,
     rng: np.random.Generator,
+    white: bool = False,
 ) -> np.ndarray | None:
-    """(N, m) what sensors show of a run under random forces; None where it leaves all bounds."""
+    """(N, m) what sensors show of a run under random forces, white ones or held; None where it leaves all bounds."""
     step = time[1] - time[0]
-    holds, size = held(step)
+    holds, size = held(step, white)
     fine = np.arange((len(time) - 1) * holds + 1) * step / holds
     try:
         run = simulator.simulate(

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf
-
-import numpy as np
 
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
 from symid.discrepancy.model.suspects import Suspect
@@ -31,11 +28,9 @@ def equivalents(found: Hypothesis, tried: Sequence[Hypothesis]) -> list[Hypothes
 
 
 def _is_near(h: Hypothesis, found: Hypothesis) -> bool:
-    """Whether `h` explains almost as well, be it only of the samples that do not answer to an unknown past."""
+    """Whether `h` explains almost as well."""
     share = max(h, found, key=lambda k: k.log_ratio).share
-    less = found.evidence(share) - h.evidence(share)
-    price = less - share * (found.log_ratio - h.log_ratio)
-    return min(less, price + share * _less_explained(h, found)) < POLICY.equivalent
+    return found.evidence(share) - h.evidence(share) < POLICY.equivalent
 
 
 def _on_the_same_base(h: Hypothesis, found: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | None:
@@ -50,32 +45,6 @@ def _on_the_same_base(h: Hypothesis, found: Hypothesis, tried: Sequence[Hypothes
         return None
     again = hypothesis(h.suspects, h.fit, found.base, found.data, h.fit.values)
     return again if again is not None and _is_near(again, found) else None
-
-
-def _less_explained(h: Hypothesis, found: Hypothesis) -> float:
-    """What `h` explains less than `found`, of twice the log-likelihood, without the first samples of late signals.
-
-    Nobody knows how a mechanism moved before a segment: a late sensor is simulated as if it had rested then, a late
-    input acts as recorded. The roll of a ship in known waves cannot tell the two apart, and its first two samples did
-    (tests/discrepancy/test_equivalents.py). Infinite where nothing is late, or where random forces act, which follow
-    the first samples.
-    """
-    late = max(_latest(h), _latest(found))
-    if not late or any(k.fit.kalman_gain is not None for k in (h, found)):
-        return inf
-    rest = [e.time >= e.time[0] + late for e in h.data.segments]
-    less = [
-        float(np.nansum((a[rows] ** 2 - b[rows] ** 2) / h.data.sensor_noise**2))
-        for rows, a, b in zip(rest, h.fit.innovations, found.fit.innovations, strict=True)
-    ]
-    return sum(less)
-
-
-def _latest(h: Hypothesis) -> float:
-    """The largest lag [s] of a fitted model."""
-    known = {c.symbol: c.value for c in h.fit.model.constants.values()}
-    known |= {p.symbol: h.fit.values[k] for k, p in h.fit.model.parameters.items()}
-    return max((float(d.lag.subs(known)) for d in h.fit.model.delays.values()), default=0.0)
 
 
 def _only_clock(suspect: Suspect, found: Hypothesis) -> bool:

@@ -13,6 +13,7 @@ memory, under which it keeps its value.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from functools import reduce
 from math import inf, log
@@ -161,11 +162,12 @@ def _coloured(fit: Fit, data: Data) -> tuple[Data, Fit]:
     """
     if remembered(fit.innovations) <= data.memory:
         return data, fit
-    possible = [with_memory(fit, data)]
     forces = with_correlated_forces(fit, data)
-    if forces is not None:
-        possible += [(data, forces), with_memory(forces, data)]
-    return max(possible, key=lambda p: _gain(*p, data, fit))
+    possible = [] if forces is None else [(data, forces)]
+    for begin in (fit, forces):
+        with suppress(SymidError):  # what cannot be followed is not likelier
+            possible += [] if begin is None else [with_memory(begin, data)]
+    return max(possible, key=lambda p: _gain(*p, data, fit), default=(data, fit))
 
 
 def _colour(fit: Fit, data: Data) -> str:

@@ -16,7 +16,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, i
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.jump import with_jumps_again
 from symid.errors import SymidError
-from symid.estimation.between_samples import input_groups, with_likeliest_curves
+from symid.estimation.between_samples import input_groups, with_likeliest_holds
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
@@ -119,7 +119,7 @@ def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
             free = Fitter(fit.model.with_holds(**dict.fromkeys(names, "either")), data, near=fit).again(fit)
         except SymidError:
             continue  # what cannot be followed is not likelier
-        free = with_likeliest_curves(free, data)
+        free = with_likeliest_holds(free, data)
         fit = free if free.loglik2 > fit.loglik2 - STRONG else fit
     return fit
 

@@ -17,7 +17,7 @@ from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
 from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
-from symid.estimation.between_samples import with_holds_of, with_likeliest_curves
+from symid.estimation.between_samples import with_holds_of, with_likeliest_holds
 from symid.estimation.measurement import has_settled
 from symid.threads import in_threads
 
@@ -90,7 +90,7 @@ class Search(Judge):
             best = with_jumps_beside(begun_anew(polished(more), self.regression), self.jumps, best)
             if (otherwise := holds.asked_again(best)) is not best:
                 return otherwise, single
-            curved = with_likeliest_curves(best.fit, self.data)
+            curved = with_likeliest_holds(best.fit, self.data)
             if curved is not best.fit:
                 best = replace(best, fit=curved)
                 if not self.quiet(best):

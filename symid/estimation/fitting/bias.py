@@ -15,7 +15,7 @@ import numpy as np
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.kalman import held
+from symid.estimation.fitting.kalman import held, is_white
 from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
@@ -62,7 +62,7 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
     """Parameters fitted to one simulation of `fit` with noise of its sizes; None where that fails."""
     rng, sim, segments, data = np.random.default_rng(seed), fit.simulator, [], data.remembering(data.memory)
     for e, x0 in zip(data.segments, fit.initial, strict=True):
-        holds, size = held(e.step)
+        holds, size = held(e.step, is_white(fit.model))
         time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)
         fine = np.interp(np.arange((len(e.time) - 1) * e.ratio + 1) / e.ratio, np.arange(len(e.time)), e.time)
         noise = {  # the last of `process` may be the sharpness of a filter

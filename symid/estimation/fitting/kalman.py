@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.linalg import LinAlgError, expm, matrix_balance, solve_discrete_are
 
+from symid.model import WHITE, Model
 from symid.simulation import Linearised, Simulator
 
 HOLD, MOST_HOLDS = 0.01, 8
@@ -49,6 +50,7 @@ class KalmanFilter:
     F, Q, C : (n, n), (n, n), (m, n) transition over a sample, what random forces add to the covariance, and outputs.
     P : (n, n) covariance of the predicted state; None where there is no stationary one.
     leak : part of the state that is kept from sample to sample, below one where only that makes P stationary.
+    white : whether random forces change all the time, as of `held`.
     """
 
     linear: Linearised
@@ -60,20 +62,23 @@ class KalmanFilter:
     C: np.ndarray
     P: np.ndarray | None = None
     leak: float = 1.0
+    white: bool = False
 
     @classmethod
-    def of(cls, linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray) -> KalmanFilter:
+    def of(
+        cls, linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray, white: bool = False
+    ) -> KalmanFilter:
         """The filter of a linearised model.
 
         Parameters
         ----------
-        process : (w,) standard deviation of each noise of the model, held over the whole part of a sample nearest to
-            `HOLD` seconds, an eighth at least: forces that change within a sample move position and speed apart.
+        process : (w,) standard deviation of each noise of the model, as `held`: forces that change within a sample move
+            position and speed apart.
         """
         A, G, C = linear.without_delay()
-        F, Q = _moved(A, G, step, process)
+        F, Q = _moved(A, G, step, process, white)
         size = _sizes(F, C / sensor[:, None])
-        found = cls(linear, step, sensor, size, *_scaled(F, Q, C / sensor[:, None], size))
+        found = cls(linear, step, sensor, size, *_scaled(F, Q, C / sensor[:, None], size), P=None, white=white)
         moved, alike = found.Q + FLOOR * np.eye(len(F)), np.eye(len(C))
         for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
             try:
@@ -122,7 +127,7 @@ class KalmanFilter:
             return None
         process, sensor = (np.array([o[k] for o in others]) for k in (2, 3))
         A, G, C = (np.stack(k) for k in zip(*models, strict=True))
-        F, Q, C = _scaled(*_moved(A, G, self.step, process), C / sensor[:, :, None], self.size)
+        F, Q, C = _scaled(*_moved(A, G, self.step, process, self.white), C / sensor[:, :, None], self.size)
         now = self.P @ self.C.T @ np.linalg.inv(self.C @ self.P @ self.C.T + np.eye(len(self.C)))
         left, kept, moved = np.eye(n) - now @ C, self.leak * F, self.leak * F @ now
         after = kept @ left @ self.P @ (kept @ left).swapaxes(1, 2) + moved @ moved.swapaxes(1, 2)
@@ -159,22 +164,31 @@ def _sizes(F: np.ndarray, C: np.ndarray) -> np.ndarray:
     return size / (np.abs(C * size).max() or 1.0)
 
 
-def held(step: float) -> tuple[int, float]:
+def is_white(model: Model) -> bool:
+    """Whether the random forces of a model are white, as of `held`."""
+    return any(w.hold == WHITE for w in model.noises.values())
+
+
+def held(step: float, white: bool = False) -> tuple[int, float]:
     """How often a random force changes within a sample of `step` seconds, and its size in parts of the stated one.
 
-    Where it changes less often than it would it is smaller, so that its power at low frequencies is the same.
+    It is held over the whole part of a sample nearest to `HOLD` seconds, an eighth at least; one that is `white`, over
+    an eighth. Where it changes more or less often than it would it is larger or smaller, so that its power at low
+    frequencies is the same.
     """
     holds = max(1, round(step / HOLD))
-    return (holds, 1.0) if holds <= MOST_HOLDS else (MOST_HOLDS, float(np.sqrt(HOLD * MOST_HOLDS / step)))
+    if not white and holds <= MOST_HOLDS:
+        return holds, 1.0
+    return MOST_HOLDS, float(np.sqrt(MOST_HOLDS / holds if holds <= MOST_HOLDS else HOLD * MOST_HOLDS / step))
 
 
-def _moved(A, G, step: float, process: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _moved(A, G, step: float, process: np.ndarray, white: bool) -> tuple[np.ndarray, np.ndarray]:
     """Transition over a sample and the covariance of what the noise adds (Anderson & Moore 1979, 4.4).
 
     (..., n, n) each, for (..., n, n), (..., n, w) and (..., w).
     """
     n, w = G.shape[-2:]
-    holds, size = held(step)
+    holds, size = held(step, white)
     block = np.zeros((*A.shape[:-2], n + w, n + w))
     block[..., :n, :n], block[..., :n, n:] = A * step / holds, G * step / holds
     exact = expm(block)

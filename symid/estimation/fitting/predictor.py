@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from symid.estimation.fitting.kalman import KalmanFilter, linearised_along, points_along
+from symid.estimation.fitting.kalman import KalmanFilter, is_white, linearised_along, points_along
 from symid.estimation.sensors.whitening import Whitening, whitening_of
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
@@ -73,7 +73,7 @@ class Predictor:
 
         gain_slopes : of `gain`, as the method of that name makes them: where known, a part of the sensitivities.
         """
-        out = []
+        out, late = [], self._late(p, x0)
         for e, start in zip(self.segments(process), x0, strict=True):
             t = e.simulate(
                 self.sim,
@@ -85,12 +85,20 @@ class Predictor:
                 sensitivity=self.free if sensitivities else (),
                 initial_sensitivity=self.sim.states if sensitivities else (),
                 history=self._history(p, start, e),
+                late=late,
                 **self.steps,
             )
             if t.diverged:
                 return None
             out.append(t)
         return out
+
+    def _late(self, p, x0) -> np.ndarray | None:
+        """(m,) [s] how late each output is; None where no state is read late."""
+        if not self.model.delays:
+            return None
+        linear = self.sim.linearise(p, x0[0])
+        return np.where(linear.late_state < 0, 0.0, (linear.C_late != 0) * linear.lag).max(axis=1, initial=0.0)
 
     def _history(self, p, start, segment):
         """States just before an segment of a motion without random forces, where something reads them late."""
@@ -118,6 +126,8 @@ class Predictor:
 
     def innovations(self, runs, process=()) -> list[np.ndarray]:
         left = [e.recorded - t.y for e, t in zip(self.segments(process), runs, strict=True)]
+        if unseen := sum(t.unseen for t in runs):  # all count as large as those that were compared
+            left = [e * np.sqrt(self.data.samples / (self.data.samples - unseen)) for e in left]
         return left if self.defect is None else [e - d for e, d in zip(left, self.defect, strict=True)]
 
     def score(self, innovations, process=()) -> tuple[float, Whitening]:
@@ -150,7 +160,8 @@ class Predictor:
 
     def kalman_filter(self, p, process, path) -> KalmanFilter:
         """The filter at these values, linearised along a path of states."""
-        return KalmanFilter.of(self.linearised(p, path), self.step, process[: self.noises], self.sensors(process))
+        linear, sensors = self.linearised(p, path), self.sensors(process)
+        return KalmanFilter.of(linear, self.step, process[: self.noises], sensors, is_white(self.model))
 
     def gain_slopes(self, filter: KalmanFilter, p, process, path) -> np.ndarray | None:
         """Slopes of its gain by the free parameters, and by the logarithms of what is tuned of it; None without any."""

@@ -12,6 +12,8 @@ from symid.simulation import Signals, Simulator, Trajectory
 
 FEWEST = 8
 """Samples of the shortest segment."""
+MET = 1e-9
+"""A delay of a whole number of samples is one but for so small a part of a sample."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,6 +98,7 @@ class Segment:
         *,
         gain_slopes: np.ndarray | None = None,
         substeps: int = 1,
+        late: np.ndarray | None = None,
         **options,
     ) -> Trajectory:
         """A run over this segment, corrected by its samples where there is a `gain`, reported at its samples.
@@ -104,19 +107,44 @@ class Segment:
         ----------
         gain, gain_slopes : as of `Simulator.simulate`, for the past at samples of the outputs.
         substeps : of the integrator in each sample of the outputs; at least one in each of the inputs.
+        late : (m,) [s] how late each output is. Of what was before the segment nobody knows the motion: until an output
+            shows what came later nothing is compared, and the run is said to meet the recording.
         options : of `Simulator.simulate`, but no `noise`.
         """
+        unseen = self._unseen(late)
         run = simulator.simulate(
             parameters,
             initial_state,
             self._signals(simulator),
             gain=_between(gain, self.ratio),
             gain_slopes=None if gain_slopes is None else np.array([_between(g, self.ratio) for g in gain_slopes]),
-            recorded=self._compared,
+            recorded=self._compared if unseen is None else self._compared_after(unseen),
             substeps=-(-substeps // self.ratio),
             **options,
         )
-        return run if self.ratio == 1 else run.every(self.ratio)
+        run = run if self.ratio == 1 else run.every(self.ratio)
+        return run if unseen is None else self._meeting(run, int(unseen.max()))
+
+    def _unseen(self, late: np.ndarray | None) -> np.ndarray | None:
+        """(m,) first samples of each output that show what was before the segment; None where none does."""
+        if late is None or not np.any(late > 0):
+            return None
+        return np.minimum(np.ceil(late / self.step - MET).astype(int), len(self.time) - 1)
+
+    def _compared_after(self, unseen: np.ndarray) -> np.ndarray:
+        """`_compared` without the first (m,) `unseen` samples of each output."""
+        recorded = self._compared.copy()
+        for j, rows in enumerate(unseen):
+            recorded[: rows * self.ratio, j] = np.nan
+        return recorded
+
+    def _meeting(self, run: Trajectory, rows: int) -> Trajectory:
+        """The run with what was recorded in its first `rows` samples, whatever the unknowns are."""
+        y, dy = run.y.copy(), None if run.dy is None else run.dy.copy()
+        y[:rows] = self.recorded[:rows]
+        if dy is not None:
+            dy[:rows] = 0.0
+        return replace(run, y=y, dy=dy, unseen=rows)
 
     def _signals(self, simulator: Simulator) -> Signals:
         """The inputs as a simulator is given them, which is the same for all that take the same ones."""
