@@ -70,11 +70,10 @@ def test_its_fit_begins_at_a_size_from_which_it_finds_the_peak(given):
 def test_a_sample_more_or_less_of_the_delay_is_no_step_of_the_likelihood(given):
     """The first samples of a late sensor show a motion before the recording, which nobody knows."""
     fit, data = given
-    model = fit.model.with_term(LATE.term)
-    fitter = Fitter(model, data, near=fit)
-    path = fitter.path(np.array([*fit.values.values(), LATE_s]), fit.initial, None)
-    values = []
-    for samples in (3 - SMALL_STEP, 3 + SMALL_STEP):
-        p = np.array([*fit.values.values(), samples / RATE])
-        values.append(fitter.evaluate(p, fit.initial, fitter.kalman_gain(p, fit.process, path), fit.process))
-    assert abs(values[1] - values[0]) < 10
+    name = LATE.term.parameter_name("delay_s")
+    fitter = Fitter(fit.model.with_term(LATE.term), data, (name,), near=fit)
+    fewer, more = (TRUE | {name: (3 + d) / RATE} for d in (-SMALL_STEP, SMALL_STEP))
+    at = fitter.fit(fewer, fit.initial, fit.process, errors=False)
+    p = np.array(list((at.values | {name: more[name]}).values()))
+    gain = fitter.kalman_gain(p, at.process, fitter.path(p, at.initial, at.kalman_gain))
+    assert abs(fitter.evaluate(p, at.initial, gain, at.process) - at.loglik2) < 10
