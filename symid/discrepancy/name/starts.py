@@ -18,8 +18,8 @@ from symid.estimation.signals.data import Data
 SMALL = 0.15
 """A law that no value switches off nearly does nothing at this part of its usual sizes (a lag) or beyond (a limit)."""
 FINER = 1.4
-"""Sizes of delays and lags at which a predictor is asked, in parts of the one before. Its likelihood has a narrow peak:
-that of a sensor 37 ms late was 2500 above that of none at 30 and 40 ms, and as far below it at 20 and 50 ms
+"""Delays and lags of a sensor at which a predictor is asked, in parts of the one before. Its likelihood has a narrow
+peak: that of a sensor 37 ms late was 2500 above that of none at 30 and 40 ms, and as far below it at 20 and 50 ms
 (tests/discrepancy/test_late_under_forces.py)."""
 
 
@@ -60,7 +60,7 @@ def starts_of(fit: Fit, data: Data, projection: Projection, suspect: Suspect) ->
     # A law that cannot be switched off, or is not seen at zero, begins where it disturbs least.
     finite = sorted(((_here(fitter, fit, suspect, v), v) for v in _sizes(fitter, suspect)), key=lambda s: -s[0])
     finite = [v for here, v in finite if np.isfinite(here)][:2]
-    near = [_promised(fitter, fit, suspect, v) for v in finite] if fitter.driven else []
+    near = [_promised(fitter, fit, suspect, v) for v in finite[:1]] if _is_narrow(fitter, suspect) else []
     forecast = max([s.forecast for s in found] + [_promise(fitter, fit, suspect)] + near)
     # Values that a wrong model liked may hold it together with no size of what it lacks.
     afresh = Start(forecast, suspect, suspect.starts(off=False)[0], afresh=True)
@@ -83,10 +83,16 @@ def _promised(fitter: Fitter, fit: Fit, suspect: Suspect, values: dict[str, floa
     return fitter.promise(at, extended(fit.initial, fitter.sim), fit.process) - fit.loglik2
 
 
+def _is_narrow(fitter: Fitter, suspect: Suspect) -> bool:
+    """Whether a predictor, which follows its sensors, is asked how late one of them is."""
+    q = suspect.strength
+    return fitter.driven and suspect.kind == "sensor" and q is not None and q.unit == "s"
+
+
 def _sizes(fitter: Fitter, suspect: Suspect) -> list[dict[str, float]]:
-    """Finite values from which a fit may begin; of a delay or lag under random forces so many that one is near."""
+    """Finite values from which a fit may begin, so many that one is near where the likelihood has a narrow peak."""
     starts, q = suspect.starts(off=False), suspect.strength
-    if not fitter.driven or q is None or q.unit != "s":
+    if q is None or not _is_narrow(fitter, suspect):
         return starts
     count = 1 + max(0, round(np.log(q.bounds[1] / fitter.step) / np.log(FINER)))
     return starts + [starts[0] | {q.key: float(v)} for v in np.geomspace(fitter.step, q.bounds[1], count)]
