@@ -2,7 +2,7 @@
 
 Each function takes a whole number and gives one `Exam`, the same on every call. Half of the recordings are spoilt the
 way laboratories spoil them: low-pass filtered without phase shift, with noise that remembers, coarse encoders, short.
-Machines of other kinds are in `machines` and `mechanisms`.
+Machines of other kinds are in `machines`, `mechanisms` and `controlled`.
 """
 
 import tempfile
@@ -11,7 +11,9 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+from controlled import LOOPS
 from lacking import made
+from loops import run_loop
 from machines import MACHINES, MISSING, Made
 from mechanisms import MECHANISMS
 from scipy.signal import butter, filtfilt, lfilter
@@ -178,6 +180,19 @@ def two(seed: int) -> Exam:
     return _exam(of.__name__, made(rng, plant, [plant.missing[one], plant.missing[other]]), "plain", rng)
 
 
+def controlled(seed: int) -> Exam:
+    """One of `LOOPS`, in two of three with a law that its model lacks, spoilt likewise."""
+    of, how, attempt = LOOPS[seed % len(LOOPS)], MACHINES_SPOILT[seed // 3 % 4], 0
+    while True:  # until what is missing leaves it stable
+        rng = np.random.default_rng((9010, seed, attempt))
+        loop = of(rng)
+        lacking = loop.missing[int(rng.integers(len(loop.missing)))] if seed // 12 % 3 else None
+        try:
+            return _exam(of.__name__, run_loop(rng, loop, lacking), how, rng)
+        except FloatingPointError:
+            attempt += 1
+
+
 def _exam(name: str, made: Made, how: str, rng: np.random.Generator) -> Exam:
     """What a machine did, recorded with noise and spoilt in one of `MACHINES_SPOILT`."""
     rate, level = 1 / (made.time[1] - made.time[0]), 10 ** rng.uniform(*NOISE_LEVELS)
@@ -254,4 +269,4 @@ def _gains(delay: float) -> dict[str, float]:
     }
 
 
-DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, machine, mechanism, two, person)}
+DRAWS = {f.__name__: f for f in (null, weak, three, spoilt, machine, mechanism, two, controlled, person)}

@@ -84,12 +84,12 @@ def made(rng, mechanism: Mechanism, missing: Sequence[tuple[str, str]]) -> Made:
     f0, step = mechanism.pace_Hz, 1 / (mechanism.samples * mechanism.pace_Hz)
     count = int(mechanism.swings * mechanism.samples)
     time = step * np.arange(-EARLIER, count)
-    given = {c: _signal(rng, time, f0, rms) for c, rms in mechanism.inputs.items()}
+    given = {c: signal_of(rng, time, f0, rms) for c, rms in mechanism.inputs.items()}
     acting, force, seen, truth = dict(given), {}, {}, {}
     drives, sensors = ({mechanism.places[c]: c for c in of} for of in (mechanism.inputs, mechanism.outputs))
     for law, at in missing:
         if law in FORCES:
-            force[at], truth[LIBRARY[law].at(at)] = _force(rng, law, mechanism.joints[at])
+            force[at], truth[LIBRARY[law].at(at)] = force_of(rng, law, mechanism.joints[at])
         elif law in DRIVES:
             c = drives[at]
             acting[c], truth[LIBRARY[law].at(at)] = _driven(rng, law, given[c], time, mechanism.inputs[c], f0)
@@ -107,19 +107,19 @@ def made(rng, mechanism: Mechanism, missing: Sequence[tuple[str, str]]) -> Made:
     for law, at in missing:
         if law in SENSORS:
             c = sensors[at]
-            seen[c], truth[LIBRARY[law].at(at)] = _late_sensor(rng, law, time, seen[c], f0)
+            seen[c], truth[LIBRARY[law].at(at)] = late_sensor(rng, law, time, seen[c], f0)
     inputs = {c: s(time[EARLIER:]) for c, s in given.items()}
     units = {p.channel: p.unit for p in (*mechanism.model.inputs.values(), *mechanism.model.outputs.values())}
     outputs = {c: y[EARLIER:] for c, y in seen.items()}
     return Made(mechanism.model, time[EARLIER:], inputs, outputs, units, truth, f0)
 
 
-def _signal(rng, time: np.ndarray, f0: float, rms: float) -> CubicSpline:
+def signal_of(rng, time: np.ndarray, f0: float, rms: float) -> CubicSpline:
     w = gaussian_filter1d(rng.standard_normal(time.size), 1 / (2 * np.pi * 1.2 * f0 * (time[1] - time[0])))
     return CubicSpline(time, rms * w / w.std())
 
 
-def _force(rng, law: str, joint: Joint):
+def force_of(rng, law: str, joint: Joint):
     """The missing force as a function of the states, and its true values."""
     size, sign = joint.force * rng.uniform(SHARE[0], 1.2 * SHARE[1]), int(rng.choice((-1, 1)))
     excess, slow = size * rng.uniform(0.5, 1.5), joint.speed * rng.uniform(0.1, 0.4)
@@ -155,7 +155,7 @@ def _driven(rng, law: str, signal: CubicSpline, time: np.ndarray, rms: float, f0
     return _lagging(signal, time, late), {"time_constant_s": late}
 
 
-def _late_sensor(rng, law: str, time: np.ndarray, y: np.ndarray, f0: float):
+def late_sensor(rng, law: str, time: np.ndarray, y: np.ndarray, f0: float):
     late, signal = rng.uniform(*LATE) / f0, CubicSpline(time, y)
     if law == "sensor_delay":
         return signal(time - late), {"delay_s": late}
