@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from symid.errors import SymidError
 from symid.estimation.fitting.kalman import KalmanFilter, is_white, linearised_along, points_along
 from symid.estimation.sensors.whitening import Whitening, whitening_of
 from symid.estimation.signals.data import Data
@@ -97,7 +98,10 @@ class Predictor:
         """(m,) [s] how late each output is; None where no state is read late."""
         if not self.model.delays:
             return None
-        linear = self.sim.linearise(p, x0[0])
+        try:
+            linear = linearised_along(self.sim, p, x0, self.data.mean_inputs, points=1)
+        except SymidError:  # it diverges, too
+            return None
         return np.where(linear.late_state < 0, 0.0, (linear.C_late != 0) * linear.lag).max(axis=1, initial=0.0)
 
     def _history(self, p, start, segment):
