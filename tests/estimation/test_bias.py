@@ -27,7 +27,9 @@ def with_repeats(monkeypatch, shift, spread):
     monkeypatch.setattr(
         bias,
         "_repeat",
-        lambda fit, data, seed: np.array(list(fit.values.values())) + errors * (shift + spread * scatter[seed]),
+        lambda fit, data, forces, sensors, seed: (
+            np.array(list(fit.values.values())) + errors * (shift + spread * scatter[seed])
+        ),
     )
     return fit, unbiased(fit, data, ["damping"])
 
@@ -40,14 +42,28 @@ def test_repeats_of_an_honest_fit_change_nothing():
 def test_the_sharpness_of_a_filter_is_no_size_of_a_noise():
     fit, data = fitted()
     filtered = replace(fit, process=np.append(fit.process, 1.3))
-    assert unbiased(filtered, data, list(TRUE)).values == unbiased(fit, data, list(TRUE)).values
+    undone = data.with_segments(replace(e, undone=np.zeros_like(e.recorded)) for e in data.segments)
+    assert unbiased(filtered, undone, list(TRUE)).values == unbiased(fit, data, list(TRUE)).values
 
 
 def test_repeats_scatter_as_the_standard_errors_say():
     fit, data = fitted()
     errors = np.array([fit.errors[k] for k in fit.values])
-    z = (np.array([bias._repeat(fit, data, seed) for seed in range(20)]) - list(fit.values.values())) / errors
+    z = (
+        np.array([bias._repeat(fit, data, *bias._sizes(fit, data), seed) for seed in range(20)])
+        - list(fit.values.values())
+    ) / errors
     assert np.abs(z.mean(0)).max() < 1 and 0.6 < z.std() < 1.5
+
+
+def test_repeats_are_as_large_as_the_recording_whatever_is_said_of_the_sensors():
+    """A likelihood with the size of the errors concentrated out tells ratios of noises alone."""
+    fit, data = fitted()
+    forces, sensors = bias._sizes(fit, data)
+    louder = replace(data, sensor_noise=10 * data.sensor_noise)
+    again, loud = bias._sizes(fit_model(cart(), louder), louder)
+    assert again == pytest.approx(forces, rel=1e-3) and loud == pytest.approx(sensors, rel=1e-3)
+    assert sensors == pytest.approx(data.sensor_noise, rel=0.1)
 
 
 def test_a_bias_is_taken_off_and_paid_for(monkeypatch):

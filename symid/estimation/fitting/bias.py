@@ -16,6 +16,7 @@ from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.kalman import held, is_white
+from symid.estimation.fitting.path import fitted_path
 from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
@@ -35,7 +36,8 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str]) -> Fit:
     """
     if not data.driven or fit.kalman_gain is None or not fit.errors or not names:
         return fit
-    repeats = in_threads(lambda seed: _repeat(fit, data, seed), range(REPEATS))
+    forces, sensors = _sizes(fit, data)
+    repeats = in_threads(lambda seed: _repeat(fit, data, forces, sensors, seed), range(REPEATS))
     found = [v for v in repeats if v is not None]
     if len(found) < REPEATS / 2:
         return fit
@@ -58,16 +60,27 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str]) -> Fit:
     )
 
 
-def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
-    """Parameters fitted to one simulation of `fit` with noise of its sizes; None where that fails."""
+def _sizes(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
+    """(w,) of random forces and (m,) of the sensors' noise, as large as innovations are: a fit tells ratios alone.
+
+    Where a filter was undone that had left little noise, repeats were fourteen times as large as the recording.
+    """
+    predictor = Fitter.of(fit, data)
+    p = np.array([fit.values[k] for k in predictor.sim.parameters])
+    filter = predictor.kalman_filter(p, fit.process, fitted_path(fit, data))
+    size = float(np.sqrt(np.mean((fit.rms_errors / filter.expected) ** 2)))
+    size = size if np.isfinite(size) else 1.0
+    return size * fit.process[: predictor.noises], size * filter.sensor
+
+
+def _repeat(fit: Fit, data: Data, forces: np.ndarray, sensors: np.ndarray, seed: int) -> np.ndarray | None:
+    """Parameters fitted to one simulation of `fit` with noise of these sizes; None where that fails."""
     rng, sim, segments, data = np.random.default_rng(seed), fit.simulator, [], data.remembering(data.memory)
     for e, x0 in zip(data.segments, fit.initial, strict=True):
         holds, size = held(e.step, is_white(fit.model))
         time = np.interp(np.arange(holds * (len(e.time) - 1) + 1) / holds, np.arange(len(e.time)), e.time)
         fine = np.interp(np.arange((len(e.time) - 1) * e.ratio + 1) / e.ratio, np.arange(len(e.time)), e.time)
-        noise = {  # the last of `process` may be the sharpness of a filter
-            k: s * size * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, fit.process, strict=False)
-        }
+        noise = {k: s * size * rng.standard_normal(len(time)) for k, s in zip(fit.model.noises, forces, strict=True)}
         run = sim.simulate(
             fit.values,
             x0,
@@ -82,7 +95,7 @@ def _repeat(fit: Fit, data: Data, seed: int) -> np.ndarray | None:
         if run.diverged:
             return None
         shown = run.y[::holds]
-        segments.append(replace(e, recorded=shown + data.sensor_noise * rng.standard_normal(shown.shape)))
+        segments.append(replace(e, recorded=shown + sensors * rng.standard_normal(shown.shape)))
     try:
         again = Fitter(fit.model, data.with_segments(segments)).fit(
             fit.values, fit.initial, fit.process, ITERATIONS, errors=False, kalman_gain=fit.kalman_gain

@@ -90,6 +90,13 @@ class KalmanFilter:
         return found
 
     @property
+    def expected(self) -> np.ndarray:
+        """(m,) standard deviations of innovations if all noises are as large as stated; NaN where P is None."""
+        if self.P is None:
+            return np.full(len(self.C), np.nan)
+        return self.sensor * np.sqrt(1 + np.einsum("ij,jk,ik->i", self.C, self.P, self.C))
+
+    @property
     def gain(self) -> np.ndarray:
         """Gain that moves the state after a sample by gain @ (recorded - predicted).
 
