@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symid.model import Model
+from symid.model import Model, Noise
 from symid.recording import Recording
 
 if TYPE_CHECKING:
@@ -73,10 +73,17 @@ def problem_identity(problem: Identification) -> dict[str, str]:
 
 
 def _declared(model: Model) -> list[tuple]:
-    """Numbers, units and channels of all parts; the expressions are in the model's own fingerprint."""
+    """Numbers, units and channels of all parts; the expressions are in the model's own fingerprint.
+
+    What a Noise does between samples makes no other problem: an episode draws it for each step of the mesh.
+    """
     said, seldom = ("value", "bounds", "guess", "unit", "channel", "hold"), ("size", "smooth", "prior")
     return [
-        (name, {k: getattr(part, k) for k in said if hasattr(part, k)} | _given(part, seldom))
+        (
+            name,
+            {k: getattr(part, k) for k in said if hasattr(part, k) and not (k == "hold" and isinstance(part, Noise))}
+            | _given(part, seldom),
+        )
         for name, part in model.components.items()
     ]
 
