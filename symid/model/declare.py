@@ -203,8 +203,7 @@ class Noise(Quantity, Component):
     Parameters
     ----------
     hold : what it does between the samples of a recording. "held" keeps a value for about 10 ms, and for a whole part
-        of a sample; "white" changes all the time (Astrom 1970, chapter 3); "either" becomes in a diagnosis "white"
-        where that is likelier.
+        of a sample; "white" changes all the time; "either" becomes in a diagnosis "white" where that is likelier.
 
     Raises
     ------

@@ -24,13 +24,8 @@ def with_repeats(monkeypatch, shift, spread):
     errors = np.array([fit.errors[k] for k in fit.values])
     scatter = np.random.default_rng(0).standard_normal((REPEATS, len(errors)))
     scatter = (scatter - scatter.mean(0)) / scatter.std(0, ddof=1)
-    monkeypatch.setattr(
-        bias,
-        "_repeat",
-        lambda fit, data, forces, sensors, seed: (
-            np.array(list(fit.values.values())) + errors * (shift + spread * scatter[seed])
-        ),
-    )
+    missed = errors * (shift + spread * scatter)
+    monkeypatch.setattr(bias, "_repeat", lambda fit, *others: np.array(list(fit.values.values())) + missed[others[-1]])
     return fit, unbiased(fit, data, ["damping"])
 
 
@@ -49,10 +44,9 @@ def test_the_sharpness_of_a_filter_is_no_size_of_a_noise():
 def test_repeats_scatter_as_the_standard_errors_say():
     fit, data = fitted()
     errors = np.array([fit.errors[k] for k in fit.values])
-    z = (
-        np.array([bias._repeat(fit, data, *bias._sizes(fit, data), seed) for seed in range(20)])
-        - list(fit.values.values())
-    ) / errors
+    sizes = bias._sizes(fit, data)
+    repeats = np.array([bias._repeat(fit, data, *sizes, seed) for seed in range(20)])
+    z = (repeats - list(fit.values.values())) / errors
     assert np.abs(z.mean(0)).max() < 1 and 0.6 < z.std() < 1.5
 
 

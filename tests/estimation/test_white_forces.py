@@ -33,7 +33,7 @@ def covariance(step: float, white: bool) -> np.ndarray:
 
 @pytest.mark.parametrize("step", [0.001, 0.01, 0.03, 0.5])
 def test_a_white_force_moves_position_and_speed_as_in_closed_form(step):
-    """Q = S [[h^3 / 3, h^2 / 2], [h^2 / 2, h]] (Van Loan 1978)."""
+    """Q = S [[h^3 / 3, h^2 / 2], [h^2 / 2, h]], the integral of S v v' over a sample, v = (t, 1)."""
     holds, size = held(step)
     power = size**2 * step / holds
     exact = power * np.array([[step**3 / 3, step**2 / 2], [step**2 / 2, step]])
