@@ -7,7 +7,7 @@ from driven_cart import cart, data_of, few, recorded
 import symid.discrepancy.name.explore as steps
 import symid.discrepancy.name.starts as begins
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.suspects import suspects
+from symid.discrepancy.model.suspects import Suspect, is_alike, suspects
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.name.scan import scan
 from symid.discrepancy.prove.nulls import false_alarm_probability, largest, null_maxima
@@ -23,6 +23,15 @@ def test_hopeless_suspects_gain_nothing():
     # What the model's own unknowns say already is never an explanation.
     own = [c for c in found if c.suspect.term.name in ("viscous_friction", "torsional_spring")]
     assert all(abs(c.log_ratio) < 1.0 for c in own)
+
+
+def test_what_all_muscles_do_is_alike_to_what_those_at_one_joint_do():
+    everywhere, elbow, wrist = (
+        Suspect(LIBRARY[name].at(place))
+        for name, place in (("muscle_lag", "global"), ("joint_muscle_lag", "elbow"), ("joint_feedback_delay", "wrist"))
+    )
+    assert is_alike(everywhere, elbow) and is_alike(wrist, everywhere)
+    assert not is_alike(elbow, wrist)
 
 
 def test_a_delay_that_no_value_of_a_wrong_model_survives_begins_from_nothing(monkeypatch):

@@ -162,20 +162,24 @@ FAMILIES = (
     {"cubic_stiffness", "end_range_stiffness"},
     {"constant_torque", "quadratic_stiffness", "asymmetric_damping"},
     {"extra_mass", "center_of_mass_error", "link_inertia_error"},
-    {"feedback_delay", "muscle_lag", "second_order_muscle_lag"},
-    {"joint_feedback_delay", "joint_muscle_lag"},
-    {"input_delay", "input_lag"},
-    {"inputs_delay", "inputs_lag"},
+    {"feedback_delay", "muscle_lag", "second_order_muscle_lag", "joint_feedback_delay", "joint_muscle_lag"},
+    {"input_delay", "input_lag", "inputs_delay", "inputs_lag"},
     {"sensor_delay", "sensor_lag"},
     {"proportional_loss", "orifice_loss", "quadratic_loss", "constant_flow"},
     {"proportional_exchange", "orifice_exchange"},
 )
 """Laws that take up what one another do: each is at one amplitude, or while it is small, nearly another."""
+EVERYWHERE = "global"
+"""The place of laws that act at all places of their kind."""
 
 
 def is_alike(suspect: Suspect, other: Suspect) -> bool:
-    """Whether both are laws of one family at one place."""
-    same = suspect.term.location == other.term.location
+    """Whether both are laws of one family at one place, or one of them at all places.
+
+    All muscles may lag where the lag of those at one joint explains much.
+    """
+    places = {suspect.term.location, other.term.location}
+    same = len(places) == 1 or EVERYWHERE in places
     return same and any({suspect.term.name, other.term.name} <= family for family in FAMILIES)
 
 
