@@ -24,12 +24,13 @@ _ANSWER = {
         "constants": _NUMBERS,
         "initial_state": _NUMBERS,
         "random_forces": _NUMBERS,
+        "sensor_noise": _NUMBERS,
         "white_forces": {"type": "boolean"},
     },
 }
 _EXPERIMENT = {
     "type": "object",
-    "required": ["words", "step_s", "samples", "recordings", "inputs", "sensor_noise", "answers"],
+    "required": ["words", "step_s", "samples", "recordings", "inputs", "answers"],
     "properties": {
         "words": {"type": "string", "maxLength": 1000},
         "step_s": {"type": "number", "exclusiveMinimum": 0, "maximum": LONGEST_S},

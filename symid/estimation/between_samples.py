@@ -10,8 +10,8 @@ import numpy as np
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.kalman import held
-from symid.estimation.fitting.refining import seen
+from symid.estimation.predicting.kalman import held
+from symid.estimation.predicting.refining import seen
 from symid.estimation.signals.data import Data
 from symid.model import WHITE, Model
 from symid.recording.signals.between import CURVES

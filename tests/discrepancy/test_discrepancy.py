@@ -18,7 +18,7 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.certain import sure
 from symid.errors import DiagnosisError
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.fitting.kalman import HOLD, KalmanFilter
+from symid.estimation.predicting.kalman import HOLD, KalmanFilter
 from symid.estimation.signals.windows import segments_between
 from symid.mechanics import LIBRARY
 from symid.model import Equation, Law, LawParameter, Model, Output, State

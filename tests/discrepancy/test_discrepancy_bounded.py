@@ -5,7 +5,7 @@ import pytest
 from driven_cart import SENSOR, TRUE, cart, data_of, recorded
 
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.growth import growth, growth_normal, runs_away
+from symid.estimation.predicting.growth import growth, growth_normal, runs_away
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 

@@ -10,6 +10,7 @@ from driven_cart import TRUE, cart, data_of, recorded
 from symid.estimation.fitting import bias
 from symid.estimation.fitting.bias import REPEATS, unbiased
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.fitting.noise_sizes import noise_sizes
 
 
 @cache
@@ -44,7 +45,7 @@ def test_the_sharpness_of_a_filter_is_no_size_of_a_noise():
 def test_repeats_scatter_as_the_standard_errors_say():
     fit, data = fitted()
     errors = np.array([fit.errors[k] for k in fit.values])
-    sizes = bias._sizes(fit, data)
+    sizes = noise_sizes(fit, data)
     repeats = np.array([bias._repeat(fit, data, *sizes, seed) for seed in range(20)])
     z = (repeats - list(fit.values.values())) / errors
     assert np.abs(z.mean(0)).max() < 1 and 0.6 < z.std() < 1.5
@@ -53,9 +54,9 @@ def test_repeats_scatter_as_the_standard_errors_say():
 def test_repeats_are_as_large_as_the_recording_whatever_is_said_of_the_sensors():
     """A likelihood with the size of the errors concentrated out tells ratios of noises alone."""
     fit, data = fitted()
-    forces, sensors = bias._sizes(fit, data)
+    forces, sensors = noise_sizes(fit, data)
     louder = replace(data, sensor_noise=10 * data.sensor_noise)
-    again, loud = bias._sizes(fit_model(cart(), louder), louder)
+    again, loud = noise_sizes(fit_model(cart(), louder), louder)
     assert again == pytest.approx(forces, rel=1e-3) and loud == pytest.approx(sensors, rel=1e-3)
     assert sensors == pytest.approx(data.sensor_noise, rel=0.1)
 

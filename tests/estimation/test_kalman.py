@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from symid.estimation.fitting.kalman import KalmanFilter
+from symid.estimation.predicting.kalman import KalmanFilter
 from symid.estimation.signals.segment import _between
 from symid.simulation import Linearised
 

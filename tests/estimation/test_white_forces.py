@@ -8,7 +8,7 @@ import symid as si
 from symid.errors import ModelError
 from symid.estimation.between_samples import with_likeliest_holds
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.fitting.kalman import KalmanFilter, held
+from symid.estimation.predicting.kalman import KalmanFilter, held
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between
 from symid.simulation import Linearised, synthetic_recording

@@ -62,6 +62,7 @@ def plan() -> dict:
         "constants": {},
         "initial_state": dict.fromkeys(model.states, 0.1),
         "random_forces": {},
+        "sensor_noise": dict.fromkeys(model.outputs, 1e-3),
     }
     with_law = model.with_term(LIBRARY["viscous_friction"].at("joint1"))
     answer["parameters"] = dict.fromkeys(with_law.parameters, 0.01)
@@ -71,7 +72,6 @@ def plan() -> dict:
         "samples": 30,
         "recordings": 2,
         "inputs": dict.fromkeys(model.inputs, [0.0] * 30),
-        "sensor_noise": dict.fromkeys(model.outputs, 1e-3),
         "answers": {"finding": answer, "rival": answer | {"terms": []}},
     }
     return {"system": {"rig": RIG, "friction": []}, "channels": channels, "experiments": [experiment]}
@@ -103,7 +103,6 @@ def test_plans_of_experiments(tmp_path):
         ({"samples": 2, "step_s": 9e3}, "longer than 1,000,000 samples"),
         ({"inputs": {"push": [0.0]}}, "input 'push' has 1 values for 30 samples"),
         ({"answers": {}}, "the plan has no answer 'finding'; known: none"),
-        ({"sensor_noise": {}}, "the plan has no noise of output"),
         ({"inputs": 3}, "experiments.0..inputs: must be a object"),
     ],
 )
@@ -112,6 +111,16 @@ def test_a_plan_that_is_none_is_refused_with_its_place(tmp_path, capsys, change,
     content = whole | {"experiments": [whole["experiments"][0] | change]}
     assert simulated(tmp_path, content) == 2
     assert re.search(said, capsys.readouterr().err)
+
+
+def test_the_noise_of_sensors_may_stand_once_for_both_answers_as_in_earlier_plans(tmp_path, capsys):
+    whole = plan()
+    experiment = whole["experiments"][0]
+    noises = [a.pop("sensor_noise") for a in experiment["answers"].values()]
+    assert simulated(tmp_path, whole) == 2
+    assert "the plan has no noise of output" in capsys.readouterr().err
+    experiment["sensor_noise"] = noises[0]
+    assert simulated(tmp_path, whole) == 0
 
 
 @pytest.mark.parametrize(

@@ -35,7 +35,7 @@ class Experiment:
     design : what to do. finding, rival : the two answers. data : what was recorded, whose inputs and sensors it takes.
     log_ratios : growth of twice the log-likelihood that is to be expected, if the finding is true and if the rival is;
         NaN where no experiment shows it, because the other law can be as good as nothing. log_ratio : the smaller one.
-    duration : seconds of the recording. sensor_noise : (m,) [SI].
+    duration : seconds of the recording.
     """
 
     design: Design
@@ -56,10 +56,6 @@ class Experiment:
     @property
     def duration(self) -> float:
         return float(course(self.data, self.design)[0][-1])
-
-    @property
-    def sensor_noise(self) -> np.ndarray:
-        return self.data.sensor_noise * self.design.noise
 
     def simulated(self, truth: Hypothesis, seed: int) -> Data | None:
         """What would be recorded if `truth`, one of the two, were true; None where the motion leaves all bounds."""

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 
 from symid.discrepancy.design.experiment import Experiment
-from symid.discrepancy.design.simulated import as_recording, course, forces_of, run_times, sensed, start_of
+from symid.discrepancy.design.simulated import as_recording, course, noises_of, run_times, sensed, start_of
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import DiagnosisError
-from symid.estimation.fitting.kalman import is_white
+from symid.estimation.predicting.kalman import is_white
 from symid.estimation.signals.segment import Segment
 from symid.mechanics import LIBRARY
 from symid.mechanics.places import with_places
@@ -26,7 +26,6 @@ ANSWERS = ("finding", "rival")
 def plan_of(experiment: Experiment) -> dict[str, Any]:
     """What to do, what is to be expected, and both answers with all of their numbers, SI."""
     time, inputs = course(experiment.data, experiment.design)
-    model = experiment.finding.fit.model
     return {
         "words": experiment.design.words,
         "rival": str(experiment.rival.suspect.term),
@@ -38,7 +37,6 @@ def plan_of(experiment: Experiment) -> dict[str, Any]:
         "samples": len(time),
         "recordings": experiment.design.repeats,
         "inputs": {k: list(map(float, u)) for k, u in inputs.items()},
-        "sensor_noise": dict(zip(model.outputs, map(float, experiment.sensor_noise), strict=True)),
         "answers": {
             k: _answer(h, experiment) for k, h in zip(ANSWERS, (experiment.finding, experiment.rival), strict=True)
         },
@@ -47,12 +45,14 @@ def plan_of(experiment: Experiment) -> dict[str, Any]:
 
 def _answer(h: Hypothesis, experiment: Experiment) -> dict[str, Any]:
     start = start_of(h.fit, experiment.data, experiment.design)
+    forces, sensors = noises_of(h, experiment.data, experiment.design)
     return {
         "terms": [[t.name, t.location] for t in h.fit.model.terms],
         "parameters": h.fit.values,
         "constants": {c.name: float(c.value) for c in h.fit.model.constants.values()},
         "initial_state": dict(zip(h.fit.model.states, map(float, start), strict=True)),
-        "random_forces": forces_of(h.fit),
+        "random_forces": forces,
+        "sensor_noise": dict(zip(h.fit.model.outputs, map(float, sensors), strict=True)),
         "white_forces": is_white(h.fit.model),
     }
 
@@ -85,7 +85,9 @@ def recording_of(plan: Mapping[str, Any], model: Model, truth: str, seed: int) -
     time = np.arange(plan["samples"]) * plan["step_s"]
     inputs = {k: np.array(u, dtype=float) for k, u in _of(plan["inputs"], model.inputs, "course of input").items()}
     start = np.array(list(_of(answer["initial_state"], sim.states, "initial value of state").values()))
-    noise = np.array(list(_of(plan["sensor_noise"], model.outputs, "noise of output").values()))
+    # Plans of earlier versions have one noise for both answers.
+    sensors = answer.get("sensor_noise", plan.get("sensor_noise", {}))
+    noise = np.array(list(_of(sensors, model.outputs, "noise of output").values()))
     forces = {k: size for k, size in answer["random_forces"].items() if k in model.noises}
     segments = []
     for k in range(plan["recordings"]):

@@ -12,8 +12,9 @@ from symid.discrepancy.design.changes import Design
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.kalman import held, is_white
+from symid.estimation.fitting.noise_sizes import noise_sizes
 from symid.estimation.fitting.path import fitted_path
+from symid.estimation.predicting.kalman import held, is_white
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.model import Model
@@ -52,26 +53,20 @@ def simulated(truth: Hypothesis, data: Data, design: Design, seed: int) -> Data 
     lengths = [(len(s.time) - 1) * s.ratio + 1 for s in data.segments]
     pieces = max(1, round(len(time) / float(np.median(lengths)))) if len(data.segments) > 1 else 1
     edges = np.linspace(0, len(time), pieces + 1).astype(int)
+    fit, start, (forces, noise) = truth.fit, start_of(truth.fit, data, design), noises_of(truth, data, design)
     for k in range(design.repeats):
-        sensed = _sensed(truth.fit, data, design, time, inputs, rng)
-        if sensed is None:
+        seen = sensed(fit.simulator, fit.values, start, time, inputs, forces, noise, rng, is_white(fit.model))
+        if seen is None:
             return None
         for a, b in pairwise(edges):
             own = {key: np.ascontiguousarray(u[a:b]) for key, u in inputs.items()}
-            segments.append(Segment(run_times(time, k)[a:b], np.ascontiguousarray(sensed[a:b]), own))
-    return replace(data, segments=tuple(segments), sensor_noise=data.sensor_noise * design.noise, rounding=0.0)
+            segments.append(Segment(run_times(time, k)[a:b], np.ascontiguousarray(seen[a:b]), own))
+    return replace(data, segments=tuple(segments), sensor_noise=noise, rounding=0.0)
 
 
 def run_times(time: np.ndarray, k: int) -> np.ndarray:
     """(N,) times [s] of run k (from 0) of one recording, each as `time`, with a pause between."""
     return time + k * (time[-1] + PAUSE * (time[1] - time[0]))
-
-
-def _sensed(fit: Fit, data: Data, design: Design, time, inputs, rng) -> np.ndarray | None:
-    """(N, m) outputs with noise of one run of an experiment; None where it leaves all bounds."""
-    noise = data.sensor_noise * design.noise
-    start, white = start_of(fit, data, design), is_white(fit.model)
-    return sensed(fit.simulator, fit.values, start, time, inputs, forces_of(fit), noise, rng, white)
 
 
 def start_of(fit: Fit, data: Data, design: Design) -> np.ndarray:
@@ -83,9 +78,12 @@ def start_of(fit: Fit, data: Data, design: Design) -> np.ndarray:
     return middle + design.start * (fit.initial[far] - middle)
 
 
-def forces_of(fit: Fit) -> dict[str, float]:
-    """Standard deviation of the random force at each noise, as in `kalman.held` [SI]."""
-    return dict(zip(fit.model.noises, map(float, fit.process), strict=False)) if fit.kalman_gain is not None else {}
+def noises_of(truth: Hypothesis, data: Data, design: Design) -> tuple[dict[str, float], np.ndarray]:
+    """Random force at each noise, as in `kalman.held`, and (m,) noise of the sensors: standard deviations [SI]."""
+    if truth.fit.kalman_gain is None:
+        return {}, data.sensor_noise * design.noise
+    forces, sensors = noise_sizes(truth.fit, truth.data)
+    return dict(zip(truth.fit.model.noises, map(float, forces), strict=True)), sensors * design.noise
 
 
 def sensed(

@@ -14,8 +14,8 @@ import numpy as np
 from scipy.linalg import expm
 
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.kalman import linearised_along
 from symid.estimation.free_run import FreeRun
+from symid.estimation.predicting.kalman import linearised_along
 from symid.model import Model, Noise
 from symid.model.variants import correlated
 

@@ -8,8 +8,8 @@ from scipy.signal import fftconvolve
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import HIGHEST_FREQUENCY, Suspect
 from symid.discrepancy.name.comb import comb
-from symid.estimation.fitting.kalman import linearised_along
 from symid.estimation.fitting.path import fitted_path
+from symid.estimation.predicting.kalman import linearised_along
 from symid.model import Model
 from symid.simulation import Simulator, simulator
 

@@ -15,8 +15,8 @@ from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.diagnosis import Effect
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.kalman import HOLD
 from symid.estimation.free_run import FreeRun
+from symid.estimation.predicting.kalman import HOLD
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.data import Data
 from symid.identification.fit import common_unit, rms_text

@@ -15,8 +15,8 @@ import numpy as np
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.kalman import held, is_white
-from symid.estimation.fitting.path import fitted_path
+from symid.estimation.fitting.noise_sizes import noise_sizes
+from symid.estimation.predicting.kalman import held, is_white
 from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
@@ -36,7 +36,7 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str]) -> Fit:
     """
     if not data.driven or fit.kalman_gain is None or not fit.errors or not names:
         return fit
-    forces, sensors = _sizes(fit, data)
+    forces, sensors = noise_sizes(fit, data)
     repeats = in_threads(lambda seed: _repeat(fit, data, forces, sensors, seed), range(REPEATS))
     found = [v for v in repeats if v is not None]
     if len(found) < REPEATS / 2:
@@ -58,19 +58,6 @@ def unbiased(fit: Fit, data: Data, names: Sequence[str]) -> Fit:
         values=dict(zip(fit.values, map(float, values), strict=True)),
         errors=dict(zip(fit.values, map(float, errors), strict=True)),
     )
-
-
-def _sizes(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
-    """(w,) of random forces and (m,) of the sensors' noise, as large as innovations are: a fit tells ratios alone.
-
-    Where a filter was undone that had left little noise, repeats were fourteen times as large as the recording.
-    """
-    predictor = Fitter.of(fit, data)
-    p = np.array([fit.values[k] for k in predictor.sim.parameters])
-    filter = predictor.kalman_filter(p, fit.process, fitted_path(fit, data))
-    size = float(np.sqrt(np.mean((fit.rms_errors / filter.expected) ** 2)))
-    size = size if np.isfinite(size) else 1.0
-    return size * fit.process[: predictor.noises], size * filter.sensor
 
 
 def _repeat(fit: Fit, data: Data, forces: np.ndarray, sensors: np.ndarray, seed: int) -> np.ndarray | None:

@@ -9,7 +9,7 @@ import numpy as np
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.kalman import linearised_along
+from symid.estimation.predicting.kalman import linearised_along
 from symid.estimation.signals.data import Data, observed_state
 from symid.estimation.signals.segment import FEWEST
 from symid.model import Model

@@ -13,11 +13,11 @@ import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.growth import growth, runs_away
 from symid.estimation.fitting.normal_equations import covariance_of, normal_equations
-from symid.estimation.fitting.refining import Refining
 from symid.estimation.fitting.secant import Secant
 from symid.estimation.fitting.step import damped_step
+from symid.estimation.predicting.growth import growth, runs_away
+from symid.estimation.predicting.refining import Refining
 from symid.estimation.signals.data import Data
 from symid.model import Model
 from symid.simulation import Trajectory

@@ -6,9 +6,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from symid.estimation.fitting.growth import growth_normal
-from symid.estimation.fitting.predictor import Predictor
 from symid.estimation.fitting.secant import is_convex
+from symid.estimation.predicting.growth import growth_normal
+from symid.estimation.predicting.predictor import Predictor
 from symid.estimation.sensors.whitening import past_of
 from symid.simulation import Trajectory
 

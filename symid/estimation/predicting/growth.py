@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from symid.estimation.fitting.predictor import Predictor
+from symid.estimation.predicting.predictor import Predictor
 
 AWAY = 2.0
 """A free run whose error is this many times what the recording moves has run away."""

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from symid.errors import SymidError
-from symid.estimation.fitting.kalman import KalmanFilter, is_white, linearised_along, points_along
+from symid.estimation.predicting.kalman import KalmanFilter, is_white, linearised_along, points_along
 from symid.estimation.sensors.whitening import Whitening, whitening_of
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment

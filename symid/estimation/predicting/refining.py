@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 import numpy as np
 
-from symid.estimation.fitting.predictor import Predictor
+from symid.estimation.predicting.predictor import Predictor
 from symid.estimation.signals.data import Data
 from symid.model import Model
 from symid.simulation import Trajectory
