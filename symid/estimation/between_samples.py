@@ -10,6 +10,7 @@ import numpy as np
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
+from symid.estimation.fitting.noise_sizes import likeliest_sizes
 from symid.estimation.predicting.kalman import held
 from symid.estimation.predicting.refining import seen
 from symid.estimation.signals.data import Data
@@ -45,18 +46,11 @@ def _with_likeliest_forces(fit: Fit, data: Data) -> Fit:
     if fit.kalman_gain is None or not unstated or held(step) == held(step, white=True):
         return fit
     other = Fitter(fit.model.with_holds(**dict.fromkeys(unstated, WHITE)), data, near=fit)
-    p = np.array([fit.values[k] for k in other.sim.parameters])
-    path, sizes = other.path(p, fit.initial, fit.kalman_gain), np.ones(len(fit.process))
-    tried = []
-    for size in SIZES:
-        sizes[: other.noises] = size
-        gain = other.kalman_gain(p, sizes * fit.process, path)
-        tried.append((other.evaluate(p, fit.initial, gain, sizes * fit.process), size))
-    most, sizes[: other.noises] = max(tried)
+    most, process = likeliest_sizes(other, fit, [size * np.ones(other.noises) for size in SIZES])
     if most <= fit.loglik2:
         return fit
     try:
-        return max(fit, other.fit(fit.values, fit.initial, sizes * fit.process), key=lambda f: f.loglik2)
+        return max(fit, other.fit(fit.values, fit.initial, process), key=lambda f: f.loglik2)
     except SymidError:
         return fit  # what cannot be followed is not likelier
 

@@ -1,6 +1,8 @@
-"""How large the noises of a fit are: a likelihood with the size of the errors concentrated out knows their ratios."""
+"""Sizes of the noises of a fit: how large they are in truth, and at which others the recording is likelier."""
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -13,8 +15,8 @@ from symid.estimation.signals.data import Data
 def noise_sizes(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
     """(w,) of the random forces and (m,) of the sensors' noise, as large as innovations are [SI].
 
-    Where a filter was undone that had left little noise, simulations with noise of the fit's own sizes swung fourteen
-    times as far as the recording.
+    A likelihood with the size of the errors concentrated out knows their ratios alone. Where a filter was undone that
+    had left little noise, simulations with noise of the fit's own sizes swung fourteen times as far as the recording.
 
     Parameters
     ----------
@@ -26,3 +28,21 @@ def noise_sizes(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
     size = float(np.sqrt(np.mean((fit.rms_errors / filter.expected) ** 2)))
     size = size if np.isfinite(size) else 1.0
     return size * fit.process[: predictor.noises], size * filter.sensor
+
+
+def likeliest_sizes(fitter: Fitter, fit: Fit, factors: Iterable[np.ndarray]) -> tuple[float, np.ndarray]:
+    """Twice the log-likelihood, and the sizes of the noises, at the best of these factors of the random forces.
+
+    Parameters
+    ----------
+    fitter : of the model of `fit`, or of one with the same parameters and states. fit : where all else stays.
+    factors : (w,) each.
+    """
+    p = np.array([fit.values[k] for k in fitter.sim.parameters])
+    path, best = fitter.path(p, fit.initial, fit.kalman_gain), (-np.inf, fit.process)
+    for factor in factors:
+        process = fit.process.copy()
+        process[: fitter.noises] *= factor
+        value = fitter.evaluate(p, fit.initial, fitter.kalman_gain(p, process, path), process)
+        best = max(best, (value, process), key=lambda b: b[0])
+    return best
