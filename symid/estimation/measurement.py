@@ -17,7 +17,7 @@ from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.sensors.first_order import is_first_order
 from symid.estimation.sensors.sensor_noise import noise_before
 from symid.estimation.sensors.smoothing import Smoothing
-from symid.estimation.sensors.whitening import longest_memory, remembered, whitening_of
+from symid.estimation.sensors.whitening import CLEARLY, is_coloured, longest_memory, remembered, whitening_of
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.known_past import with_known_past
@@ -149,17 +149,23 @@ def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
     The same data and fit where the innovations are white already, or move too smoothly for noise. How many samples are
     remembered is told by innovations, and then by fits with one more each, as long as BIC (Schwarz 1978) asks for it.
     """
-    given = data
-    while (memory := remembered(fit.innovations)) > data.memory:
-        if fit.kalman_gain is None and not (_is_broad(fit, memory) or is_first_order(fit.innovations)):
-            break
+    given, price = data, len(data.sensor_noise) ** 2 * log(data.samples)
+    while (memory := remembered(fit.innovations)) > data.memory and _may_remember(fit, memory):
         data, fit = _remembering(fit, data, memory)
-    while data is not given and data.memory < longest_memory(fit.innovations):
+    if data is given and not (is_coloured(fit.innovations, data.memory) and _may_remember(fit, data.memory + 1)):
+        return data, fit
+    least = price + (CLEARLY if data is given else 0.0)
+    while data.memory < longest_memory(fit.innovations):
         more, better = _remembering(fit, data, data.memory + 1)
-        if better.loglik2 - fit.loglik2 <= len(data.sensor_noise) ** 2 * log(data.samples):
+        if better.loglik2 - fit.loglik2 <= least:
             break
-        data, fit = more, better
+        data, fit, least = more, better, price
     return data, fit
+
+
+def _may_remember(fit: Fit, memory: int) -> bool:
+    """Whether errors of free runs look like noise that remembers, and not like a motion that is not met."""
+    return fit.kalman_gain is not None or _is_broad(fit, memory) or is_first_order(fit.innovations)
 
 
 def _remembering(fit: Fit, data: Data, memory: int) -> tuple[Data, Fit]:

@@ -13,7 +13,7 @@ from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.measurement import _is_broad, fits_of, with_memory
 from symid.estimation.sensors.cutoff import estimated_filter
 from symid.estimation.sensors.sensor_noise import noise_before
-from symid.estimation.sensors.whitening import remembered, whitening_of
+from symid.estimation.sensors.whitening import is_coloured, remembered, whitening_of
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.simulation import simulator
 
@@ -223,6 +223,16 @@ def test_memory_of_the_sensors_widens_errors_to_what_repeats_scatter():
     assert np.abs(z).max() < 4 and np.std(z) < 1.7
 
 
+def test_colour_too_weak_for_a_memory_is_seen_all_the_same():
+    """Fits anew may explain more by a memory than the innovations of a fit that took them for white."""
+    rng = np.random.default_rng(1)
+    white = rng.standard_normal((3000, 2))
+    b, a = [1.0, -0.8], [1.0, -0.87]
+    weak = np.column_stack([lfilter(b, a, white[:, 0]), white[:, 1]])
+    assert remembered([weak]) == 0 and is_coloured([weak], 0)
+    assert not any(is_coloured([rng.standard_normal((400, 2))], k % 3) for k in range(60))
+
+
 def test_fits_tell_how_much_is_remembered_where_innovations_tell_too_little(monkeypatch):
     recording, rng = recorded(0, gust=0.02), np.random.default_rng(0)
     wave = lfilter([1.0], [1.0, -1.2, 0.6], rng.standard_normal(len(recording)))
@@ -234,6 +244,7 @@ def test_fits_tell_how_much_is_remembered_where_innovations_tell_too_little(monk
     coloured, fit = with_memory(white, data)
     assert coloured.memory >= 2 and remembered(fit.remaining) == 0
     monkeypatch.setattr(measurement, "remembered", lambda innovations: 0)
+    monkeypatch.setattr(measurement, "is_coloured", lambda innovations, memory: False)
     assert with_memory(white, data) == (data, white)
 
 

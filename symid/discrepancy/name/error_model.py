@@ -29,7 +29,7 @@ from symid.estimation.fitting.correlated import begun_correlated, is_correlated,
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.measurement import has_settled, with_memory
-from symid.estimation.sensors.whitening import remembered
+from symid.estimation.sensors.whitening import is_coloured, remembered
 from symid.estimation.signals.data import Data
 from symid.model.variants import CORRELATION_TIME
 from symid.threads import in_threads
@@ -160,7 +160,7 @@ def _coloured(fit: Fit, data: Data) -> tuple[Data, Fit]:
 
     The same data and fit where the innovations are white already, or nothing makes them so.
     """
-    if remembered(fit.innovations) <= data.memory:
+    if remembered(fit.innovations) <= data.memory and not is_coloured(fit.innovations, data.memory):
         return data, fit
     forces = with_correlated_forces(fit, data)
     possible = [] if forces is None else [(data, forces)]

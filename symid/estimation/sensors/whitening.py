@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from scipy.special import gammaincc
 
 LONGEST = 10
 """Samples that noise may remember."""
@@ -21,6 +22,9 @@ SHORTEST = 20
 """A segment has at least so many samples for each that noise may remember."""
 CLEARLY = 10.0
 """Noise counts as white unless a memory is better by this much of BIC: very strong evidence (Kass & Raftery 1995)."""
+BY_CHANCE = 1e-4
+"""Innovations are not white if earlier ones foretell so much of them as chance does less often. Beside a model that is
+fitted anew a memory explains more: 61 where it was 23 (`controlled` 55 of tests/examination)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +81,21 @@ def remembered(innovations: Sequence[np.ndarray]) -> int:
     scores = [bic(k) for k in range(longest_memory(innovations) + 1)]
     best = int(np.argmin(scores))
     return best if scores[best] < scores[0] - CLEARLY else 0
+
+
+def is_coloured(innovations: Sequence[np.ndarray], memory: int) -> bool:
+    """Whether more lags than `memory` foretell what chance does not: likelihood ratios, chi-square of m^2 for each lag.
+
+    So many tests are made as there are longer memories (Bonferroni).
+    """
+    m, samples = innovations[0].shape[1], sum(len(s) for s in innovations)
+    left = [
+        np.linalg.slogdet(whitening_of(innovations, k).covariance)[1]
+        for k in range(memory, longest_memory(innovations) + 1)
+    ]
+    gains = samples * np.maximum(left[0] - np.array(left[1:]), 0.0)
+    chance = gammaincc(m**2 / 2 * np.arange(1, len(left)), gains / 2)
+    return bool(np.any(len(gains) * chance < BY_CHANCE))
 
 
 def longest_memory(innovations: Sequence[np.ndarray]) -> int:
