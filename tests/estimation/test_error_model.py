@@ -230,6 +230,7 @@ def test_colour_too_weak_for_a_memory_is_seen_all_the_same():
     b, a = [1.0, -0.8], [1.0, -0.87]
     weak = np.column_stack([lfilter(b, a, white[:, 0]), white[:, 1]])
     assert remembered([weak]) == 0 and is_coloured([weak], 0)
+    assert not is_coloured([weak[:50]], 4)  # too short for a longer memory
     assert not any(is_coloured([rng.standard_normal((400, 2))], k % 3) for k in range(60))
 
 

@@ -89,10 +89,8 @@ def is_coloured(innovations: Sequence[np.ndarray], memory: int) -> bool:
     So many tests are made as there are longer memories (Bonferroni).
     """
     m, samples = innovations[0].shape[1], sum(len(s) for s in innovations)
-    left = [
-        np.linalg.slogdet(whitening_of(innovations, k).covariance)[1]
-        for k in range(memory, longest_memory(innovations) + 1)
-    ]
+    orders = range(memory, max(memory, longest_memory(innovations)) + 1)
+    left = [np.linalg.slogdet(whitening_of(innovations, k).covariance)[1] for k in orders]
     gains = samples * np.maximum(left[0] - np.array(left[1:]), 0.0)
     chance = gammaincc(m**2 / 2 * np.arange(1, len(left)), gains / 2)
     return bool(np.any(len(gains) * chance < BY_CHANCE))
