@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from driven_cart import cart, data_of, recorded
 
+from symid.estimation.fitting import cold_start
 from symid.estimation.fitting.cold_start import _with_likeliest_noise, fit_model
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.noise_sizes import likeliest_sizes
@@ -25,4 +26,11 @@ def test_a_fit_that_ended_at_a_wrong_size_of_a_force_goes_on_from_a_likelier_one
 def test_a_fit_at_the_maximum_stays_as_it_is():
     data = data_of(recorded())
     fit = fit_model(cart(), data)
+    assert _with_likeliest_noise(fit, data, exact=True) is fit
+
+
+def test_a_size_that_is_hardly_likelier_is_none_to_go_to(monkeypatch):
+    data = data_of(recorded())
+    fit = fit_model(cart(), data)
+    monkeypatch.setattr(cold_start, "likeliest_sizes", lambda *_: (fit.loglik2 + 1.0, 16 * fit.process))
     assert _with_likeliest_noise(fit, data, exact=True) is fit
