@@ -24,7 +24,7 @@ CLEARLY = 10.0
 """Noise counts as white unless a memory is better by this much of BIC: very strong evidence (Kass & Raftery 1995)."""
 BY_CHANCE = 1e-4
 """Innovations are not white if earlier ones foretell so much of them as chance does less often. Beside a model that is
-fitted anew a memory explains more: 61 where it was 23 (`controlled` 55 of tests/examination)."""
+fitted anew a memory explains more: 68 where it was 23 (`controlled` 55 of tests/examination)."""
 
 
 @dataclass(frozen=True, eq=False)
