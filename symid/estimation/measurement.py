@@ -148,6 +148,7 @@ def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
 
     The same data and fit where the innovations are white already, or move too smoothly for noise. How many samples are
     remembered is told by innovations, and then by fits with one more each, as long as BIC (Schwarz 1978) asks for it.
+    Colour that is too weak to tell is fitted where chance does not explain it, and must then be clearly likelier.
     """
     given, price = data, len(data.sensor_noise) ** 2 * log(data.samples)
     while (memory := remembered(fit.innovations)) > data.memory and _may_remember(fit, memory):
