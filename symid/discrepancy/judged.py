@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from symid.discrepancy.explained import Explained, explained
-from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.model.hypothesis import Hypothesis, is_met
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.prove.evidence import Evidence, Tested, evidence_of, tested
 from symid.discrepancy.say.diagnosis import Effect
@@ -14,6 +16,8 @@ from symid.discrepancy.say.judge import judge
 from symid.discrepancy.task import Task
 from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.fitting.fitter import Fitter
+from symid.estimation.measurement import of_window
 from symid.estimation.sensors.zero_phase import ZeroPhase
 
 
@@ -49,10 +53,12 @@ def judged(
     named: Sequence[Suspect] | None,
     progress: Callable[[str], None],
 ) -> Judged:
-    """The verdict on the model of `task`; or, where something stays without a name, as if its inputs had noise.
+    """The verdict on the model of `task`; or, where laws do not explain the recording, as if its inputs had noise.
 
     White noise of an input moves a mechanism as random forces do, and no law names it. It is believed where nothing is
-    left beside it, and where it is likelier than what laws, or a flexible one, make of what it does.
+    left beside it, and where it is likelier than what laws, or a flexible one, make of what it does; or where laws hold
+    in pieces alone that each begin in a state of their own: of a ball on a beam, in pieces of 2 s, two lags of a second
+    that left of the beam's angle next to nothing.
 
     Parameters
     ----------
@@ -72,25 +78,45 @@ def judged(
         return Judged(by, evidence, *judge(evidence, by.search, by.audit))
 
     found = found_in(task)
-    noisy = _with_input_noise(found, task, found_in, progress) if found.tested.nameless else None
-    if noisy is not None and (answer := proved(noisy)).verdict != "unexplained":
+    astray = _holds_in_pieces_alone(found, task)
+    noisy = _with_input_noise(found, astray, task, found_in, progress) if astray or found.tested.nameless else None
+    if noisy is not None and ((answer := proved(noisy)).verdict != "unexplained" or astray):
         return answer
     return proved(found)
 
 
 def _with_input_noise(
-    found: _Found, task: Task, found_in: Callable[[Task], _Found], progress: Callable[[str], None]
+    found: _Found, astray: bool, task: Task, found_in: Callable[[Task], _Found], progress: Callable[[str], None]
 ) -> _Found | None:
-    """What is found as if the inputs had noise; None where something is left beside that, or it is less likely."""
+    """What is found as if the inputs had noise; None where that is less likely, or something is left beside it.
+
+    astray : whether what was found holds in pieces alone, so that the whole recording refutes it.
+    """
     try:
         if task.with_input_noise is None:
             return None
         progress("whether the recorded inputs have noise")
-        start = _begun(found.tested.found)
+        start = {} if astray else _begun(found.tested.found)
         noisy = found_in(replace(task.with_input_noise, start={**task.start, **start})) if start is not None else None
     except SymidError:
         return None  # what was found already is not lost by what was tried beside it
-    return noisy if noisy and not noisy.tested.nameless and noisy.loglik2 > found.loglik2 else None
+    if noisy is None or astray:
+        return noisy
+    return noisy if not noisy.tested.nameless and noisy.loglik2 > found.loglik2 else None
+
+
+def _holds_in_pieces_alone(found: _Found, task: Task) -> bool:
+    """Whether a motion was cut in pieces, and what was found in them does not hold as long as it was recorded."""
+    fit, data = found.tested.found.fit, found.by.search.data
+    if not found.tested.found.suspects or found.by.task.segment_length == task.segment_length:
+        return False
+    whole = of_window(fit.model, task.recording, task.fit_window, task.segment_length, data)
+    begins = [e.time[0] for e in data.segments]
+    rows = [int(np.searchsorted(begins, e.time[0], side="right")) - 1 for e in whole.segments]
+    try:
+        return not is_met(Fitter.of(fit, whole).fit(fit.values, fit.initial[np.maximum(rows, 0)], fit.process), whole)
+    except SymidError:
+        return True
 
 
 def _begun(found: Hypothesis) -> dict[str, float] | None:

@@ -15,6 +15,7 @@ from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.diagnosis import Effect
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.noise_sizes import noise_sizes
 from symid.estimation.free_run import FreeRun
 from symid.estimation.predicting.kalman import HOLD
 from symid.estimation.sensors.zero_phase import ZeroPhase
@@ -37,7 +38,7 @@ def input_noise(fit: Fit, data: Data) -> dict[str, str]:
     changes = np.sqrt(HOLD / data.segments[0].step)
     return {
         u.channel: quantity(float(changes * s), unit=u.unit)
-        for u, s in zip(fit.model.inputs.values(), fit.process, strict=False)
+        for u, s in zip(fit.model.inputs.values(), noise_sizes(fit, data)[0], strict=False)
     }
 
 

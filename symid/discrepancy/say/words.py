@@ -166,7 +166,7 @@ def _caveats(s: Story) -> list[str]:
         noise = listed([f"{channel} ({size})" for channel, size in s.input_noise.items()])
         out.append(
             f"What else would be left is taken for noise in the recorded {noise}, or for random forces that do as "
-            "much: that is likelier than any law that was tried."
+            "much: that explains it better than any law that was tried."
         )
     curved = [u.channel for u in s.model.inputs.values() if u.hold in CURVES]
     if curved:

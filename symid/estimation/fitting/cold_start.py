@@ -22,6 +22,9 @@ states, and by what factor they grow: from 1.5 s to 150 s at once, the period of
 for good (tests/discrepancy/test_other_machines.py)."""
 CONFIDENT = 10.0
 """The first process noise moves the outputs by this many sensor noises: the fit then leans on the data."""
+AT_LEAST = 10
+"""Steps in which the first size of a force is looked for. After a single one of Euler it has moved no position yet:
+that of a ball on a beam, sampled at 10 Hz, began at 10^13 rad (tests/discrepancy/test_ball_and_beam.py)."""
 ELSEWHERE = (1 / 64, 1 / 16, 1 / 4, 4.0, 16.0)
 """Factors of the size of each random force at which a likelihood with several maxima may be higher. Sensors seem to
 be perfect at one: at that of an arm twice the log-likelihood was 135 less than with a force a seventeenth as large
@@ -134,11 +137,13 @@ def _first(parameter) -> float:
 
 def _equivalent_noise(sim, values, initial, data: Data) -> np.ndarray:
     """(w,) size of each noise that moves an output by its sensor noise within a fifth of the pace."""
-    step = data.segments[0].step
+    longest = data.segments[0].step
+    steps = max(AT_LEAST, int(0.2 * data.pace / longest))
+    step = max(0.2 * data.pace, longest) / steps
     linear = linearised_along(sim, values, initial, data.mean_inputs, points=1)
     A, G, C = linear.without_delay()
     state, moved = np.zeros_like(G), np.zeros((len(C), G.shape[1]))
-    for _ in range(max(1, int(0.2 * data.pace / step))):
+    for _ in range(steps):
         state = state + step * (A @ state + G)
         moved = np.maximum(moved, np.abs(C @ state))
     return 1.0 / np.maximum((moved / data.sensor_noise[:, None]).max(0), 1e-12)

@@ -1,0 +1,65 @@
+"""A ball on a beam at 10 Hz, whose beam shakes: laws that hold in pieces of two seconds alone are no answer."""
+
+import numpy as np
+import pytest
+import sympy as sm
+
+import symid as si
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_between
+
+GAIN, STEP, FINE = 4.6, 0.1, 0.01
+ENCODER, SENSOR, SHAKEN = 4.9e-4, 1e-3, 0.02
+"""Step of the beam's angle [rad], noise of the ball's position [m], and what its speed gathers in a second [m/s]."""
+
+
+def ball(gain: float | None = None) -> si.Model:
+    """Whose acceleration is `gain` times the slope of the beam, or so many times that a fit tells."""
+    m = si.Model("ball on a beam")
+    m.beam = si.Input(unit="rad")
+    m.ball, m.speed = si.State(unit="m"), si.State(unit="m/s")
+    m.gain = si.Parameter(unit="m/s^2", bounds=(0.01, 50)) if gain is None else si.Constant(gain, unit="m/s^2")
+    m.kinematics = si.Equation(m.ball.dot - m.speed)
+    m.balance = si.Equation(m.speed.dot - m.gain * sm.sin(m.beam))
+    m.seen = si.Output(m.ball)
+    return m
+
+
+def recorded(seed: int, delay: float, seconds: float = 44.0) -> si.Recording:
+    """A controller keeps the ball near a slow reference; the beam follows it `delay` late [s]."""
+    rng, steps = np.random.default_rng((77, seed)), int(seconds / FINE)
+    x = v = 0.0
+    wish = np.cumsum(rng.standard_normal(steps)) * 1e-3
+    wish -= np.convolve(wish, np.ones(800) / 800, mode="same")
+    asked, seen = np.zeros(steps), np.zeros(steps)
+    for k in range(steps):
+        asked[k] = np.clip(-0.12 * (x - wish[k]) - 0.12 * v, -0.02, 0.02)
+        beam = asked[max(k - round(delay / FINE), 0)]
+        v += FINE * GAIN * np.sin(beam) + SHAKEN * FINE**0.5 * rng.standard_normal()
+        x += FINE * v
+        seen[k] = x
+    rows = slice(None, None, round(STEP / FINE))
+    time = np.arange(steps)[rows] * FINE
+    shown = seen[rows] + SENSOR * rng.standard_normal(len(time))
+    channels = {"ball": shown, "beam": np.round(asked[rows] / ENCODER) * ENCODER}
+    return si.Recording("ball", time, channels, {"ball": "m", "beam": "rad"})
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("window", [(0, 28), (14, 43)])
+@pytest.mark.parametrize("seed", [0, 1])
+def test_lags_that_hold_in_short_pieces_alone_are_not_named(seed, window):
+    found = si.diagnose(
+        ball(), recorded(seed, 0.0), fit_window=window, held_out=(28, 43) if window[0] == 0 else (0, 14), threads=1
+    )
+    assert not {"input_lag", "inputs_lag", "sensor_lag"} & {e.name for e in found.effects}, str(found)
+    assert found.verdict != "missing_physics"
+
+
+def test_the_first_size_of_a_random_force_is_no_absurd_one_where_samples_are_few():
+    """One step of Euler moves a speed, and no position."""
+    recording, model = recorded(0, 0.0), ball().with_input_noise()
+    segments = segments_between(model, recording.time, dict(recording.channels), (0.0, 28.0), None)
+    fit = fit_model(model, Data(segments, np.full(1, SENSOR), True), {"gain": GAIN})
+    assert fit.process[0] < 1.0  # rad
