@@ -59,7 +59,10 @@ def test_lags_that_hold_in_short_pieces_alone_are_not_named(seed, window):
 
 def test_the_first_size_of_a_random_force_is_no_absurd_one_where_samples_are_few():
     """One step of Euler moves a speed, and no position."""
-    recording, model = recorded(0, 0.0), ball().with_input_noise()
-    segments = segments_between(model, recording.time, dict(recording.channels), (0.0, 28.0), None)
-    fit = fit_model(model, Data(segments, np.full(1, SENSOR), True), {"gain": GAIN})
-    assert fit.process[0] < 1.0  # rad
+    time, rng, fast = np.arange(0, 30, 0.16), np.random.default_rng(3), np.pi
+    moves = 0.1 * np.sin(fast * time)
+    channels = {"ball": moves + SENSOR * rng.standard_normal(len(time)), "beam": -(fast**2) * moves / GAIN}
+    model = ball().with_input_noise()
+    data = Data(segments_between(model, time, channels, (0.0, 30.0), None), np.full(1, SENSOR), True)
+    start = {"gain": GAIN, "speed": 0.1 * fast}
+    assert fit_model(model, data, start).process[0] < 1.0  # rad
