@@ -110,11 +110,11 @@ def _holds_in_pieces_alone(found: _Found, task: Task) -> bool:
     fit, data = found.tested.found.fit, found.by.search.data
     if not found.tested.found.suspects or found.by.task.segment_length == task.segment_length:
         return False
-    whole = of_window(fit.model, task.recording, task.fit_window, task.segment_length, data)
     begins = [e.time[0] for e in data.segments]
-    rows = [int(np.searchsorted(begins, e.time[0], side="right")) - 1 for e in whole.segments]
     try:
-        return not is_met(Fitter.of(fit, whole).fit(fit.values, fit.initial[np.maximum(rows, 0)], fit.process), whole)
+        whole = of_window(fit.model, task.recording, task.fit_window, task.segment_length, data)
+        rows = [max(int(np.searchsorted(begins, e.time[0], side="right")) - 1, 0) for e in whole.segments]
+        return not is_met(Fitter.of(fit, whole).fit(fit.values, fit.initial[rows], fit.process), whole)
     except SymidError:
         return True
 

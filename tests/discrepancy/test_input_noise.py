@@ -88,7 +88,7 @@ def test_what_was_found_is_kept_where_noise_cannot_be_tried(monkeypatch):
     def refuse(self):
         raise ModelError("there is a part 'cart_noise' already")
 
-    monkeypatch.setattr(module, "explained", lambda *arguments: mock.MagicMock())
+    monkeypatch.setattr(module, "explained", lambda task, *others: mock.MagicMock(task=task))
     monkeypatch.setattr(module, "tested", lambda *arguments: mock.MagicMock(nameless=True))
     monkeypatch.setattr(module, "evidence_of", lambda *arguments: None)
     monkeypatch.setattr(module, "judge", lambda *arguments: ("unexplained", (), ()))
