@@ -22,7 +22,7 @@ states, and by what factor they grow: from 1.5 s to 150 s at once, the period of
 for good (tests/discrepancy/test_other_machines.py)."""
 CONFIDENT = 10.0
 """The first process noise moves the outputs by this many sensor noises: the fit then leans on the data."""
-AT_LEAST = 10
+FEWEST_STEPS = 10
 """Steps in which the first size of a force is looked for. After a single one of Euler it has moved no position yet:
 that of a ball on a beam, sampled at 10 Hz, began at 10^13 rad (tests/discrepancy/test_ball_and_beam.py)."""
 ELSEWHERE = (1 / 64, 1 / 16, 1 / 4, 4.0, 16.0)
@@ -137,9 +137,9 @@ def _first(parameter) -> float:
 
 def _equivalent_noise(sim, values, initial, data: Data) -> np.ndarray:
     """(w,) size of each noise that moves an output by its sensor noise within a fifth of the pace."""
-    longest = data.segments[0].step
-    steps = max(AT_LEAST, int(0.2 * data.pace / longest))
-    step = max(0.2 * data.pace, longest) / steps
+    sample = data.segments[0].step
+    steps = max(FEWEST_STEPS, int(0.2 * data.pace / sample))
+    step = max(0.2 * data.pace, sample) / steps
     linear = linearised_along(sim, values, initial, data.mean_inputs, points=1)
     A, G, C = linear.without_delay()
     state, moved = np.zeros_like(G), np.zeros((len(C), G.shape[1]))
