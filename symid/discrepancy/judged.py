@@ -17,6 +17,7 @@ from symid.discrepancy.task import Task
 from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fitter import Fitter
+from symid.estimation.fitting.sensitive import MOST_GROWTH, largest_growth
 from symid.estimation.measurement import of_window
 from symid.estimation.sensors.zero_phase import ZeroPhase
 
@@ -106,15 +107,23 @@ def _with_input_noise(
 
 
 def _holds_in_pieces_alone(found: _Found, task: Task) -> bool:
-    """Whether a motion was cut in pieces, and what was found in them does not hold as long as it was recorded."""
-    fit, data = found.tested.found.fit, found.by.search.data
+    """Whether a motion was cut in pieces, and what was found in them does not hold as long as it was recorded.
+
+    Where small differences of the model as given become large nothing holds so long, and the whole refutes nothing.
+    """
+    search, fit = found.by.search, found.tested.found.fit
     if not found.tested.found.suspects or found.by.task.segment_length == task.segment_length:
         return False
-    begins = [e.time[0] for e in data.segments]
+    begins = [e.time[0] for e in search.data.segments]
     try:
-        whole = of_window(fit.model, task.recording, task.fit_window, task.segment_length, data)
+        whole = of_window(fit.model, task.recording, task.fit_window, task.segment_length, search.data)
         rows = [max(int(np.searchsorted(begins, e.time[0], side="right")) - 1, 0) for e in whole.segments]
-        return not is_met(Fitter.of(fit, whole).fit(fit.values, fit.initial[rows], fit.process), whole)
+        if largest_growth(replace(search.base, initial=search.base.initial[rows]), whole) > MOST_GROWTH:
+            return False
+    except SymidError:
+        return False
+    try:
+        return not is_met(Fitter.of(fit, whole).again(replace(fit, initial=fit.initial[rows])), whole)
     except SymidError:
         return True
 
