@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,6 +12,7 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.noise_sizes import likeliest_sizes
 from symid.estimation.predicting.kalman import linearised_along
+from symid.estimation.sensors.whitening import longest_memory
 from symid.estimation.signals.data import Data, observed_state
 from symid.estimation.signals.segment import FEWEST
 from symid.model import Model
@@ -122,7 +124,9 @@ def _fit_heads(
     before: Fit | None = None,
     exact: bool = True,
 ) -> Fit:
-    head = data.with_segments(e.head(rows) for e in data.segments)
+    heads = [e.head(rows) for e in data.segments]
+    told = longest_memory([e.time for e in heads])  # by so short a beginning
+    head = replace(data, segments=tuple(heads), memory=min(data.memory, told))
     return Fitter(model, head, fixed, before).fit(values, initial, np.zeros(len(model.noises)), exact=exact)
 
 
