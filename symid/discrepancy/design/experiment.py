@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from symid.discrepancy.design.changes import DRIVEN, FREE, Design
-from symid.discrepancy.design.simulated import as_recording, course, is_free, simulated
+from symid.discrepancy.design.simulated import as_recording, course, simulated
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
@@ -96,7 +96,7 @@ def experiments(
         progress(f"{design.words}: {min(ratios):.0f}")
         return [Experiment(design, finding, rival, plain, (ratios[0], ratios[1]))]
 
-    found = [e for design in (FREE if is_free(data) else DRIVEN) for e in tried(design, range(1))]
+    found = [e for design in (DRIVEN if data.inputs_change else FREE) for e in tried(design, range(1))]
     if not found:
         return []
     # A law that the other one holds as a special case is never told from it where it is true.
@@ -124,7 +124,7 @@ def _without(e: Experiment, hopeless: Sequence[bool]) -> Experiment:
 def _longer(e: Experiment) -> Design:
     """The same for so long, or so often from the same start, that it should split: a ratio grows with the samples."""
     factor = int(np.clip(np.ceil(MARGIN * SPLITS * POLICY.equivalent / max(e.log_ratio, 1.0)), 2, LONGEST))
-    if is_free(e.data):
+    if not e.data.inputs_change:
         words = "recordings from the same start" if e.design.repeats > 1 else f"recordings, each with {e.design.words}"
         times = e.design.repeats * factor
         return replace(e.design, words=f"{times} {words}", repeats=times, effort=5)

@@ -28,11 +28,6 @@ SUBSTEPS = 8
 """Of the integrator in each sample. A judgement: finer than most fits need, so that its error is no physics."""
 
 
-def is_free(data: Data) -> bool:
-    """Whether nothing that was recorded drives the system."""
-    return not any(np.ptp(u) > 0 for s in data.segments for u in s.inputs.values())
-
-
 def course(data: Data, design: Design) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Times from zero [s] and inputs of an experiment, those that were recorded scaled and played anew."""
     step = data.segments[0].step / data.segments[0].ratio
@@ -72,7 +67,7 @@ def run_times(time: np.ndarray, k: int) -> np.ndarray:
 def start_of(fit: Fit, data: Data, design: Design) -> np.ndarray:
     """(n,) state at the start: of the recorded segment that began farthest from the mean motion, as far as designed."""
     path = fitted_path(fit, data)
-    middle = path.mean(axis=0) if is_free(data) else np.zeros(path.shape[1])
+    middle = np.zeros(path.shape[1]) if data.inputs_change else path.mean(axis=0)
     size = np.maximum(path.std(axis=0), 1e-300)
     far = max(range(len(fit.initial)), key=lambda k: float(np.sum(((fit.initial[k] - middle) / size) ** 2)))
     return middle + design.start * (fit.initial[far] - middle)

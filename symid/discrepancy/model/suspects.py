@@ -169,6 +169,16 @@ FAMILIES = (
     {"proportional_exchange", "orifice_exchange"},
 )
 """Laws that take up what one another do: each is at one amplitude, or while it is small, nearly another."""
+LOSSES = (
+    "viscous_friction",
+    "coulomb_friction",
+    "quadratic_drag",
+    "stribeck_friction",
+    "joint_drag",
+    "load_dependent_friction",
+    "bouc_wen_hysteresis",
+)
+"""Laws by which a mechanism loses energy."""
 EVERYWHERE = "global"
 """The place of laws that act at all places of their kind."""
 

@@ -10,7 +10,7 @@ from math import inf
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
-from symid.discrepancy.model.suspects import Suspect, is_alike
+from symid.discrepancy.model.suspects import LOSSES, Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, exact_where_leading, explore, least_near
 from symid.discrepancy.name.held import Holds
 from symid.discrepancy.name.judge import Judge
@@ -131,9 +131,21 @@ class Search(Judge):
             self.base = self.projection.fit = best.base
 
     def settled(self, found: Hypothesis) -> Hypothesis:
-        """What is found, or the flexible law at one place where several laws together explain less than that."""
+        """What is found, or the flexible law at one place where several laws together explain less than that.
+
+        Of a motion that nothing drives the losses stay: something takes its energy, whatever else acts.
+        """
         doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
-        return self.flexible() if doubtful and self.beaten(found) else found
+        if not (doubtful and self.beaten(found)):
+            return found
+        losses = [s for s in found.suspects if s.term.name in LOSSES and found.is_named(s)] if found.is_free else []
+        lossy = found if len(losses) == len(found.suspects) else self._of(losses, found)
+        return self.flexible() if lossy is None or self.explained(lossy) else lossy
+
+    def _of(self, kept: Sequence[Suspect], found: Hypothesis) -> Hypothesis | None:
+        """`found` with these of its suspects alone; None without any, or where it cannot be fitted."""
+        less = hypothesis(kept, found.fit, self.base, self.data) if kept else None
+        return None if less is None else polished(less)
 
     @cached_property
     def of_one(self) -> Hypothesis:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from symid.discrepancy.locate.remainder import Test
+from symid.discrepancy.model.suspects import LOSSES
 from symid.discrepancy.say.names import law_name, place_name
 from symid.discrepancy.say.proof import halves_words, proof_words, unproved, verdicts_of_halves
 from symid.discrepancy.say.rest import nameless_words
@@ -16,16 +17,6 @@ from symid.model.variants import CORRELATION_TIME
 from symid.recording.signals.between import CURVES
 from symid.units import rough, unit_symbol
 
-LOSSES = (
-    "viscous_friction",
-    "coulomb_friction",
-    "quadratic_drag",
-    "stribeck_friction",
-    "joint_drag",
-    "load_dependent_friction",
-    "bouc_wen_hysteresis",
-)
-"""Laws by which a mechanism loses energy."""
 UNRECORDED = "Random forces that nobody recorded, of wind or waves, count where the model declares a Noise for them"
 ABOVE = 2.0
 """A rest this many times larger than the sensors' noise is spoken of."""

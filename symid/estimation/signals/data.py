@@ -62,6 +62,11 @@ class Data:
     def span(self) -> tuple[float, float]:
         return min(float(e.time[0]) for e in self.segments), max(float(e.time[-1]) for e in self.segments)
 
+    @property
+    def inputs_change(self) -> bool:
+        """Whether any recorded input does anything."""
+        return any(np.ptp(u) > 0 for s in self.segments for u in s.inputs.values())
+
     def with_segments(self, segments) -> Data:
         return replace(self, segments=tuple(segments))
 
