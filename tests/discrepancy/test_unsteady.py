@@ -7,6 +7,7 @@ from driven_cart import cart, data_of, recorded
 
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
+from symid.discrepancy.name import search as module
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.certain import unsteady
 from symid.estimation.fitting.cold_start import fit_model
@@ -59,3 +60,21 @@ def test_of_a_free_motion_what_follows_the_state_comes_before_a_clock_that_expla
     apart = search.value(dry, dry.share) - search.value(sine, dry.share)
     sine = replace(sine, fit=replace(sine.fit, loglik2=sine.fit.loglik2 + (apart + more) / dry.share))
     assert search._preferred(nothing, [sine, dry]).suspect is chosen
+
+
+def test_a_search_ends_where_it_comes_back_to_what_it_had(monkeypatch):
+    monkeypatch.setattr(module, "with_likeliest_holds", lambda fit, data: fit)
+    data = data_of(recorded(4, FRICTION.term, {"torque_Nm": 0.35}))
+    dry = alone(FRICTION, data, {"torque_Nm": 0.3})
+    search = Search(dry.base, data, [FRICTION], lambda: Hypothesis((), dry.base, dry.base, data))
+    asked = []
+    search.single, search.quiet = [dry], lambda found: False
+
+    def same_again(best, single):
+        asked.append(best)
+        assert len(asked) < 4, "it comes back again and again"
+        return dry
+
+    search._more = same_again
+    found, _ = search.run(to_end=True)
+    assert len(asked) == 2 and found.suspects == (FRICTION,)

@@ -79,14 +79,17 @@ class Search(Judge):
         """The best hypothesis, and each suspect alone, best first.
 
         It ends early where with what was found, or instead of it, the inputs are likelier to do something else between
-        their samples, as they then do in the model of its fit: all else hangs on that.
+        their samples, as they then do in the model of its fit: all else hangs on that. And where it comes back to what
+        it had, which may be believed more beside friction of another abruptness, and again beside the first.
 
         to_end : whether it goes on where the cutoff of a filter moves with what was found. All else hangs on that, too.
         """
         best, single = self.nothing, self.single
         holds = Holds(self.data, self.unstated, self.better, self.jumps)
         more = self.known[0] if self.known else self._more(best, single)
-        while more is not None:
+        had: set[frozenset[Suspect]] = set()
+        while more is not None and frozenset(more.suspects) not in had:
+            had.add(frozenset(more.suspects))
             best = with_jumps_beside(begun_anew(polished(more), self.regression), self.jumps, best)
             if (otherwise := holds.asked_again(best)) is not best:
                 return otherwise, single
