@@ -288,3 +288,11 @@ def test_a_stated_filter_keeps_its_cutoff():
     )
     assert not data.cutoff_free and data.filter == ZeroPhase(2, 4.0, 50.0)
     assert fit.values["stiffness"] == pytest.approx(TRUE["stiffness"], abs=4 * fit.errors["stiffness"])
+
+
+@pytest.mark.parametrize(("second", "possible"), [(0.3, True), (0.0, False)])
+def test_outputs_that_err_alike_in_every_digit_have_no_likelihood(second, possible):
+    """The covariance is singular, however large it is, and no whitening exists."""
+    first, other = np.random.default_rng(1).standard_normal((2, 200))
+    errors = 1e9 * np.column_stack([first, first / 3 + second * other])
+    assert whitening_of([errors], 0).is_possible is possible

@@ -44,6 +44,14 @@ class Whitening:
         """(m, m) that gives what is left unit covariance."""
         return np.linalg.inv(np.linalg.cholesky(self.covariance))
 
+    @property
+    def is_possible(self) -> bool:
+        """Whether anything is left in each direction, as far as numbers tell."""
+        try:
+            return bool(np.all(np.isfinite(self.root)))
+        except np.linalg.LinAlgError:
+            return False
+
     def __call__(self, a: np.ndarray) -> np.ndarray:
         """(N, m, q) columns of one segment as (N m, q) whitened ones; before the segment they were zero."""
         left = a if not len(self.lags) else _less_memory(self.lags, a)
