@@ -10,6 +10,7 @@ import symid as si
 from symid.discrepancy.locate import given
 from symid.discrepancy.task import task_of
 from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import FEWEST
 from symid.estimation.signals.windows import segments_of
 
 
@@ -27,6 +28,24 @@ def test_a_motion_that_cannot_be_followed_at_all_is_fitted_in_shorter_pieces(mon
 
     task, plain, found = given.fitted_as_given(task, plain, fits)
     assert task.segment_length == pytest.approx(6, rel=0.01) and found[0][0] is plain
+
+
+def test_pieces_of_few_samples_are_no_shorter_than_a_window_may_be(monkeypatch):
+    """Errors are told of windows that are cut alike; at the end of a search it would be too late to refuse them."""
+    monkeypatch.setattr(given, "regressed", lambda task, plain: {})
+    recording = pendulum_recording(duration=24.0)
+    task = task_of(pendulum(), recording, (0, 24), None, held_out=None, driven=False)
+    coarse = Data(segments_of(task.model, recording, (0, 24), None), np.array([5e-4]), driven=False)
+    coarse = coarse.with_segments(e.part(slice(None, None, 60)) for e in coarse.segments)
+    lengths = []
+
+    def fits(task, plain, start):
+        lengths.append(min(len(e.time) for e in plain.segments))
+        raise si.DiagnosisError("diverges")
+
+    with pytest.raises(si.DiagnosisError, match="diverges"):
+        given.fitted_as_given(task, coarse, fits)
+    assert len(set(lengths)) > 1 and min(lengths) >= FEWEST
 
 
 @pytest.mark.parametrize(

@@ -15,6 +15,7 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.sensitive import SHORTEST, followed, lost
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.pieces import cut
+from symid.estimation.signals.segment import FEWEST
 from symid.identification import Identification
 from symid.identification.starts.default import default_start
 
@@ -72,15 +73,21 @@ def _likelier(found: list[Fits]) -> Fits:
 
 
 def _in_pieces(task: Task, plain: Data, seconds: float) -> tuple[Task, Data]:
+    """In pieces of so many seconds, or of as many samples as a window needs."""
+    seconds = max(seconds, _least(plain))
     parts = (part for e in plain.segments for part in cut(e, seconds))
     return replace(task, segment_length=seconds), plain.with_segments(parts)
+
+
+def _least(plain: Data) -> float:
+    return FEWEST * plain.segments[0].step
 
 
 def _fitted_in_shorter_pieces(task: Task, plain: Data, fits: Fitting, error: DiagnosisError) -> tuple[Task, Data, Fits]:
     """The fits of pieces short enough to be followed: a wrong model may lead a motion where it has no equations."""
     longest = max(e.time[-1] - e.time[0] for e in plain.segments)
     length = longest / 2
-    while length > SHORTEST * plain.pace:
+    while length > max(SHORTEST * plain.pace, _least(plain)):
         shorter = _in_pieces(task, plain, length)
         try:
             return *shorter, fitted_in_pieces(*shorter, fits)
