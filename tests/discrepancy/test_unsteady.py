@@ -78,3 +78,18 @@ def test_a_search_ends_where_it_comes_back_to_what_it_had(monkeypatch):
     search._more = same_again
     found, _ = search.run(to_end=True)
     assert len(asked) == 2 and found.suspects == (FRICTION,)
+
+
+@pytest.mark.parametrize("free", [True, False])
+def test_where_a_flexible_law_explains_more_only_the_losses_of_a_free_motion_stay(free, monkeypatch):
+    if free:
+        monkeypatch.setattr(Hypothesis, "is_free", True)
+    data = data_of(recorded(4, FRICTION.term, {"torque_Nm": 0.35}))
+    dry = alone(FRICTION, data, {"torque_Nm": 0.3})
+    both = hypothesis([FRICTION, PERIODIC], dry.fit, dry.base, data, PERIODIC.named(TORQUE))
+    nothing, flexible = Hypothesis((), dry.base, dry.base, data), Hypothesis((), dry.fit, dry.base, data)
+    search = Search(dry.base, data, [PERIODIC, FRICTION], lambda: flexible)
+    search.beaten, search.explained = lambda found: True, lambda found: False
+    assert search.settled(nothing) is flexible
+    left = search.settled(both)
+    assert left.suspects == (FRICTION,) if free else left is flexible

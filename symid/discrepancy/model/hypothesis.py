@@ -55,8 +55,8 @@ class Hypothesis:
 
     @property
     def is_free(self) -> bool:
-        """Whether nothing drives the motion."""
-        return is_free(self.fit, self.data)
+        """Whether nothing drives the motion: no random forces, and no input that changes."""
+        return self.fit.kalman_gain is None and not self.data.inputs_change
 
     @property
     def log_ratio(self) -> float:
@@ -175,11 +175,6 @@ def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, sh
     states = after.initial.size - before.initial.size
     count = sum(s.size + (s.scanned is not None) for s in suspects)
     return price_of_one(share * data.samples) * count + 2.0 * states
-
-
-def is_free(fit: Fit, data: Data) -> bool:
-    """Whether nothing drives the motion: no random forces, and no input that changes."""
-    return fit.kalman_gain is None and not data.inputs_change
 
 
 def is_met(fit: Fit, data: Data, times: float = POLICY.far) -> bool:

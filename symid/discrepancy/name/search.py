@@ -80,7 +80,7 @@ class Search(Judge):
 
         It ends early where with what was found, or instead of it, the inputs are likelier to do something else between
         their samples, as they then do in the model of its fit: all else hangs on that. And where it comes back to what
-        it had, which may be believed more beside friction of another abruptness, and again beside the first.
+        it had: beside friction of another abruptness it may be believed more, and again beside the first.
 
         to_end : whether it goes on where the cutoff of a filter moves with what was found. All else hangs on that, too.
         """
@@ -136,18 +136,17 @@ class Search(Judge):
     def settled(self, found: Hypothesis) -> Hypothesis:
         """What is found, or the flexible law at one place where several laws together explain less than that.
 
-        Of a motion that nothing drives the losses stay: something takes its energy, whatever else acts.
-        """
+        The losses of a motion that nothing drives stay: something takes its energy, whatever else acts."""
         doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
         if not (doubtful and self.beaten(found)):
             return found
-        losses = [s for s in found.suspects if s.term.name in LOSSES and found.is_named(s)] if found.is_free else []
-        lossy = found if len(losses) == len(found.suspects) else self._of(losses, found)
+        lossy = self._lossy(found) if found.is_free else None
         return self.flexible() if lossy is None or self.explained(lossy) else lossy
 
-    def _of(self, kept: Sequence[Suspect], found: Hypothesis) -> Hypothesis | None:
-        """`found` with these of its suspects alone; None without any, or where it cannot be fitted."""
-        less = hypothesis(kept, found.fit, self.base, self.data) if kept else None
+    def _lossy(self, found: Hypothesis) -> Hypothesis | None:
+        """The named losses of `found` alone; None without any, or where they cannot be fitted."""
+        losses = [s for s in found.suspects if s.term.name in LOSSES and found.is_named(s)]
+        less = hypothesis(losses, found.fit, self.base, self.data) if losses else None
         return None if less is None else polished(less)
 
     @cached_property
