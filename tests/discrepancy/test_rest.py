@@ -10,6 +10,7 @@ from rigs import ROD, law_of
 
 import symid as si
 from symid.discrepancy.locate.flexible_law import flexible_law
+from symid.discrepancy.locate.remainder import WHITENESS_LAGS, _ljung_box
 from symid.discrepancy.locate.rest import rest_of
 from symid.discrepancy.say.rest import noun, rest_words
 from symid.discrepancy.say.words import left_beside_noise
@@ -183,3 +184,10 @@ def test_a_rest_of_a_model_without_noise_says_how_random_forces_are_declared(noi
 )
 def test_what_acts_is_called_as_its_unit_says(unit, name):
     assert noun(unit) == name
+
+
+@pytest.mark.parametrize("samples", [WHITENESS_LAGS - 5, WHITENESS_LAGS, 400])
+def test_white_innovations_pass_for_white_however_few_there_are(samples):
+    plain = SimpleNamespace(whiten=lambda a: a.reshape(-1, a.shape[2]))
+    white = np.random.default_rng(2).standard_normal((samples, 1))
+    assert 0 < _ljung_box(plain, [white], 0) < 2 * WHITENESS_LAGS

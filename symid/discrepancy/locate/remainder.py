@@ -134,7 +134,8 @@ def _ljung_box(projection: Projection, innovations: Sequence[np.ndarray], output
         total += [e[k:] @ e[:-k] for k in range(1, WHITENESS_LAGS + 1)]
     r = total / power
     lags = np.arange(1, WHITENESS_LAGS + 1)
-    return count * (count + 2) * float(np.sum(r**2 / (count - lags)))
+    pairs = np.maximum(count - lags, 1)  # where there is none r is 0
+    return count * (count + 2) * float(np.sum(r**2 / pairs))
 
 
 # ---- what rounding does to the tests -----------------------------------------------------------

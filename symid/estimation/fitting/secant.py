@@ -44,6 +44,6 @@ class Secant:
 def is_convex(matrix: np.ndarray, products: np.ndarray) -> bool:
     """Whether a matrix of normal equations is, in units in which the one made of products has a unit diagonal."""
     size = np.sqrt(np.maximum(np.diag(products), 1e-300))
-    with np.errstate(invalid="ignore"):
+    with np.errstate(over="ignore", invalid="ignore"):
         scaled = matrix / np.outer(size, size)
     return bool(np.isfinite(scaled).all() and np.linalg.eigvalsh(scaled)[0] > CONVEX)

@@ -137,15 +137,15 @@ class KalmanFilter:
         F, Q, C = _scaled(*_moved(A, G, self.step, process, self.white), C / sensor[:, :, None], self.size)
         now = self.P @ self.C.T @ np.linalg.inv(self.C @ self.P @ self.C.T + np.eye(len(self.C)))
         left, kept, moved = np.eye(n) - now @ C, self.leak * F, self.leak * F @ now
-        after = kept @ left @ self.P @ (kept @ left).swapaxes(1, 2) + moved @ moved.swapaxes(1, 2)
-        change = after + Q + FLOOR * np.eye(n) - self.P
         power = self.leak * self.F @ (np.eye(n) - now @ self.C)
-        for _ in range(MOST_DOUBLINGS):
-            with np.errstate(over="ignore", invalid="ignore"):  # of a filter that is not stable after all
+        with np.errstate(over="ignore", invalid="ignore"):  # of a filter that is not stable after all
+            after = kept @ left @ self.P @ (kept @ left).swapaxes(1, 2) + moved @ moved.swapaxes(1, 2)
+            change = after + Q + FLOOR * np.eye(n) - self.P
+            for _ in range(MOST_DOUBLINGS):
                 change = change + power @ change @ power.T
                 power = power @ power
-            if not np.abs(power).max() >= DIED_OUT:
-                break
+                if not np.abs(power).max() >= DIED_OUT:
+                    break
         if not np.isfinite(change).all():
             return None
         here = self.gain
