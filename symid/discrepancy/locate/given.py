@@ -80,6 +80,7 @@ def _in_pieces(task: Task, plain: Data, seconds: float) -> tuple[Task, Data]:
 
 
 def _least(plain: Data) -> float:
+    """Seconds of the shortest piece."""
     return FEWEST * plain.segments[0].step
 
 

@@ -175,6 +175,9 @@ LOSSES = (
     "quadratic_drag",
     "stribeck_friction",
     "joint_drag",
+    "link_drag",
+    "body_drag",
+    "slow_body_drag",
     "load_dependent_friction",
     "bouc_wen_hysteresis",
 )

@@ -79,15 +79,14 @@ class Search(Judge):
         """The best hypothesis, and each suspect alone, best first.
 
         It ends early where with what was found, or instead of it, the inputs are likelier to do something else between
-        their samples, as they then do in the model of its fit: all else hangs on that. And where it comes back to what
-        it had: beside friction of another abruptness it may be believed more, and again beside the first.
+        their samples, as they then do in the model of its fit: all else hangs on that; or where it repeats itself.
 
         to_end : whether it goes on where the cutoff of a filter moves with what was found. All else hangs on that, too.
         """
         best, single = self.nothing, self.single
         holds = Holds(self.data, self.unstated, self.better, self.jumps)
         more = self.known[0] if self.known else self._more(best, single)
-        had: set[frozenset[Suspect]] = set()
+        had: set[frozenset[Suspect]] = set()  # the same may be believed more beside friction of another abruptness
         while more is not None and frozenset(more.suspects) not in had:
             had.add(frozenset(more.suspects))
             best = with_jumps_beside(begun_anew(polished(more), self.regression), self.jumps, best)
@@ -136,7 +135,8 @@ class Search(Judge):
     def settled(self, found: Hypothesis) -> Hypothesis:
         """What is found, or the flexible law at one place where several laws together explain less than that.
 
-        The losses of a motion that nothing drives stay: something takes its energy, whatever else acts."""
+        The losses of a motion that nothing drives stay: something takes its energy, whatever else acts.
+        """
         doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
         if not (doubtful and self.beaten(found)):
             return found
