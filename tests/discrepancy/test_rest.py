@@ -188,6 +188,6 @@ def test_what_acts_is_called_as_its_unit_says(unit, name):
 
 @pytest.mark.parametrize("samples", [WHITENESS_LAGS - 5, WHITENESS_LAGS, 400])
 def test_white_innovations_pass_for_white_however_few_there_are(samples):
-    plain = SimpleNamespace(whiten=lambda a: a.reshape(-1, a.shape[2]))
+    plain = SimpleNamespace(whiten=lambda parts: np.vstack([a.reshape(-1, 1) for a in parts]), outputs=1)
     white = np.random.default_rng(2).standard_normal((samples, 1))
     assert 0 < _ljung_box(plain, [white], 0) < 2 * WHITENESS_LAGS

@@ -292,4 +292,4 @@ def test_a_stated_filter_keeps_its_cutoff():
 
 @pytest.mark.parametrize("sign", [1, 0, -1])
 def test_a_covariance_without_a_cholesky_factor_whitens_nothing_though_its_determinant_is_positive(sign):
-    assert Whitening(np.zeros((0, 2, 2)), sign * np.eye(2)).is_possible is (sign > 0)
+    assert Whitening(np.zeros((0, 2, 2)), sign * np.eye(2), np.ones(1)).is_possible is (sign > 0)

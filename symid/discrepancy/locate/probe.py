@@ -56,8 +56,8 @@ def force_responses(projection: Projection, port: Port, forces: np.ndarray) -> n
             if run.diverged:
                 return None
             answers.append(run.dy[:, :, 0])
-        out.append(projection.whiten(np.stack(answers, axis=2)))
-    return np.vstack(out)
+        out.append(np.stack(answers, axis=2))
+    return projection.whiten(out)
 
 
 def _at_inputs(segment: Segment, values: np.ndarray) -> np.ndarray:

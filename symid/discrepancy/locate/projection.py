@@ -43,8 +43,8 @@ class Projection:
         self.outputs = len(data.sensor_noise)
         q, n = len(fitter.free), fit.initial.shape[1]
         columns = []
-        for i, t in enumerate(runs):
-            J = self.whiten(t.dy)
+        for i, (t, size) in enumerate(zip(runs, fit.whitening.sizes, strict=True)):
+            J = fit.whitening(t.dy, size)
             wide = np.zeros((len(J), q + n * len(runs)))
             wide[:, :q], wide[:, q + i * n : q + (i + 1) * n] = J[:, :q], J[:, q:]
             columns.append(wide)
@@ -57,11 +57,12 @@ class Projection:
         J /= np.maximum(np.sqrt((J**2).sum(0)), 1e-300)
         U, s, _ = np.linalg.svd(J, full_matrices=False)
         self.own = U[:, s > 1e-8 * s[0]]
-        self.rest = self.project(np.concatenate([self.whiten(s[:, :, None])[:, 0] for s in fit.innovations]))
+        self.rest = self.project(self.whiten([s[:, :, None] for s in fit.innovations])[:, 0])
 
-    def whiten(self, a: np.ndarray) -> np.ndarray:
-        """(N, m, q) -> (N m, q) with unit covariance."""
-        return self.fit.whitening(a)
+    def whiten(self, parts: Sequence[np.ndarray]) -> np.ndarray:
+        """(N, m, q) of each segment -> (N m, q) of all, with unit covariance."""
+        whitening = self.fit.whitening
+        return np.vstack([whitening(a, size) for a, size in zip(parts, whitening.sizes, strict=True)])
 
     def project(self, a: np.ndarray) -> np.ndarray:
         return a - self.own @ (self.own.T @ a)
@@ -95,7 +96,7 @@ class Projection:
             self.data.segments, extended(self.fit.initial, sim), each or [{}] * len(self.data.segments), strict=True
         ):
             if not suspect.touches(values, e):
-                out.append(np.zeros((e.recorded.size, len(names))))
+                out.append(np.zeros((*e.recorded.shape, len(names))))
                 continue
             p = self.fit.values | suspect.named(values | own)
             t = e.simulate(
@@ -103,6 +104,6 @@ class Projection:
             )
             if t.diverged:
                 return None
-            out.append(self.whiten(t.dy))
-        found = np.vstack(out)
+            out.append(t.dy)
+        found = self.whiten(out)
         return found if np.abs(found).max(initial=0.0) < RUNS_AWAY else None

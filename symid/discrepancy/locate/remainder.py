@@ -64,9 +64,7 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
     """All tests, the least probable first."""
     projection, found = Projection(fit, data), []
     rounded = _rounded(fit, data)
-    nulls = [
-        projection.project(np.concatenate([projection.whiten(s[:, :, None])[:, 0] for s in null])) for null in rounded
-    ]
+    nulls = [projection.project(projection.whiten([s[:, :, None] for s in null])[:, 0]) for null in rounded]
     for term in flexible_terms(fit, data):
         try:
             sim = simulator(fit.model.with_term(term))
@@ -119,16 +117,17 @@ def _columns(projection: Projection, sim: Simulator, term: Term) -> np.ndarray |
         )
         if t.diverged:
             return None
-        out.append(projection.whiten(t.dy))
-    return np.vstack(out)
+        out.append(t.dy)
+    return projection.whiten(out)
 
 
 def _ljung_box(projection: Projection, innovations: Sequence[np.ndarray], output: int) -> float:
     """Ljung-Box (1978) statistic of one output's innovations over all segments."""
     total, count = np.zeros(WHITENESS_LAGS), 0
     power = 0.0
-    for s in innovations:
-        e = projection.whiten(s[:, :, None]).reshape(s.shape)[:, output]
+    whitened = projection.whiten([s[:, :, None] for s in innovations])
+    for s in np.split(whitened, np.cumsum([s.size for s in innovations])[:-1]):
+        e = s.reshape(-1, projection.outputs)[:, output]
         count += len(e)
         power += e @ e
         total += [e[k:] @ e[:-k] for k in range(1, WHITENESS_LAGS + 1)]

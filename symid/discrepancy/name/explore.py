@@ -183,9 +183,12 @@ def _misled(chosen: Sequence[list[Start]], first: Sequence[Hypothesis]) -> list[
 def _eased(
     fit: Fit, data: Data, tried: Sequence[list[Start]], first: Sequence[Hypothesis], jumps: Sequence[str]
 ) -> list[Hypothesis]:
-    """Those that have not converged in a motion that cannot be followed for long, by way of short pieces."""
-    converged = {c.suspect for c in first if c.fit.converged}
-    astray = [s[0] for s in tried if s[0].suspect.scanned is None and s[0].suspect not in converged]
+    """Those that went astray in a motion that cannot be followed for long, by way of short pieces.
+
+    One that has not converged, but explains what it promised, is on its way.
+    """
+    kept = {c.suspect for c in first if c.fit.converged or c.log_ratio > KEPT * c.forecast}
+    astray = [s[0] for s in tried if s[0].suspect.scanned is None and s[0].suspect not in kept]
     short = short_pieces(fit, data, jumps) if astray else None
     found = in_threads(lambda s: short.fitted(s.suspect, s.values, s.forecast), astray) if short else []
     return [c for c in found if c is not None]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis, is_met
@@ -102,7 +102,7 @@ def evidence_of(by: Tested, search: Search, ranking: Sequence[Hypothesis], task:
         survived=survivals(found.suspects, found.fit, base, data, by.white),
         halves=() if by.white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking)),
         runs=runs,
-        proof=_proof(final, base, task, data, runs),
+        proof=_proof(final, base, task, data, runs, looks=2 if unnamed.refuted else 1),
         unnamed=unnamed,
         final=final,
         elsewhere=None if by.nameless else _elsewhere(found.fit, windows, data, task),
@@ -119,13 +119,16 @@ def _elsewhere(fit: Fit, windows: dict[str, Data], data: Data, task: Task) -> Te
     )
 
 
-def _proof(final: Fit, base: Fit, task: Task, data: Data, runs: dict[str, FreeRun]) -> Proof | None:
-    """What the held-out data say of the improved model; None without such data, or where nothing was improved."""
+def _proof(final: Fit, base: Fit, task: Task, data: Data, runs: dict[str, FreeRun], looks: int = 1) -> Proof | None:
+    """What the held-out data say of the improved model; None without such data, or where nothing was improved.
+
+    looks : of so many models the held-out data chose the improved one (Bonferroni).
+    """
     if task.held_out is None or final is base:
         return None
     free = compare(runs["baseline_heldout"], runs["augmented_heldout"])
     if base.kalman_gain is None:
-        return free
+        return replace(free, probability=max(1 - looks * (1 - free.probability), 0.0))
     try:
         held = of_window(task.model, task.recording, task.held_out, task.segment_length, data)
         return compare_predictions(predictions(base, held), predictions(final, held), free)

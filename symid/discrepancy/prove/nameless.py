@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -30,18 +30,23 @@ class Nameless:
     ----------
     rest : what the model lacks, given the effects that are named (without these, where a flexible law explains more
         in their place). flexible : the flexible law. proposal : the simplest closed form that does as well.
-    errors : rms (m,) of the free runs on the held-out window of ``flexible`` and ``proposal``; empty without one.
+    errors : rms (m,) of the free runs on the held-out window of ``flexible`` and ``proposal`` and, where nothing random
+        moves the system, of the ``names`` alone; empty without a window.
+    refuted : those of them that follow the held-out window worse than the names alone: splines that follow the rest of
+        a wide swing need not do so in a small one.
     """
 
     rest: Rest | None = None
     flexible: FlexibleLaw | None = None
     proposal: Proposal | None = None
     errors: dict[str, np.ndarray] = field(default_factory=dict)
+    refuted: Sequence[str] = ()
 
     @property
     def fits(self) -> list[Fit]:
-        """Of the flexible law and of the proposal."""
-        return [law.fit for law in (self.flexible, self.proposal) if law is not None]
+        """Of the flexible law and of the proposal, as far as the held-out data do not speak against them."""
+        laws = {"flexible": self.flexible, "proposal": self.proposal}
+        return [law.fit for key, law in laws.items() if law is not None and key not in self.refuted]
 
 
 def nameless(
@@ -60,14 +65,18 @@ def nameless(
     rest, proposal = rest_of(flexible.base, data), closed_form(flexible, progress)
     if held_out is None:
         return Nameless(rest, flexible, proposal)
-    run = free_run(flexible.fit, held_out)
-    errors = {"flexible": run.errors}
+    runs = {"flexible": (run := free_run(flexible.fit, held_out))}
     if proposal is not None:
         other = free_run(proposal.fit, held_out)
         as_well = other.relative <= WORSE * run.relative or compare(other, run).probability < POLICY.confirm
         proposal = proposal if as_well else None
-        errors |= {"proposal": other.errors} if as_well else {}
-    return Nameless(rest, flexible, proposal, errors)
+        runs |= {"proposal": other} if as_well else {}
+    refuted: tuple[str, ...] = ()
+    if found.suspects and found.fit.kalman_gain is None:
+        names = free_run(found.fit, held_out)
+        refuted = tuple(key for key, run in runs.items() if not run.relative <= names.relative)
+        runs |= {"names": names}
+    return Nameless(rest, flexible, proposal, {key: run.errors for key, run in runs.items()}, refuted)
 
 
 def improved(found: Hypothesis, unnamed: Nameless) -> Fit:

@@ -73,4 +73,5 @@ class Fit:
     @property
     def remaining(self) -> tuple[np.ndarray, ...]:
         """Per segment (N, m), the innovations made white and of unit covariance."""
-        return tuple(self.whitening(s[:, :, None]).reshape(s.shape) for s in self.innovations)
+        parts = zip(self.innovations, self.whitening.sizes, strict=True)
+        return tuple(self.whitening(s[:, :, None], size).reshape(s.shape) for s, size in parts)

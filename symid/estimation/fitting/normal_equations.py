@@ -75,19 +75,19 @@ def _gauss_newton(
     shared = slice(0, size if len(runs) == 1 else q + w)
     past, told = 0.0, 0.0
     with np.errstate(over="ignore", invalid="ignore"):
-        for i, (t, s) in enumerate(zip(runs, innovations, strict=True)):
+        for i, (t, s, size) in enumerate(zip(runs, innovations, whitening.sizes, strict=True)):
             tuned = np.zeros((*s.shape, w))
             if t.dy.shape[2] > q + n:
                 tuned[:, :, own] = t.dy[:, :, q + n :]
             if sharpness:
                 tuned[:, :, predictor.tuned.index(predictor.sharpness_at)] = -sharpness[i]
-            J = whitening(np.concatenate([t.dy[:, :, :q], tuned, t.dy[:, :, q : q + n]], axis=2))
-            r = whitening(s[:, :, None])[:, 0]
+            J = whitening(np.concatenate([t.dy[:, :, :q], tuned, t.dy[:, :, q : q + n]], axis=2), size)
+            r = whitening(s[:, :, None], size)[:, 0]
             where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
             H[np.ix_(where, where)] += J.T @ J
             g[where] += J.T @ r
             if memory:
-                before = past_of(s, memory)
+                before = past_of(s / size, memory)
                 past = past + before.T @ before
                 told = told + np.tensordot(before, J.reshape(*s.shape, -1)[memory:, :, shared], (0, 0))
         if memory and shared.stop:

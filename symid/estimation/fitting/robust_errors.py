@@ -29,9 +29,9 @@ def with_robust_errors(fit: Fit, data: Data) -> Fit:
         return fit
     whiten, q, m = fit.whitening, len(fitter.free), len(fit.whitening.covariance)
     columns, rests = [], []
-    for t, s in zip(runs, fit.innovations, strict=True):
-        own, _ = np.linalg.qr(whiten(t.dy[:, :, q:]))
-        shared, rest = whiten(t.dy[:, :, :q]), whiten(s[:, :, None])[:, 0]
+    for t, rest, size in zip(runs, fit.remaining, whiten.sizes, strict=True):
+        own, _ = np.linalg.qr(whiten(t.dy[:, :, q:], size))
+        shared, rest = whiten(t.dy[:, :, :q], size), rest.reshape(-1)
         columns.append(shared - own @ (own.T @ shared))
         rests.append(rest - own @ (own.T @ rest))
     scale = np.sqrt(sum((c**2).sum(0) for c in columns)) + 1e-300

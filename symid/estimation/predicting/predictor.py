@@ -136,7 +136,7 @@ class Predictor:
 
     def score(self, innovations, process=()) -> tuple[float, Whitening]:
         """Twice the log-likelihood, and what whitens the innovations."""
-        whitening = whitening_of(innovations, self.data.memory)
+        whitening = whitening_of(innovations, self.data.memory, self.data.error_sizes)
         if not self.driven:
             # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
             whitening = whitening.apart((1e-6 * self.data.sensor_noise) ** 2)

@@ -33,11 +33,13 @@ class Whitening:
 
     Attributes
     ----------
-    lags : (k, m, m) matrices of the autoregression. covariance : (m, m) of what it leaves.
+    lags : (k, m, m) matrices of the autoregression. covariance : (m, m) of what it leaves, in parts of `sizes`.
+    sizes : (E,) how large the innovations of each segment are beside those of others.
     """
 
     lags: np.ndarray
     covariance: np.ndarray
+    sizes: np.ndarray
 
     @cached_property
     def root(self) -> np.ndarray:
@@ -52,11 +54,14 @@ class Whitening:
         except np.linalg.LinAlgError:
             return False
 
-    def __call__(self, a: np.ndarray) -> np.ndarray:
-        """(N, m, q) columns of one segment as (N m, q) whitened ones; before the segment they were zero."""
+    def __call__(self, a: np.ndarray, size: float = 1.0) -> np.ndarray:
+        """(N, m, q) columns of one segment as (N m, q) whitened ones; before the segment they were zero.
+
+        size : the segment's of `sizes`.
+        """
         left = a if not len(self.lags) else _less_memory(self.lags, a)
         out = np.empty(left.shape)
-        for i, row in enumerate(self.root):
+        for i, row in enumerate(self.root / size):
             out[:, i] = sum(f * left[:, j] for j, f in enumerate(row) if f != 0)
         return out.reshape(-1, a.shape[2])
 
@@ -65,8 +70,13 @@ class Whitening:
         return replace(self, covariance=np.diag(np.diag(self.covariance) + least))
 
 
-def whitening_of(innovations: Sequence[np.ndarray], memory: int) -> Whitening:
-    """The whitening of (N, m) innovations of each segment by an autoregression of order `memory`."""
+def whitening_of(innovations: Sequence[np.ndarray], memory: int, possible: np.ndarray | None = None) -> Whitening:
+    """The whitening of (N, m) innovations of each segment by an autoregression of order `memory`.
+
+    possible : (F, E) sizes of the innovations of each segment, of which the likeliest are taken; all equal if left out.
+    """
+    sizes = np.ones(len(innovations)) if possible is None else _likeliest(possible, innovations)
+    innovations = [s / size for s, size in zip(innovations, sizes, strict=True)] if np.ptp(sizes) else innovations
     m = innovations[0].shape[1]
     lags = np.zeros((memory, m, m))
     if memory:
@@ -74,7 +84,14 @@ def whitening_of(innovations: Sequence[np.ndarray], memory: int) -> Whitening:
         now = np.vstack([s[memory:] for s in innovations])
         lags = np.linalg.lstsq(past, now, rcond=1e-12)[0].reshape(memory, m, m).transpose(0, 2, 1)
     left = np.vstack([_less_memory(lags, s[:, :, None])[:, :, 0] for s in innovations])
-    return Whitening(lags, left.T @ left / len(left))
+    return Whitening(lags, left.T @ left / len(left), sizes)
+
+
+def _likeliest(possible: np.ndarray, innovations: Sequence[np.ndarray]) -> np.ndarray:
+    """(E,) of (F, E) sizes those of the largest likelihood of innovations that are white, each channel by itself."""
+    powers = possible**-2.0 @ np.array([np.sum(s**2, axis=0) for s in innovations])
+    with np.errstate(divide="ignore"):
+        return possible[np.argmin(np.log(powers).sum(axis=1))]
 
 
 def remembered(innovations: Sequence[np.ndarray]) -> int:

@@ -15,6 +15,8 @@ from symid.model import Model
 
 MOST_SAMPLES = 8000
 """More samples than this tell a fit of free motion nothing new."""
+FLOORS = 2.0, 1.0, 0.5, 0.25, 0.125
+"""Errors that grow with the motion are as large where nothing moves as where it has so many times its rms size."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +63,25 @@ class Data:
     @property
     def span(self) -> tuple[float, float]:
         return min(float(e.time[0]) for e in self.segments), max(float(e.time[-1]) for e in self.segments)
+
+    @cached_property
+    def error_sizes(self) -> np.ndarray:
+        """(F, E) how large errors may be in each segment beside others: all equal, or growing with the motion.
+
+        A sensor's noise is as large everywhere, what a model leaves out of a motion is larger in wide swings: standard
+        deviations of sqrt(f^2 + a^2), a the rms motion in parts of that of all segments. Their geometric mean over all
+        samples is one, so that they change no likelihood by themselves. All are equal where anything drives the motion:
+        what it does then is no measure of what is left out of it.
+        """
+        lengths = np.array([len(e.time) for e in self.segments])
+        power = np.array([np.var(e.recorded, axis=0) for e in self.segments])
+        mean = lengths @ power / self.samples
+        moved = mean > 0
+        if self.driven or self.inputs_change or len(lengths) == 1 or not moved.any():
+            return np.ones((1, len(lengths)))
+        swings = np.mean(power[:, moved] / mean[moved], axis=1)
+        sizes = np.sqrt(np.vstack([np.ones(len(lengths)), *(f**2 + swings for f in FLOORS)]))
+        return sizes / np.exp(np.log(sizes) @ lengths / self.samples)[:, None]
 
     @property
     def inputs_change(self) -> bool:
