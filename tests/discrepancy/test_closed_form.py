@@ -10,12 +10,15 @@ from rigs import ROD, law_of
 
 from symid.discrepancy.locate.flexible_law import flexible_law
 from symid.discrepancy.model.hypothesis import Hypothesis
-from symid.discrepancy.name.closed_form import closed_form
+from symid.discrepancy.name.closed_form import _Regression, closed_form
 from symid.discrepancy.prove.nameless import nameless
 from symid.discrepancy.say.rest import formula
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_between
 from symid.mechanics import rig_model
 from symid.mechanics.missing.dictionary import Shape, closed_law, shapes_of, unit_quotient
+from symid.simulation import simulator, synthetic_recording
 
 X, V = sm.symbols("position speed", real=True)
 
@@ -115,3 +118,20 @@ def test_without_held_out_data_a_proposal_says_that_it_was_not_tested():
     base = fit_model(cart(), data)
     unnamed = nameless(Hypothesis((), base, base, data), data, None)
     assert unnamed.proposal is not None and unnamed.errors == {}
+
+
+@pytest.mark.slow
+def test_a_shape_that_the_model_has_already_is_no_closed_form():
+    """Beside a friction of the model one more is nothing but rounding, with a coefficient of any size."""
+    model, brake = rig_model(ROD, ["link1_angle"], ["joint1"]), law_of(lambda x, v: -(v**3)).at("joint1")
+    values = {"viscous_friction_joint1_coefficient_Nms_rad": 1e-3, brake.parameter_name("size"): 1e-3}
+    values = {k: values.get(k, 1e-3) for k in simulator(model.with_term(brake)).parameters}
+    made = synthetic_recording(
+        model.with_term(brake), values, duration=12, rate=50, seed=1, warm_up=0,
+        initial_state={"link1_angle": 1.0}, sensor_noise={"link1_angle": 2e-4},
+    )  # fmt: skip
+    channels = dict(made.channels)
+    data = Data(segments_between(model, made.time, channels, (0.0, 11.9), 4.0), np.array([2e-4]), driven=False)
+    law = flexible_law([fit_model(model, data)], data)
+    shapes, speed = {shape for shape, _ in _Regression(law).atoms}, law.port.rate
+    assert Shape(((speed, 3),)) in shapes and Shape(((speed, 1),)) not in shapes

@@ -14,6 +14,8 @@ from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.simulation import Simulator
 
+NOTHING_NEW = 1e-8
+"""Part of the power of a response that rounding leaves of what the model's own unknowns explain."""
 RUNS_AWAY = 1e100
 """A response as large is that of a motion which grows without end; its square is no number."""
 
@@ -71,7 +73,7 @@ class Projection:
         """Forecast gain of twice the log-likelihood for (N m, q) columns and their coefficients; of `rest` if given."""
         rest = self.rest if rest is None else rest
         a = self.project(columns)
-        kept = (a**2).sum(0) > 1e-8 * (columns**2).sum(0)
+        kept = (a**2).sum(0) > NOTHING_NEW * (columns**2).sum(0)
         scale = np.sqrt((a**2).sum(0)) + 1e-300
         a = np.where(kept, a / scale, 0.0)
         c, *_ = np.linalg.lstsq(a.T @ a, a.T @ rest, rcond=1e-8)
@@ -81,7 +83,7 @@ class Projection:
         """`score`, remembering in `bases` what it was that was tried: an orthonormal basis of what the columns add."""
         a = self.project(columns)
         scale = np.sqrt((a**2).sum(0)) + 1e-300
-        kept = scale**2 > 1e-8 * (columns**2).sum(0)
+        kept = scale**2 > NOTHING_NEW * (columns**2).sum(0)
         if kept.any():
             self.bases.append(np.linalg.qr((a / scale)[:, kept])[0].astype(np.float32))
         return self.score(columns)

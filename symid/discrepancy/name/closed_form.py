@@ -11,7 +11,7 @@ from scipy.optimize import minimize
 
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
 from symid.discrepancy.locate.probe import force_responses
-from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.locate.projection import NOTHING_NEW, Projection
 from symid.discrepancy.locate.spline_parts import names_of
 from symid.discrepancy.model.hypothesis import extended
 from symid.discrepancy.model.suspects import Suspect
@@ -143,8 +143,9 @@ class _Regression:
         self.shapes = shapes_of(law.port.position, law.port.rate, list(self.signals))
         phi = law.shapes(path)
         projection = Projection(law.fit, data, known=names_of(law.term))
-        responses = projection.project(force_responses(projection, law.port, phi))
-        _, s, vt = np.linalg.svd(responses, full_matrices=False)
+        responses = force_responses(projection, law.port, phi)
+        self.whole = np.linalg.qr(responses, mode="r")
+        _, s, vt = np.linalg.svd(projection.project(responses), full_matrices=False)
         self.root = s[:, None] * vt
         self.phi, self.onto = phi, np.linalg.pinv(phi, rcond=1e-8)
         self.target = self.root @ law.coefficients()
@@ -163,7 +164,7 @@ class _Regression:
         if not np.isfinite(power) or not np.sum((self.phi @ near - values) ** 2) < LIKE * power:
             return None
         effect = self.root @ near
-        return effect if effect @ effect > 1e-12 * self.total * power else None
+        return effect if effect @ effect > NOTHING_NEW * float(np.sum((self.whole @ near) ** 2)) else None
 
     def best(self) -> Iterator[list[tuple[tuple[Shape, ...], list[dict]]]]:
         """For one shape, for two and so on: the best sets, with start values by key."""
