@@ -146,14 +146,16 @@ def _rounded(fit: Fit, data: Data) -> list[list[np.ndarray]]:
     step = data.rounding
     if fit.kalman_gain is not None or not np.any(step):
         return []
-    jitter = np.sqrt(np.maximum(np.diag(fit.whitening.covariance) - step**2 / 12, 0.0))
-    if np.all(jitter > WHITENING * step):
+    jitters = [
+        np.sqrt(np.maximum(np.diag(fit.covariance) * size**2 - step**2 / 12, 0.0)) for size in fit.whitening.sizes
+    ]
+    if np.all(np.array(jitters) > WHITENING * step):
         return []
     found = []
     for seed in range(ROUNDINGS):
         rng, safe, null = np.random.default_rng(seed), np.where(step > 0, step, 1.0), []
         offset = rng.uniform(0, 1, len(step)) * step
-        for e, s in zip(data.segments, fit.innovations, strict=True):
+        for e, s, jitter in zip(data.segments, fit.innovations, jitters, strict=True):
             shown = e.recorded - s + offset
             noisy = shown + jitter * rng.standard_normal(s.shape)
             null.append(np.where(step > 0, np.round(noisy / safe) * safe, noisy) - shown)

@@ -89,8 +89,8 @@ def whitening_of(innovations: Sequence[np.ndarray], memory: int, possible: np.nd
 
 def _likeliest(possible: np.ndarray, innovations: Sequence[np.ndarray]) -> np.ndarray:
     """(E,) of (F, E) sizes those of the largest likelihood of innovations that are white, each channel by itself."""
-    powers = possible**-2.0 @ np.array([np.sum(s**2, axis=0) for s in innovations])
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore", over="ignore"):
+        powers = possible**-2.0 @ np.array([np.sum(s**2, axis=0) for s in innovations])
         return possible[np.argmin(np.log(powers).sum(axis=1))]
 
 
