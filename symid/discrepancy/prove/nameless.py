@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -32,21 +32,21 @@ class Nameless:
         in their place). flexible : the flexible law. proposal : the simplest closed form that does as well.
     errors : rms (m,) of the free runs on the held-out window of ``flexible`` and ``proposal`` and, where nothing random
         moves the system, of the ``names`` alone; empty without a window.
-    refuted : those of them that follow the held-out window worse than the names alone: splines that follow the rest of
-        a wide swing need not do so in a small one.
+    refuted : whether the flexible law follows the held-out window worse than the names alone: splines that follow the
+        rest of a wide swing need not do so in a small one. No closed form is proposed that does.
     """
 
     rest: Rest | None = None
     flexible: FlexibleLaw | None = None
     proposal: Proposal | None = None
     errors: dict[str, np.ndarray] = field(default_factory=dict)
-    refuted: Sequence[str] = ()
+    refuted: bool = False
 
     @property
     def fits(self) -> list[Fit]:
-        """Of the flexible law and of the proposal, as far as the held-out data do not speak against them."""
-        laws = {"flexible": self.flexible, "proposal": self.proposal}
-        return [law.fit for key, law in laws.items() if law is not None and key not in self.refuted]
+        """Of the flexible law, where the held-out data do not speak against it, and of the proposal."""
+        flexible = None if self.refuted else self.flexible
+        return [law.fit for law in (flexible, self.proposal) if law is not None]
 
 
 def nameless(
@@ -65,18 +65,18 @@ def nameless(
     rest, proposal = rest_of(flexible.base, data), closed_form(flexible, progress)
     if held_out is None:
         return Nameless(rest, flexible, proposal)
-    runs = {"flexible": (run := free_run(flexible.fit, held_out))}
+    run = free_run(flexible.fit, held_out)
+    errors, enough = {"flexible": run.errors}, np.inf
+    if found.suspects and found.fit.kalman_gain is None:
+        names = free_run(found.fit, held_out)
+        errors, enough = errors | {"names": names.errors}, names.relative
     if proposal is not None:
         other = free_run(proposal.fit, held_out)
         as_well = other.relative <= WORSE * run.relative or compare(other, run).probability < POLICY.confirm
-        proposal = proposal if as_well else None
-        runs |= {"proposal": other} if as_well else {}
-    refuted: tuple[str, ...] = ()
-    if found.suspects and found.fit.kalman_gain is None:
-        names = free_run(found.fit, held_out)
-        refuted = tuple(key for key, run in runs.items() if not run.relative <= names.relative)
-        runs |= {"names": names}
-    return Nameless(rest, flexible, proposal, {key: run.errors for key, run in runs.items()}, refuted)
+        proposal = proposal if as_well and other.relative <= enough else None
+        errors |= {"proposal": other.errors} if proposal is not None else {}
+    refuted = "names" in errors and not run.relative <= enough  # nor where it diverges
+    return Nameless(rest, flexible, proposal, errors, refuted)
 
 
 def improved(found: Hypothesis, unnamed: Nameless) -> Fit:

@@ -40,7 +40,7 @@ def nameless_words(unnamed: Nameless, error: Callable[[np.ndarray], str]) -> lis
     tested = {k: f" (held-out error {error(e)})" for k, e in unnamed.errors.items()}
     if unnamed.flexible is not None:
         out.append(flexible_words(unnamed.flexible) + tested.get("flexible", "") + ".")
-        if "flexible" in unnamed.refuted:
+        if unnamed.refuted:
             without = error(unnamed.errors["names"])
             out.append(f"Without it the held-out error is {without}, so the improved model leaves it out.")
     if unnamed.proposal is not None:
