@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -57,6 +58,11 @@ class Explained:
     found: Hypothesis
     ranking: list[Hypothesis]
 
+    @property
+    def leaves_white_noise(self) -> bool:
+        """Whether what was found leaves nothing but noise without a memory."""
+        return self.search.data.memory == 0 and self.search.quiet(self.found)
+
 
 def explained(
     task: Task,
@@ -92,19 +98,24 @@ def explained(
 def _clearer(
     filtered: Audit, plain: Audit, under: Callable[[Audit], Explained], progress: Callable[[str], None]
 ) -> Explained:
-    """The laws with the filter, or those without it if they follow much better or are all that can be fitted."""
-    found: list[Explained] = []
-    for possible in (filtered, plain):
-        try:
-            found.append(under(possible))
-        except DiagnosisError as error:
-            problem = error
-        if possible is filtered:
-            progress("what looks filtered may be a fine sensor, or a slow motion; looking again without a filter")
-    if not found:
-        raise problem
-    with_filter, without = found[0], found[-1]
-    # A filter colours noise: where undoing one leaves colour that is not there without, there was none.
+    """The laws without a filter if they leave nothing, follow much better, or are all that can be fitted; or with it.
+
+    A filter colours noise: where white noise is all that is left without one, there was none.
+    """
+    without = None
+    with suppress(DiagnosisError):
+        without = under(plain)
+    if without is not None and without.leaves_white_noise:
+        return without
+    progress("what looks like a fine sensor, or a slow motion, may be filtered; looking again with a filter")
+    try:
+        with_filter = under(filtered)
+    except DiagnosisError:
+        if without is None:
+            raise
+        return without
+    if without is None:
+        return with_filter
     whiter = without.search.data.memory == 0 and with_filter.search.data.memory > 0
     enough = (1.0 if whiter else CLEARER) * _error(with_filter, without.plain)
     return without if _error(without, without.plain) < enough else with_filter

@@ -9,7 +9,7 @@ import symid as si
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.dry import with_friction_speeds
 from symid.discrepancy.name.explore import explore
-from symid.discrepancy.name.short_pieces import short_pieces
+from symid.discrepancy.name.short_pieces import ShortPieces
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.pieces import cut
@@ -66,7 +66,7 @@ def test_a_force_at_a_cart_whose_pole_falls_when_followed_from_one_state(law, si
     data = balanced(lacking)
     given = with_friction_speeds(si.mechanics.with_places(cart_pole()), data.segments, NOISE)
     base, suspect = fit_model(given, data), Suspect(LIBRARY[law].at("cart"))
-    assert len(short_pieces(base, data, []).without.data.segments) >= 3 * len(data.segments)
+    assert ShortPieces(base, data, []).parts() >= 3
     (found,) = explore(base, data, [suspect], jumps=[JUMP])
     values = list(found.fit.values.values())
     assert values[-1] == pytest.approx(size, rel=2e-3) and values[0] == pytest.approx(CART, rel=5e-3)

@@ -10,7 +10,7 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
 from symid.discrepancy.model.hypothesis import Hypothesis, extended, is_met
 from symid.discrepancy.model.suspects import Suspect, is_alike
-from symid.discrepancy.name.short_pieces import short_pieces
+from symid.discrepancy.name.short_pieces import ShortPieces
 from symid.discrepancy.name.starts import Start, starts_of
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
@@ -76,7 +76,8 @@ def explore(
     afresh = in_threads(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first))
     first += [c for c in afresh if c is not None]
     tried = [*chosen[: POLICY.always_refitted], *worth, *unseen]
-    first += _eased(fit, data, tried, first, jumps)
+    short = ShortPieces(fit, data, jumps)
+    first += _eased(tried, first, short)
     first = list({c.suspect: c for c in sorted(first, key=lambda c: c.log_ratio)}.values())
     first.sort(key=lambda c: -c.log_ratio)
     others = {
@@ -84,7 +85,7 @@ def explore(
     }
 
     def converging(begun: Sequence[Hypothesis]) -> list[Hypothesis]:
-        return in_threads(lambda c: _converge(fit, data, c, others[c.suspect], jumps), begun)
+        return in_threads(lambda c: _converge(fit, data, c, others[c.suspect], short), begun)
 
     good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
     rest = first[len(good) :]
@@ -180,17 +181,14 @@ def _misled(chosen: Sequence[list[Start]], first: Sequence[Hypothesis]) -> list[
     ]
 
 
-def _eased(
-    fit: Fit, data: Data, tried: Sequence[list[Start]], first: Sequence[Hypothesis], jumps: Sequence[str]
-) -> list[Hypothesis]:
+def _eased(tried: Sequence[list[Start]], first: Sequence[Hypothesis], short: ShortPieces) -> list[Hypothesis]:
     """Those that went astray in a motion that cannot be followed for long, by way of short pieces.
 
     One that has not converged, but explains what it promised, is on its way.
     """
     kept = {c.suspect for c in first if c.fit.converged or c.log_ratio > KEPT * c.forecast}
     astray = [s[0] for s in tried if s[0].suspect.scanned is None and s[0].suspect not in kept]
-    short = short_pieces(fit, data, jumps) if astray else None
-    found = in_threads(lambda s: short.fitted(s.suspect, s.values, s.forecast), astray) if short else []
+    found = in_threads(lambda s: short.fitted(s.suspect, s.values, s.forecast), astray)
     return [c for c in found if c is not None]
 
 
@@ -249,7 +247,7 @@ def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
     return best
 
 
-def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], jumps: Sequence[str]) -> Hypothesis:
+def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], short: ShortPieces) -> Hypothesis:
     """The candidate fitted to convergence, or what another start leads to if that is better; not exact."""
     found = [_continued(data, first)]
     for start in others:
@@ -259,8 +257,7 @@ def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], jump
     best = max(found, key=lambda c: c.log_ratio)
     if not best.fit.converged and best.suspect.scanned is None:
         own = {q.key: best.fit.values[best.suspect.term.parameter_name(q.key)] for q in best.suspect.law.parameters}
-        short = short_pieces(fit, data, jumps, [best.fit])
-        eased = short and short.fitted(best.suspect, own, best.forecast)
+        eased = short.fitted(best.suspect, own, best.forecast, [best.fit])
         best = eased if eased and eased.log_ratio > best.log_ratio else best
     moved = _profiled(best, data)
     again = _refit(fit, data, moved) if moved is not None else None

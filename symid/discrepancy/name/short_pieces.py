@@ -8,7 +8,8 @@ parabola (multiple shooting; Bock 1983); what is found there is where the fit of
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import accumulate
 
 import numpy as np
@@ -30,58 +31,75 @@ friction of a cart under a pendulum was found in pieces of 0.2 and 0.4 s, and in
 times, its width was 1.7 times too large."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class ShortPieces:
-    """The data of a fit, cut into pieces in which small differences hardly grow.
+    """Suspects tried on top of a fit by way of pieces of its data in which small differences hardly grow.
 
     Attributes
     ----------
     base, data : the fit on top of which suspects are tried, and what it was fitted to.
-    without : the same model in the short pieces. first : which of these begin where a piece of `data` does.
     jumps : friction speeds of the model that nobody stated; the short pieces tell them, too.
+    without : by the number of parts of a piece of `data`, the same model in them; None where it cannot be fitted.
     """
 
     base: Fit
     data: Data
-    without: Hypothesis
-    first: list[int]
     jumps: Sequence[str]
+    without: dict[int, Hypothesis | None] = field(default_factory=dict)
 
-    def fitted(self, suspect: Suspect, values: dict[str, float], forecast: float) -> Hypothesis | None:
-        """The suspect fitted from `values` in the short pieces, and from there in whole; None where it cannot be.
+    def fitted(
+        self, suspect: Suspect, values: dict[str, float], forecast: float, leading: Sequence[Fit] = ()
+    ) -> Hypothesis | None:
+        """The suspect fitted from `values` in the short pieces, and from there in whole.
 
-        Neither fit is exact (see `Fitter.fit`).
+        None where a fit can follow the whole pieces, or the short ones cannot be fitted. Neither fit is exact (see
+        `Fitter.fit`).
+
+        leading : fits with more than the base has: a model far off may not know that it would fall over.
         """
-        given, pieces = self.without.fit, self.without.data
+        parts = self.parts(leading)
+        if parts < 2:
+            return None
+        if parts not in self.without:
+            self.without[parts] = self._base_in(parts)
+        if (without := self.without[parts]) is None:
+            return None
+        given, pieces = without.fit, without.data
         start = replace(given, values=self.base.values)
         fit = refit((suspect,), start, given, pieces, suspect.named(values), exact=False)
         if fit is None:
             return None
         found = with_fitted_jumps(Hypothesis((suspect,), fit, given, pieces), self.jumps, given.model)
-        near = replace(found.fit, initial=found.fit.initial[self.first], substeps=1, coarse=1)
+        first = [0, *accumulate(len(several) for several in self._cut(parts))][:-1]
+        near = replace(found.fit, initial=found.fit.initial[first], substeps=1, coarse=1)
         base = with_jumps_of(found.fit, self.base, self.jumps)
         whole = refit((suspect,), near, base, self.data, exact=False)
         return None if whole is None else Hypothesis((suspect,), whole, base, self.data, forecast)
 
+    @cached_property
+    def _growth(self) -> float:
+        return self._growth_of(self.base)
 
-def short_pieces(fit: Fit, data: Data, jumps: Sequence[str], leading: Sequence[Fit] = ()) -> ShortPieces | None:
-    """Of a free motion; None where a fit can follow its pieces, or the model cannot be fitted in shorter ones.
+    def _growth_of(self, fit: Fit) -> float:
+        """How much small differences grow in a whole piece; 1 where a predictor follows it."""
+        growth = largest_growth(fit, self.data) if fit.kalman_gain is None else 1.0
+        return growth if np.isfinite(growth) else 1.0
 
-    leading : fits with more than `fit` has: a model far off may not know that it would fall over.
-    """
-    growths = [largest_growth(f, data) for f in (fit, *leading) if f.kalman_gain is None]
-    growth = max((g for g in growths if np.isfinite(g)), default=1.0)
-    if growth <= GROWTH:
-        return None
-    parts = int(np.ceil(np.log(growth) / np.log(EASY)))
-    short = [_equal_parts(e, min(parts, len(e.time) // FEWEST)) for e in data.segments]
-    pieces = data.with_segments(part for several in short for part in several)
-    try:
-        given = fit_model(fit.model, pieces, fit.values)
-    except SymidError:
-        return None
-    first = [0, *accumulate(len(several) for several in short)][:-1]
-    return ShortPieces(fit, data, Hypothesis((), given, given, pieces), first, jumps)
+    def parts(self, leading: Sequence[Fit] = ()) -> int:
+        """Into how many parts each piece is cut; 1 where a fit can follow it."""
+        growth = max([self._growth, *map(self._growth_of, leading)])
+        return 1 if growth <= GROWTH else int(np.ceil(np.log(growth) / np.log(EASY)))
+
+    def _cut(self, parts: int) -> list[list[Segment]]:
+        return [_equal_parts(e, min(parts, len(e.time) // FEWEST)) for e in self.data.segments]
+
+    def _base_in(self, parts: int) -> Hypothesis | None:
+        pieces = self.data.with_segments(part for several in self._cut(parts) for part in several)
+        try:
+            given = fit_model(self.base.model, pieces, self.base.values)
+        except SymidError:
+            return None
+        return Hypothesis((), given, given, pieces)
 
 
 def _equal_parts(segment: Segment, parts: int) -> list[Segment]:
