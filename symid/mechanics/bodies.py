@@ -1,22 +1,24 @@
 """Bodies whose speed is no speed of a joint: a load on a rope, the second link of an arm; and what holds them back.
 
 Of Lagrange's equations the derivative of the kinetic energy by a mass is half the square of that mass's own speed, of a
-body that turns, too, half the mean square over its parts. A drag against that motion has in each balance the derivative
-of Rayleigh's dissipation function by the balance's own rate, wherever the body is.
+body that turns, too, half the mean square over its parts; where the equations were divided by the only mass, the energy
+itself is. A drag against that motion has in each balance the derivative of Rayleigh's dissipation function by the
+balance's own rate, wherever the body is.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from math import inf
 from types import SimpleNamespace
 
 import numpy as np
 import sympy as sm
 
+from symid.mechanics.missing.laws import coordinate_unit, friction_speed, give_unit
 from symid.model import Expression, Law, LawParameter, Model, Port
 from symid.model.dimensions import unit_of
-from symid.units import dimension
+from symid.units import dimension, reduced
 
 ROLE = "body"
 """Of the expression of half a body's squared speed."""
@@ -45,15 +47,28 @@ def bodies(model: Model, ports: Mapping[str, Port]) -> dict[str, Expression]:
     if not joints or not np.allclose(_drawn(model, *mass), _drawn(model, *mass.T), rtol=EQUAL, atol=0.0):
         return {}
     found: dict[str, Expression] = {}
-    for m in (c for c in [*model.constants.values(), *model.parameters.values()] if _has(c.unit, "kg")):
-        half = (rates.T * mass.diff(m.symbol) * rates)[0] / 2
+    for name, at, parts in _parts(model, mass):
+        half = (rates.T * parts * rates)[0] / 2
         known = [p.rate**2 for p in ports.values() if p.rate != 0] + [other.expr for other in found.values()]
-        if half.has(m.symbol) or not _has(unit_of(model, half, model.time), "m^2/s^2"):
+        if half == 0 or not _has(unit_of(model, half, model.time), "m^2/s^2"):
             continue
         if not any(_in_proportion(model, half, other) for other in known):
-            at = m.at or f"{ROLE}:{m.name}"
-            found[f"{m.name}_half_squared_speed"] = Expression(half, unit="m^2/s^2", role=ROLE, at=at)
+            found[f"{name}half_squared_speed"] = Expression(half, unit="m^2/s^2", role=ROLE, at=at)
     return found
+
+
+def _parts(model: Model, mass: sm.Matrix) -> Iterator[tuple[str, str, sm.Matrix]]:
+    """What of the mass matrix each mass brings, for each kilogram, its place, and a beginning of names.
+
+    Without any mass in the model all of it belongs to the one by which the equations were divided.
+    """
+    masses = [c for c in [*model.constants.values(), *model.parameters.values()] if _has(c.unit, "kg")]
+    for m in masses:
+        part = mass.diff(m.symbol)
+        if not part.has(m.symbol):
+            yield f"{m.name}_", m.at or f"{ROLE}:{m.name}", part
+    if not masses:
+        yield "", f"{ROLE}:{model.name}", mass
 
 
 def _has(unit: str, like: str) -> bool:
@@ -77,12 +92,23 @@ def _drawn(model: Model, *exprs: sm.Expr) -> np.ndarray:
 
 # ---- laws --------------------------------------------------------------------------------------
 def _held_back(model: Model, place: str, coefficient: sm.Symbol, power: int) -> None:
-    """A force on the body against its motion, that grows with so high a power of its speed."""
+    """A force on the body against its motion, that grows with so high a power of its speed; not at rest."""
     (body,) = model.find(ROLE, place)
     half = model.inline(body.expr)
-    speed = sm.sqrt(2 * half + SLOWEST**2)
-    for port in [p for p in model.ports.values() if p.role == "joint" and p.rate.is_Symbol]:
-        model.add_effort(port.name, -coefficient * speed ** (power - 1) * sm.diff(half, port.rate))
+    joints = [p for p in model.ports.values() if p.role == "joint" and p.rate.is_Symbol and half.has(p.rate)]
+    give_unit(model, coefficient, lambda unit: _along(unit, model, joints[0]))
+    size = sm.sqrt(2 * half + SLOWEST**2) ** (power - 1)
+    if power == 0:
+        turned = sum((p.rate / friction_speed(model, p, "body_friction")) ** 2 for p in joints)
+        size *= sm.tanh(sm.sqrt(turned + SLOWEST**2))
+    for port in joints:
+        model.add_effort(port.name, -coefficient * size * sm.diff(half, port.rate))
+
+
+def _along(unit: str, model: Model, port: Port) -> str:
+    """A unit stated for forces [N] where the equations, as the port's, were divided by a mass."""
+    force = reduced(f"({port.unit})*({coordinate_unit(model, port.at)})/m") if port.unit else "N"
+    return unit if _has(force, "N") else reduced(unit.replace("N", f"({force})"))
 
 
 def _drag(model: Model, place: str, p: SimpleNamespace) -> None:
@@ -91,6 +117,10 @@ def _drag(model: Model, place: str, p: SimpleNamespace) -> None:
 
 def _slow_drag(model: Model, place: str, p: SimpleNamespace) -> None:
     _held_back(model, place, p.coefficient_Ns_m, 1)
+
+
+def _friction(model: Model, place: str, p: SimpleNamespace) -> None:
+    _held_back(model, place, p.force_N, 0)
 
 
 BODY_LAWS: tuple[Law, ...] = (
@@ -109,5 +139,13 @@ BODY_LAWS: tuple[Law, ...] = (
         _slow_drag,
         "A cable or slow air holds the {place} back in proportion to its own speed, {coefficient_Ns_m}",
         "Stokes 1851",
+    ),
+    Law(
+        "body_friction",
+        ROLE,
+        (LawParameter("force_N", "N", (0.0, inf)),),
+        _friction,
+        "The {place} slides with a dry friction of {force_N} against its own motion, whatever its speed",
+        "Coulomb 1785",
     ),
 )

@@ -45,9 +45,9 @@ def with_places(model: Model) -> Model:
     equation of first order, such as that of a tank, a force has no rate of its own, and moves the state: a
     ``balance``; between two of one kind, or such a state and an input of its kind, something may flow: an
     ``exchange``; and a state that is not in it may act on it: a ``coupling``. Where no port is declared at all, a
-    mass that moves as no coordinate does is a ``body``, and a constant without a role is ``stated``. Outputs
-    without a role become sensors, inputs without one excitations. A port of which no unit is known gets that of a
-    force or a torque.
+    mass that moves as no coordinate does is a ``body``, two neighbours of one kind are a ``pair``, and a constant
+    without a role is ``stated``. Outputs without a role become sensors, inputs without one excitations. A port of
+    which no unit is known gets that of a force or a torque.
 
     Examples
     --------
@@ -64,8 +64,8 @@ def with_places(model: Model) -> Model:
     for name, port in ports.items():
         setattr(new, f"{name}_place", port)
     if not model.ports:
-        for name, half in bodies(model, ports).items():
-            setattr(new, name, half)
+        for name, part in {**bodies(model, ports), **_pairs(model, ports)}.items():
+            setattr(new, name, part)
         new.components.update(stated(model))
     for name, port in new.ports.items():
         if not port.unit and port.role in ROLES:
@@ -121,6 +121,16 @@ def _between(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm
                 at=f"{p.at}-{q.at}",
             )
     return found
+
+
+def _pairs(model: Model, ports: Mapping[str, Port]) -> dict[str, Port]:
+    """Ports from the motion of a joint to the balance of its neighbour (in order of declaration) of the same kind."""
+    joints = {n: p for n, p in ports.items() if p.role == "joint" and len(p.into) == 1 and p.rate.is_Symbol}
+    return {
+        f"{a}_{b}_pair": replace(q, into=p.into, role="pair", at=f"{p.at} and {q.at}")
+        for (a, p), (b, q) in pairwise(joints.items())
+        if p.unit == q.unit and dimension(signal_unit(model, p.rate)) == dimension(signal_unit(model, q.rate))
+    }
 
 
 def _of_drives(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:

@@ -40,7 +40,7 @@ def test_a_load_on_a_rope_is_a_body_and_the_trolley_is_its_own_joint():
     assert at(crane(), load.expr, 0.7) == pytest.approx(float(across**2 + up**2) / 2)
 
 
-@pytest.mark.parametrize("law, power", [("body_drag", 2), ("slow_body_drag", 1)])
+@pytest.mark.parametrize("law, power", [("body_drag", 2), ("slow_body_drag", 1), ("body_friction", 0)])
 def test_drag_on_a_load_pulls_at_its_rope(law, power):
     """By virtual work of a force of 25 |v|^power against the load's velocity."""
     plain = with_places(crane())
@@ -53,8 +53,9 @@ def test_drag_on_a_load_pulls_at_its_rope(law, power):
         assert change == pytest.approx(float(expected), rel=1e-6)
 
 
-def test_a_body_at_rest_feels_nothing_and_its_drag_has_a_slope():
-    more = with_places(crane()).with_term(si.mechanics.LIBRARY["body_drag"].at("body:load"))
+@pytest.mark.parametrize("law", ["body_drag", "body_friction"])
+def test_a_body_at_rest_feels_nothing_and_its_drag_has_a_slope(law):
+    more = with_places(crane()).with_term(si.mechanics.LIBRARY[law].at("body:load"))
     rest = {more.q.symbol: 0, more.v.symbol: 0, more.w.symbol: 0}
     slope = sm.diff(more.inline(more["trolley"].expr), more.v.symbol).subs(rest)
     assert slope.is_finite is not False
@@ -66,4 +67,4 @@ def test_where_nothing_is_symmetric_no_kinetic_energy_is_known():
 
 def test_a_suspect_stands_for_each_way_to_hold_a_body_back():
     names = {str(s.term) for s in si.suspects(crane())}
-    assert {"body_drag@body:load", "slow_body_drag@body:load"} <= names
+    assert {"body_drag@body:load", "slow_body_drag@body:load", "body_friction@body:load"} <= names

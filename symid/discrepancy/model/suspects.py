@@ -165,6 +165,7 @@ FAMILIES = (
     {"feedback_delay", "muscle_lag", "second_order_muscle_lag", "joint_feedback_delay", "joint_muscle_lag"},
     {"input_delay", "input_lag", "inputs_delay", "inputs_lag"},
     {"sensor_delay", "sensor_lag"},
+    {"body_drag", "slow_body_drag", "body_friction"},
     {"proportional_loss", "orifice_loss", "quadratic_loss", "constant_flow"},
     {"proportional_exchange", "orifice_exchange"},
 )
@@ -178,6 +179,7 @@ LOSSES = (
     "link_drag",
     "body_drag",
     "slow_body_drag",
+    "body_friction",
     "load_dependent_friction",
     "bouc_wen_hysteresis",
 )
@@ -250,6 +252,8 @@ PLAIN = (
     "link_drag",
     "body_drag",
     "slow_body_drag",
+    "body_friction",
+    "gyroscopic_force",
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
 _NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *FLOW_LAWS)

@@ -19,7 +19,7 @@ LAG = LawParameter("time_constant_s", "s", (0.0, 1.0), 0.0, (0.03, 0.08, 0.2), 0
 """Of a first-order lag."""
 
 _ANGLES_ANYWHERE = ("phase_rad",)
-_ROLES = ("joint", "link", "balance", "exchange", "coupling")
+_ROLES = ("joint", "link", "balance", "exchange", "coupling", "pair")
 """Of the ports at which forces and flows can act."""
 
 
@@ -91,17 +91,21 @@ def time_derivative(model: Model, expr: sm.Expr) -> sm.Expr:
 
 def dry(model: Model, port: Port, law: str) -> sm.Expr:
     """The smoothed sign of the port's rate, tanh(rate/width), in -1 ... 1."""
+    return sm.tanh(port.rate / friction_speed(model, port, law))
+
+
+def friction_speed(model: Model, port: Port, law: str) -> sm.Symbol:
+    """Width of the smoothed jump of dry friction at the port, as stated or declared for `law`."""
     stated = model.find("friction_speed", port.at) or model.find("friction_speed", "")
     if stated:
-        return sm.tanh(port.rate / stated[0].symbol)
-    width = fixed(
+        return stated[0].symbol
+    return fixed(
         model,
         parameter_name(law, port.at, "speed_width"),
         FRICTION_SPEED,
         f"{coordinate_unit(model, port.at)}/s",
         "width of the smoothed jump of dry friction",
     )
-    return sm.tanh(port.rate / width)
 
 
 def switched_on(model: Model, time, width) -> sm.Expr:

@@ -11,6 +11,7 @@ from symid.mechanics.missing.drive_laws import DRIVE_LAWS, LAG_LAWS, OFFSET_LAWS
 from symid.mechanics.missing.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
 from symid.mechanics.missing.flow_laws import FLOW_LAWS
 from symid.mechanics.missing.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
+from symid.mechanics.missing.pair_laws import PAIR_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
 from symid.mechanics.missing.world_laws import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
 from symid.model import Law, Model, Term
@@ -34,6 +35,7 @@ LIBRARY: dict[str, Law] = {
         *LAG_LAWS,
         *OFFSET_LAWS,
         *BODY_LAWS,
+        *PAIR_LAWS,
         *FLOW_LAWS,
         *STATED_LAWS,
     )
