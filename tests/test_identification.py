@@ -94,7 +94,7 @@ def test_episodes_share_the_parameter_but_not_the_trajectory():
     assert solution.values["damping"] == pytest.approx(0.4, abs=0.05)
 
 
-@pytest.mark.parametrize("episodes", [2, 3])
+@pytest.mark.parametrize("episodes", [2, pytest.param(3, marks=pytest.mark.slow)])
 def test_parameters_hardly_depend_on_the_draw_of_multisines(episodes):
     def scatter(distribution):
         draws = (si.Episodes(episodes, amplitude=0.3, seed=seed, distribution=distribution) for seed in range(8))

@@ -67,7 +67,7 @@ def test_a_folder_that_cannot_be_written_is_said(monkeypatch, capsys):
     assert "cannot write /usr/lib/symid/generated (Permission denied)" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("seed", ["1", "2"])
+@pytest.mark.parametrize("seed", ["1", pytest.param("2", marks=pytest.mark.slow)])
 def test_the_text_does_not_depend_on_the_hash_seed(seed):
     code = "from symid.regenerate import main; raise SystemExit(main(['--check']))"
     done = subprocess.run([sys.executable, "-c", code], env=os.environ | {"PYTHONHASHSEED": seed}, capture_output=True)

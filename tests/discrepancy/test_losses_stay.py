@@ -43,6 +43,7 @@ def test_a_distorted_camera_does_not_hide_the_friction(distortion):
     assert value == pytest.approx(DAMPING, abs=3 * error) and error < 0.05 * DAMPING
 
 
+@pytest.mark.slow
 def test_a_gentle_distortion_is_answered_though_its_noise_remembers_longer_than_the_first_samples_fitted():
     found = si.diagnose(
         pendulum(), seen(lambda q, w: 0.006 * np.abs(q * w)), fit_window=(0, 14), held_out=(14, 24), threads=1

@@ -129,6 +129,7 @@ def test_a_stop_that_only_the_held_out_motion_reaches_is_no_adequate_model():
     assert "the fit window but not the held-out one" in str(found)
 
 
+@pytest.mark.slow
 def test_a_spring_that_has_changed_between_the_windows_is_told():
     weaker = recorded(lambda x, v, u: 0.0)
     rng, t = np.random.default_rng(1), weaker.time

@@ -249,6 +249,7 @@ def test_fits_tell_how_much_is_remembered_where_innovations_tell_too_little(monk
     assert with_memory(white, data) == (data, white)
 
 
+@pytest.mark.slow
 def test_nothing_is_found_in_a_filtered_recording_that_lacks_nothing():
     finding_of = finding(filtered(recorded(5)))
     assert finding_of.verdict == "adequate"

@@ -25,7 +25,7 @@ def motion(rng, n, period, damping):
 
 
 @pytest.mark.parametrize("white", [0.0, 0.3])
-@pytest.mark.parametrize("memory", [2, 8, 30, 100])
+@pytest.mark.parametrize("memory", [2, 8, 30, pytest.param(100, marks=pytest.mark.slow)])
 def test_noise_of_first_order_is_known_as_such(memory, white):
     rng = np.random.default_rng(memory)
     found = [is_first_order([remembering(rng, 3000, memory, white)[:, None]]) for _ in range(40)]

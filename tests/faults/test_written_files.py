@@ -102,8 +102,15 @@ def test_a_path_that_is_none_is_not_read():
 IDENTIFY = ["identify", str(DATA / "recording.csv"), "--body", str(DATA / "body.json"), "--window", "0", "1"]
 
 
-@pytest.mark.parametrize("stream", ["stdout", "stderr"])
-@pytest.mark.parametrize("fault", [errno.EPIPE, errno.ENOSPC])
+@pytest.mark.parametrize(
+    ("stream", "fault"),
+    [
+        ("stdout", errno.EPIPE),
+        pytest.param("stdout", errno.ENOSPC, marks=pytest.mark.slow),
+        pytest.param("stderr", errno.EPIPE, marks=pytest.mark.slow),
+        pytest.param("stderr", errno.ENOSPC, marks=pytest.mark.slow),
+    ],
+)
 def test_who_does_not_read_what_is_said_has_the_files(tmp_path, monkeypatch, stream, fault):
     """`symid ... 2>&1 | head -1` ended at the second line of progress, without a file and with exit code 0."""
 

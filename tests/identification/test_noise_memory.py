@@ -51,7 +51,10 @@ def fitted(noise: list[np.ndarray], designs: list[np.ndarray], own: int = 1, ste
     return errors, influences, estimate
 
 
-@pytest.mark.parametrize(("count", "keeps"), [(25, 0.0), (25, 0.5), (25, 0.9), (60, 0.9), (300, 0.9)])
+@pytest.mark.parametrize(
+    ("count", "keeps"),
+    [(25, 0.0), (25, 0.9), *(pytest.param(*p, marks=pytest.mark.slow) for p in ((25, 0.5), (60, 0.9), (300, 0.9)))],
+)
 def test_intervals_of_few_samples_hold_the_truth_whatever_the_memory(count, keeps):
     """What whiteness and autocovariances alone gave held it in 62 to 78 % of the cases with a memory."""
     rng, inside = np.random.default_rng([count, int(10 * keeps)]), []

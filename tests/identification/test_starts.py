@@ -37,7 +37,16 @@ def failures(system, draws) -> dict[int, str]:
     return {k: why for k, why in found.items() if why}
 
 
-@pytest.mark.parametrize("name", ["mass_spring_damper", "any_pendulum", "van_der_pol", "two_tanks", "dc_motor"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "mass_spring_damper",
+        "any_pendulum",
+        "van_der_pol",
+        pytest.param("two_tanks", marks=pytest.mark.slow),
+        "dc_motor",
+    ],
+)
 def test_the_default_start_leads_to_the_noise(name):
     assert failures(SYSTEMS[name], range(2)) == {}
 
@@ -155,7 +164,7 @@ def test_systems_that_nothing_was_tuned_on_reach_their_noise(system, noise):
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize(("noise", "seed"), [("remembering", 0), ("heavy", 2)])
+@pytest.mark.parametrize(("noise", "seed"), [("remembering", 0), pytest.param("heavy", 2, marks=pytest.mark.slow)])
 def test_a_channel_of_little_noise_is_followed_beside_one_of_much_whatever_its_memory(noise, seed):
     """Both angles counted alike, and the clear one erred by 8 and 4 times its noise."""
     drawn = measured(flexible_joint, noise, seed)

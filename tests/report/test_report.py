@@ -177,7 +177,9 @@ def test_a_long_recording_also_shows_a_stretch_whose_error_is_typical():
     assert plots.typical_stretch(si.Identification(pendulum(), pendulum_recording()).solve()) is None
 
 
-@pytest.mark.parametrize("pace", [1e-5, 1.0, 1e5])
+@pytest.mark.parametrize(
+    "pace", [1e-5, pytest.param(1.0, marks=pytest.mark.slow), pytest.param(1e5, marks=pytest.mark.slow)]
+)
 def test_figures_suit_the_pace_and_the_size_of_any_system(pace, tmp_path):
     """Micrometres in milliseconds, metres in seconds and metres in days; each time axis has its own unit."""
     size = 1e-6 if pace < 1 else 1.0

@@ -51,7 +51,7 @@ def test_a_curve_goes_on_to_the_ends_of_few_samples(samples):
     np.testing.assert_allclose(line, 3 + 2 * np.linspace(0, t[-1], 50), atol=1e-12)
 
 
-@pytest.mark.parametrize("backend", ["c", "numpy"])
+@pytest.mark.parametrize("backend", ["c", pytest.param("numpy", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("hold", ["linear", "cubic", "band-limited", "zero"])
 def test_a_stiff_integrator_sees_the_same_input(hold, backend):
     t = uneven(41)

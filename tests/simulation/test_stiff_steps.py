@@ -62,7 +62,7 @@ def test_the_error_of_stiff_steps_falls_with_their_square():
     assert np.abs(coarse - fine).max() > 3.5 * np.abs(half - fine).max() > 0
 
 
-@pytest.mark.parametrize("damping", [1.0, 100.0])
+@pytest.mark.parametrize("damping", [pytest.param(1.0, marks=pytest.mark.slow), 100.0])
 def test_sensitivities_of_what_sticks_match_central_differences(damping):
     """Explicit steps jump over where it sticks: their slopes grow to 1e24 there, for 0.3."""
 

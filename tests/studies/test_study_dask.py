@@ -175,6 +175,7 @@ def lose_the_scheduler(folder, moment: int, undisturbed) -> None:
     assert numbers(study(folder / "study").run_here(on_finished=None)) == undisturbed
 
 
+@pytest.mark.slow
 def test_a_lost_scheduler_ends_in_rows_and_the_study_resumes(tmp_path, undisturbed):
     lose_the_scheduler(tmp_path, 3, undisturbed)
 
