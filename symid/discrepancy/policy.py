@@ -73,6 +73,7 @@ class Policy:
             "slow_body_drag": 8.0,
             "body_friction": 4.0,
             "gyroscopic_force": 8.0,
+            "sensor_drift": 4.0,
             "inputs_lag": 10.0,
         }
     )

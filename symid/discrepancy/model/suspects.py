@@ -17,6 +17,7 @@ from symid.estimation.signals.segment import Segment
 from symid.mechanics import CANONICAL, suspects as terms_of
 from symid.mechanics.missing.drive_laws import LAG_LAWS, OFFSET_LAWS, has_own_zero
 from symid.mechanics.missing.flow_laws import FLOW_LAWS
+from symid.mechanics.missing.sensor_laws import SENSOR_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
 from symid.mechanics.missing.world_laws import GEOMETRY_LAWS
 from symid.mechanics.places import with_places
@@ -165,6 +166,7 @@ FAMILIES = (
     {"feedback_delay", "muscle_lag", "second_order_muscle_lag", "joint_feedback_delay", "joint_muscle_lag"},
     {"input_delay", "input_lag", "inputs_delay", "inputs_lag"},
     {"sensor_delay", "sensor_lag"},
+    {"sensor_offset", "sensor_drift"},
     {"body_drag", "slow_body_drag", "body_friction"},
     {"proportional_loss", "orifice_loss", "quadratic_loss", "constant_flow"},
     {"proportional_exchange", "orifice_exchange"},
@@ -256,9 +258,10 @@ PLAIN = (
     "gyroscopic_force",
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
-_NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *FLOW_LAWS)
+_NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *SENSOR_LAWS, *FLOW_LAWS)
 ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN}
-"""Names that are answers: of the answer files, of what may be stated wrongly, lags, zeros, flows, plain forces."""
+"""Names that are answers: of the answer files, of what may be stated wrongly, lags, zeros, drifts, flows, plain
+forces."""
 
 
 def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:

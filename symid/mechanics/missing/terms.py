@@ -12,6 +12,7 @@ from symid.mechanics.missing.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBAC
 from symid.mechanics.missing.flow_laws import FLOW_LAWS
 from symid.mechanics.missing.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
 from symid.mechanics.missing.pair_laws import PAIR_LAWS
+from symid.mechanics.missing.sensor_laws import SENSOR_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
 from symid.mechanics.missing.world_laws import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
 from symid.model import Law, Model, Term
@@ -36,6 +37,7 @@ LIBRARY: dict[str, Law] = {
         *OFFSET_LAWS,
         *BODY_LAWS,
         *PAIR_LAWS,
+        *SENSOR_LAWS,
         *FLOW_LAWS,
         *STATED_LAWS,
     )
