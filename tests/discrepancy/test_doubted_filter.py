@@ -38,21 +38,27 @@ def found() -> Audit:
     return audit(swing(), recording, segments_of(swing(), recording, recording.interval), None)
 
 
-def explained(monkeypatch, found: Audit, errors: tuple, driven: bool = False, memories: tuple = (0, 0)):
-    """What is chosen and the filters that it was explained under; each error is that of a free run, None unfitted.
+def explained(
+    monkeypatch, found: Audit, errors: tuple, driven: bool = False, memories: tuple = (0, 0), white: bool = False
+):
+    """What is chosen and the filters that it was explained under, from errors of free runs, None of what is unfitted.
 
-    memories : samples that the noise remembers under each.
+    errors, memories : with the filter and without, memories in samples of the noise.
+    white : whether what is found without a filter leaves white noise alone.
     """
-    asked, left, memory = [], iter(errors), iter(memories)
+    asked = []
 
     def under(possible, *_):
         asked.append(possible.filter)
-        error = next(left)
+        error, memory = (both[possible.filter is None] for both in (errors, memories))
         if error is None:
             raise DiagnosisError(f"explanation {len(asked)} cannot be fitted")
-        search = SimpleNamespace(data=SimpleNamespace(memory=next(memory)))
         return SimpleNamespace(
-            filter=possible.filter, plain="as it is", found=SimpleNamespace(fit=error), search=search
+            filter=possible.filter,
+            plain="as it is",
+            found=SimpleNamespace(fit=error),
+            search=SimpleNamespace(data=SimpleNamespace(memory=memory)),
+            leaves_white_noise=white,
         )
 
     def run(fit, data):
@@ -86,7 +92,7 @@ def test_a_smoothing_is_doubted_unless_it_was_stated(found):
 )
 def test_free_runs_choose_between_a_doubted_filter_and_none(monkeypatch, found, errors, filtered):
     chosen, asked = explained(monkeypatch, found, errors)
-    assert [f is not None for f in asked] == [True, False]
+    assert [f is not None for f in asked] == [False, True]
     assert (chosen.filter is not None) == filtered
 
 
@@ -104,6 +110,19 @@ def test_noise_that_is_coloured_only_where_a_filter_is_undone_speaks_against_it(
 ):
     chosen, _ = explained(monkeypatch, found, errors, memories=memories)
     assert (chosen.filter is not None) == filtered
+
+
+def test_what_is_explained_without_a_filter_is_not_searched_with_one(monkeypatch, found):
+    chosen, asked = explained(monkeypatch, found, (0.001, 0.1), white=True)
+    assert asked == [None] and chosen.filter is None
+
+
+def test_white_noise_that_remembers_nothing_is_all_that_may_be_left():
+    def left(memory: int, quiet: bool) -> bool:
+        search = SimpleNamespace(data=SimpleNamespace(memory=memory), quiet=lambda found: quiet)
+        return steps.Explained(None, None, None, search, None, []).leaves_white_noise
+
+    assert left(0, True) and not left(1, True) and not left(0, False)
 
 
 def test_a_recording_that_nothing_explains_says_why(monkeypatch, found):

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.signal import fftconvolve
 
 from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import HIGHEST_FREQUENCY, Suspect
 from symid.discrepancy.name.comb import comb
+from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.path import fitted_path
 from symid.estimation.predicting.kalman import linearised_along
 from symid.model import Model
@@ -46,6 +50,23 @@ def scan(projection: Projection, suspect: Suspect, model: Model) -> list[tuple[f
     low, high = suspect.strength.bounds
     found = [(g, v) for g, v in found if low <= v[strength] <= high]
     return sorted(found, key=lambda f: -f[0])
+
+
+def promising(known: Sequence[Hypothesis], best: Hypothesis, most: float) -> list[Hypothesis]:
+    """Those that promise enough of `most` beside `best` at the moment or frequency of their fits, at any phase."""
+    least = max(POLICY.worth_refitting, POLICY.beam_share * most)
+    beside = Projection(best.fit, best.data) if known else None
+    return [h for h in known if _promise(beside, h) > least]
+
+
+def _promise(projection: Projection, found: Hypothesis) -> float:
+    suspect, strength = found.suspect, found.suspect.strength
+    values = {q.key: found.fit.values[suspect.term.parameter_name(q.key)] for q in suspect.law.parameters}
+    sim = simulator(projection.fit.model.with_term(suspect.term))
+    columns = [
+        projection.response(suspect, sim, v | {strength.key: strength.null}) for v in suspect.quadratures(values)
+    ]
+    return 0.0 if any(c is None for c in columns) else projection.score(np.hstack(columns))[0]
 
 
 def _forgets(projection: Projection) -> bool:

@@ -15,6 +15,7 @@ from symid.discrepancy.name.explore import by_score, exact_where_leading, explor
 from symid.discrepancy.name.held import Holds
 from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
+from symid.discrepancy.name.scan import promising
 from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_holds
@@ -173,7 +174,7 @@ class Search(Judge):
         found = self._explored(best, states, least) if best.suspects else list(self.states_alone)
         first = self._preferred(best, found)
         if first is not None and best.suspects:
-            found += self._known_clocks(best, taken)
+            found += self._known_clocks(best, taken, max((h.forecast for h in found), default=0.0))
         elif clocks and (first is None or not self.quiet(first)):
             self.progress("looking for what follows a clock")
             found += self._explored(best, clocks, least)
@@ -216,9 +217,9 @@ class Search(Judge):
 
         return in_threads(with_jumps, found)
 
-    def _known_clocks(self, best: Hypothesis, taken: set) -> list[Hypothesis]:
-        """`best` with each clock that explained something alone, from where that was found."""
-        known = [h for h in self.clocks if h.suspect.term not in taken]
+    def _known_clocks(self, best: Hypothesis, taken: set, most: float) -> list[Hypothesis]:
+        """`best` with clocks that explained something alone and promise enough of `most` beside it, from there."""
+        known = promising([h for h in self.clocks if h.suspect.term not in taken], best, most)
         return self.together([([*best.suspects, h.suspect], h.fit.values) for h in known], best)
 
     def together(
@@ -258,8 +259,7 @@ class Search(Judge):
         rivals = [h for h in others if h.established and h.suspect.kind != "clock"]
         if alone:
             enough = POLICY.beam_share * best.score
-            rivals = [h for h in rivals if h.score > enough]
-            rivals = [h for h in rivals if self._worth(h, self.nothing)]
+            rivals = [h for h in rivals if h.score > enough and self._worth(h, self.nothing)]
         pairs = []
         for h in rivals[: POLICY.beam]:
             self.progress(f"looking for what would complete {h.suspect.term}")
