@@ -50,7 +50,7 @@ def bodies(model: Model, ports: Mapping[str, Port]) -> dict[str, Expression]:
     for name, at, parts in _parts(model, mass):
         half = (rates.T * parts * rates)[0] / 2
         known = [p.rate**2 for p in ports.values() if p.rate != 0] + [other.expr for other in found.values()]
-        if half == 0 or not _has(unit_of(model, half, model.time), "m^2/s^2"):
+        if half == 0 or not _has(unit_of(model, half, model.time), "m^2/s^2") or _are_several(half, joints, balances):
             continue
         if not any(_in_proportion(model, half, other) for other in known):
             found[f"{name}half_squared_speed"] = Expression(half, unit="m^2/s^2", role=ROLE, at=at)
@@ -69,6 +69,18 @@ def _parts(model: Model, mass: sm.Matrix) -> Iterator[tuple[str, str, sm.Matrix]
             yield f"{m.name}_", m.at or f"{ROLE}:{m.name}", part
     if not masses:
         yield "", f"{ROLE}:{model.name}", mass
+
+
+def _are_several(half: sm.Expr, joints: Mapping[str, Port], balances: Mapping[str, sm.Expr]) -> bool:
+    """Whether these are several bodies on one line, as masses between springs: forces join their coordinates.
+
+    Each moves for itself, and so do the coordinates of one body in the plane; but these no force joins.
+    """
+    own = {e: p for e, p in joints.items() if half.has(p.rate)}
+    moving = {s for p in joints.values() for s in p.rate.free_symbols | p.position.free_symbols}
+    apart = all(sm.diff(half, p.rate).free_symbols & moving == {p.rate} for p in own.values())
+    joined = any(balances[e].free_symbols & q.position.free_symbols for e in own for f, q in own.items() if f != e)
+    return apart and joined
 
 
 def _has(unit: str, like: str) -> bool:

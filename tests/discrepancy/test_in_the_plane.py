@@ -11,8 +11,11 @@ from symid.recording import Recording
 MASS, NOISE = 0.25, 5e-4
 
 
-def puck(weighed: bool = True) -> si.Model:
-    """A puck on an air table between springs; not `weighed`, its equations are divided by its mass."""
+def puck(weighed: bool = True, joined: float = 0) -> si.Model:
+    """A puck on an air table between springs; not `weighed`, its equations are divided by its mass.
+
+    With what `joined` adds, two carts between springs.
+    """
     m = si.Model("puck")
     m.x, m.y, m.vx, m.vy = (si.State(unit=u) for u in ("m", "m", "m/s", "m/s"))
     m.spring = si.Parameter(unit="N/m" if weighed else "1/s^2", bounds=(0.01, 100))
@@ -21,7 +24,8 @@ def puck(weighed: bool = True) -> si.Model:
         m.mass = si.Constant(MASS, unit="kg")
         mass = m.mass
     m.kin1, m.kin2 = si.Equation(m.x.dot - m.vx), si.Equation(m.y.dot - m.vy)
-    m.along, m.across = (si.Equation(mass * v.dot + m.spring * q) for v, q in ((m.vx, m.x), (m.vy, m.y)))
+    m.along = si.Equation(mass * m.vx.dot + m.spring * m.x + joined * (m.x - m.y))
+    m.across = si.Equation(mass * m.vy.dot + m.spring * m.y + joined * (m.y - m.x))
     m.seen1, m.seen2 = si.Output(m.x, channel="x"), si.Output(m.y, channel="y")
     return m
 
@@ -78,6 +82,12 @@ def test_a_body_of_which_no_mass_is_known_is_the_one_by_which_its_equations_were
         "slow_body_drag": "1/s",
         "body_friction": "m/s^2",
     }
+
+
+@pytest.mark.parametrize("weighed", [True, False])
+def test_what_springs_join_are_several_bodies_on_one_line(weighed):
+    """Friction of two carts with one mass in the model was taken for a drag on both and friction of one."""
+    assert with_places(puck(weighed)).find("body") and not with_places(puck(weighed, joined=3)).find("body")
 
 
 def test_one_coordinate_has_no_body_beside_its_joint_and_no_pair():
