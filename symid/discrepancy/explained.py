@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -102,20 +101,17 @@ def _clearer(
 
     A filter colours noise: where white noise is all that is left without one, there was none.
     """
-    without = None
-    with suppress(DiagnosisError):
+    try:
         without = under(plain)
-    if without is not None and without.leaves_white_noise:
+    except DiagnosisError:
+        return under(filtered)
+    if without.leaves_white_noise:
         return without
     progress("what looks like a fine sensor, or a slow motion, may be filtered; looking again with a filter")
     try:
         with_filter = under(filtered)
     except DiagnosisError:
-        if without is None:
-            raise
         return without
-    if without is None:
-        return with_filter
     whiter = without.search.data.memory == 0 and with_filter.search.data.memory > 0
     enough = (1.0 if whiter else CLEARER) * _error(with_filter, without.plain)
     return without if _error(without, without.plain) < enough else with_filter

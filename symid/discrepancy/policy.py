@@ -28,7 +28,7 @@ class Policy:
         motion (150 to 1). Drag with the square of the speed belongs to what moves through air or water, a friction with
         the speed to joints: the other way round is rarer (50 to 1). Dry friction alone is rarer than friction with
         the speed (7 to 1), which is the first term of every smooth loss. What spins or rotates is seldom
-        overlooked (50 to 1). One lag of all
+        overlooked (50 to 1); a sensor that drifts is rarer than one that is off (7 to 1). One lag of all
         drives is the same in the data as that of an only sensor, which is one fault and not several (150 to 1).
     braking : likewise of a constant force that takes energy from the motion all the time. A disc that runs down does
         not tell it from dry friction, which is in every bearing (7 to 1, its own odds above taken off).

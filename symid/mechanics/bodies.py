@@ -28,6 +28,8 @@ EQUAL = 1e-9
 """Relative difference of what is the same but for rounding."""
 SLOWEST = 1e-9
 """Speed [m/s] that a body at rest is taken to have: the root of its square has no derivative there."""
+STILL = 1e-9
+"""Likewise, in parts of the speed at which dry friction sets in."""
 
 
 def bodies(model: Model, ports: Mapping[str, Port]) -> dict[str, Expression]:
@@ -112,7 +114,7 @@ def _held_back(model: Model, place: str, coefficient: sm.Symbol, power: int) -> 
     size = sm.sqrt(2 * half + SLOWEST**2) ** (power - 1)
     if power == 0:
         turned = sum((p.rate / friction_speed(model, p, "body_friction")) ** 2 for p in joints)
-        size *= sm.tanh(sm.sqrt(turned + SLOWEST**2))
+        size *= sm.tanh(sm.sqrt(turned + STILL**2))
     for port in joints:
         model.add_effort(port.name, -coefficient * size * sm.diff(half, port.rate))
 

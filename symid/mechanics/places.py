@@ -16,6 +16,7 @@ from symid.errors import ModelError
 from symid.mechanics.bodies import bodies
 from symid.mechanics.flows import flow_ports
 from symid.mechanics.missing.laws import force_unit
+from symid.mechanics.missing.pair_laws import ROLE as PAIR
 from symid.mechanics.missing.stated import stated
 from symid.model import Input, Model, Output, Port, State
 from symid.model.dimensions import unit_of
@@ -127,7 +128,7 @@ def _pairs(model: Model, ports: Mapping[str, Port]) -> dict[str, Port]:
     """Ports from the motion of a joint to the balance of its neighbour (in order of declaration) of the same kind."""
     joints = {n: p for n, p in ports.items() if p.role == "joint" and len(p.into) == 1 and p.rate.is_Symbol}
     return {
-        f"{a}_{b}_pair": replace(q, into=p.into, role="pair", at=f"{p.at} and {q.at}")
+        f"{a}_{b}_pair": replace(q, into=p.into, role=PAIR, at=f"{p.at} and {q.at}")
         for (a, p), (b, q) in pairwise(joints.items())
         if p.unit == q.unit and dimension(signal_unit(model, p.rate)) == dimension(signal_unit(model, q.rate))
     }

@@ -22,7 +22,7 @@ SENSOR_LAWS: tuple[Law, ...] = (
         # Cheap gyroscopes drift by some hundredths of a degree a second.
         (LawParameter("rate_rad_s", "rad/s", (-inf, inf), typical=1e-3, plausible=1e-3),),
         _drift,
-        "The {place} drifts by {rate_rad_s}, from the beginning of the recording",
+        "The {place} drifts by {rate_rad_s} from time zero on",
         "Titterton & Weston 2004",
     ),
 )
