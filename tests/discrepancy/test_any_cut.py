@@ -9,8 +9,8 @@ from scipy.signal import lfilter
 import symid as si
 
 RECORDING = "slow_pendulum/recording.csv"
-ALIKE = {"constant_torque", "asymmetric_damping", "sensor_offset", "quadratic_stiffness"}
-"""What pushes a pendulum to one side, and what a hundred samples do not tell from it."""
+ALIKE = {"constant_torque", "asymmetric_damping", "sensor_offset", "sensor_drift", "quadratic_stiffness"}
+"""What pushes a pendulum or its reading to one side: a hundred samples with noise that remembers do not tell which."""
 BEST_BY_HAND_DEG = 0.498
 """Held-out error of viscous friction and a constant torque, in the recording's own README."""
 
