@@ -3,6 +3,7 @@
 import difflib
 import functools
 import re
+from collections import Counter
 from typing import NamedTuple
 
 import numpy as np
@@ -75,6 +76,11 @@ SUFFIXES: dict[str, KnownUnit] = {
 _GRAM = KnownUnit("g", "kg", 1e-3)
 _BY_TEXT = {unit.text: unit for unit in (_GRAM, *SUFFIXES.values())}
 
+_POWER = r"(kg|m|s|A|K|mol|cd|rad|Hz|N|Pa|J|W|C|V|ohm|F|Wb|T|H|S)(?:\^([1-9]))?"
+_PRODUCT = re.compile(rf"(?:1|{_POWER})(?:[*/]{_POWER})*")
+"""Powers of SI's own units, multiplied and divided: their factor is one (BIPM, The International System of Units 2019,
+section 2.3.4). Half a second passes until pint has been loaded to say so."""
+
 
 def known_unit(text: str) -> KnownUnit:
     """Unit text with its SI text and factor, for any unit that pint understands.
@@ -87,6 +93,8 @@ def known_unit(text: str) -> KnownUnit:
     text = normal(checked.kind(text, str, "a unit", UnitError))
     if text in _BY_TEXT:
         return _BY_TEXT[text]
+    if _PRODUCT.fullmatch(text):
+        return _si(text)
     factor, base = base_of(text)
     return KnownUnit(text, text if factor == 1.0 else base, factor)
 
@@ -110,7 +118,18 @@ def dimension(text: str):
 
 def same_dimension(a: str, b: str) -> bool:
     """Whether two unit texts measure the same kind of quantity: "deg" and "rad", not "m"."""
-    return normal(a) == normal(b) or dimension(a) == dimension(b)
+    a, b = normal(a), normal(b)
+    if a == b or _PRODUCT.fullmatch(a) and _PRODUCT.fullmatch(b) and _exponents(a) == _exponents(b):
+        return True
+    return dimension(a) == dimension(b)
+
+
+def _exponents(product: str) -> dict[str, int]:
+    """Exponent of each unit of a `_PRODUCT`, that of the radian left out."""
+    found: Counter[str] = Counter()
+    for sign, unit, power in re.findall(rf"([*/]?){_POWER}", product):
+        found[unit] += (-1 if sign == "/" else 1) * int(power or 1)
+    return {unit: power for unit, power in found.items() if power and unit != "rad"}
 
 
 def nearest(word: str, candidates, count: int = 3) -> list[str]:

@@ -170,10 +170,26 @@ def test_a_unit_with_an_offset_is_refused():
         si_factor("degC")
 
 
-def test_reading_column_units_does_not_import_pint():
+POWERS = st.tuples(
+    st.sampled_from("kg m s A K mol cd rad Hz N Pa J W C V ohm F Wb T H S".split()), st.sampled_from(["", "^2", "^3"])
+).map("".join)
+PRODUCTS = st.tuples(st.one_of(POWERS, st.just("1")), st.lists(st.tuples(st.sampled_from("*/"), POWERS), max_size=3)).map(
+    lambda product: product[0] + "".join(sign + power for sign, power in product[1])
+)
+
+
+@given(PRODUCTS, PRODUCTS)
+def test_products_of_si_units_are_what_pint_says(one, other):
+    assert units.si.base_of(one)[0] == known_unit(one).factor == 1.0
+    assert same_dimension(one, other) == (dimension(one) == dimension(other))
+    assert same_dimension(f"{one}*rad", f"{one}/rad^2")
+
+
+def test_usual_units_do_not_import_pint():
     code = (
         "import sys; from symid import units; "
-        "units.known_unit(units.split_column_name('ankle_angle_deg')[1]); "
+        "units.known_unit(units.split_column_name('ankle_angle_deg')[1]); units.known_unit('N*s^2/m'); "
+        "units.same_dimension('1/s^2', 'rad/s^2'); "
         "sys.exit('pint' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
