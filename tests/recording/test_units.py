@@ -173,9 +173,9 @@ def test_a_unit_with_an_offset_is_refused():
 POWERS = st.tuples(
     st.sampled_from("kg m s A K mol cd rad Hz N Pa J W C V ohm F Wb T H S".split()), st.sampled_from(["", "^2", "^3"])
 ).map("".join)
-PRODUCTS = st.tuples(st.one_of(POWERS, st.just("1")), st.lists(st.tuples(st.sampled_from("*/"), POWERS), max_size=3)).map(
-    lambda product: product[0] + "".join(sign + power for sign, power in product[1])
-)
+PRODUCTS = st.tuples(
+    st.one_of(POWERS, st.just("1")), st.lists(st.tuples(st.sampled_from("*/"), POWERS), max_size=3)
+).map(lambda product: product[0] + "".join(sign + power for sign, power in product[1]))
 
 
 @given(PRODUCTS, PRODUCTS)
