@@ -129,6 +129,7 @@ def test_one_case_from_the_command_line(capsys, tmp_path, shared):
     assert "Figure 2" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 def test_a_late_feedback_stands_beside_the_articles(shared):
     table = late_feedback(*_material(shared)).set_index("law")
     assert table["solved"].all() and np.isnan(table.loc["FPD", "delay_ms"])

@@ -53,6 +53,7 @@ def test_there_is_a_place_between_two_bodies_that_nothing_joins(options, places)
     assert all(p.unit == "N*m" for p in named.ports.values() if options.get("declared", True))
 
 
+@pytest.mark.slow
 def test_a_spring_between_two_pendulums_is_found():
     m, made = pendulums(), recorded(seed=3)
     laws = {s.term.name for s in few()}

@@ -186,6 +186,7 @@ def test_dry_friction_of_a_motor_is_found_from_its_speed():
     assert (effect.name, effect.location) == ("coulomb_friction", "tachometer") and abs(value - 0.03) < 4 * error
 
 
+@pytest.mark.slow
 def test_an_amplifier_that_ends_at_a_voltage_is_said_with_that_voltage():
     found = si.diagnose(motor(), turned(limit=4.0), fit_window=(0, 13), held_out=(13, 19.9))
     value, error = found.effects[0].parameters["limit_Nm"]

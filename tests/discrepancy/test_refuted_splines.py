@@ -46,7 +46,7 @@ def found() -> Hypothesis:
     return polished(hypothesis(friction, base, base, data, friction[0].named(friction[0].starts()[0])))
 
 
-@pytest.mark.parametrize(("size", "holds"), [(0.01, True), (0.0, False)])
+@pytest.mark.parametrize(("size", "holds"), [pytest.param(0.01, True, marks=pytest.mark.slow), (0.0, False)])
 def test_a_flexible_law_that_held_out_data_refute_is_left_out_of_the_improved_model(size, holds):
     names = found()
     unnamed = nameless(names, names.data, swing(2, size, 0.6))
