@@ -92,7 +92,13 @@ def check_derivatives(
     jacobian = compare(nlp.constraints, nlp.jacobian_matrix(z)) if nlp.m else None
     hessian = None
     if nlp.hessian is not None:
-        hessian = compare(lambda v: nlp.gradient(v) + nlp.jacobian_matrix(v).T @ lam, nlp.hessian_matrix(z, lam))
+        rows, cols = np.asarray(nlp.jacobian_rows), np.asarray(nlp.jacobian_cols)
+
+        def slope(v: np.ndarray) -> np.ndarray:
+            """Gradient of the Lagrangian; without a sparse matrix at each of a thousand points."""
+            return nlp.gradient(v) + np.bincount(cols, np.asarray(nlp.jacobian(v)) * lam[rows], minlength=nlp.n)
+
+        hessian = compare(slope, nlp.hessian_matrix(z, lam))
     return DerivativeReport(
         gradient[0], _words(gradient, lambda _: "the objective", nlp.describe_variable),
         jacobian and jacobian[0], _words(jacobian, nlp.describe_constraint, nlp.describe_variable),
