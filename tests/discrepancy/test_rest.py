@@ -7,6 +7,7 @@ import pytest
 import sympy as sm
 from driven_cart import TRUE, cart, data_of, recorded
 from rigs import ROD, law_of
+from scipy.signal import lfilter
 
 import symid as si
 from symid.discrepancy.locate.flexible_law import flexible_law
@@ -186,8 +187,31 @@ def test_what_acts_is_called_as_its_unit_says(unit, name):
     assert noun(unit) == name
 
 
-@pytest.mark.parametrize("samples", [WHITENESS_LAGS - 5, WHITENESS_LAGS, 400])
-def test_white_innovations_pass_for_white_however_few_there_are(samples):
-    plain = SimpleNamespace(whiten=lambda parts: np.vstack([a.reshape(-1, 1) for a in parts]), outputs=1)
-    white = np.random.default_rng(2).standard_normal((samples, 1))
-    assert 0 < _ljung_box(plain, [white], 0) < 2 * WHITENESS_LAGS
+def explained_by(lines: int, segments: int, samples: int) -> SimpleNamespace:
+    """A projection whose own unknowns are polynomials with so many coefficients in each segment of two outputs."""
+    one = np.linalg.qr(np.vander(np.linspace(-1, 1, samples), lines))[0] if lines else np.zeros((samples, 0))
+    own = np.kron(np.eye(segments), np.kron(one, np.eye(2)))
+    return SimpleNamespace(
+        own=own, outputs=2, data=SimpleNamespace(segments=[SimpleNamespace(recorded=np.zeros((samples, 2)))] * segments)
+    )
+
+
+@pytest.mark.parametrize(
+    ("lines", "segments", "samples"), [(0, 1, 20), (0, 1, 25), (0, 1, 400), (2, 40, 60), (4, 20, 30), (3, 100, 15)]
+)
+def test_white_errors_pass_for_white_however_short_the_segments_that_were_fitted(lines, segments, samples):
+    projection, rng = explained_by(lines, segments, samples), np.random.default_rng(2)
+    found = []
+    for _ in range(40):
+        white = rng.standard_normal(2 * segments * samples)
+        white -= projection.own @ (projection.own.T @ white)
+        found.append(_ljung_box(projection, white, 1))
+    lags = min(WHITENESS_LAGS, samples - 1)
+    assert 0.6 * lags < np.mean(found) < 1.25 * lags
+
+
+def test_errors_that_follow_from_earlier_ones_are_told_in_short_segments():
+    projection = explained_by(2, 40, 60)
+    coloured = lfilter([1], [1, -0.3], np.random.default_rng(3).standard_normal((2400, 2)), axis=0).ravel()
+    coloured -= projection.own @ (projection.own.T @ coloured)
+    assert _ljung_box(projection, coloured, 0) > 4 * WHITENESS_LAGS

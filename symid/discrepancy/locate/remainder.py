@@ -63,8 +63,7 @@ class Test:
 def remainder(fit: Fit, data: Data) -> list[Test]:
     """All tests, the least probable first."""
     projection, found = Projection(fit, data), []
-    rounded = _rounded(fit, data)
-    nulls = [projection.project(projection.whiten([s[:, :, None] for s in null])[:, 0]) for null in rounded]
+    nulls = [projection.project(projection.whiten([s[:, :, None] for s in null])[:, 0]) for null in _rounded(fit, data)]
     for term in flexible_terms(fit, data):
         try:
             sim = simulator(fit.model.with_term(term))
@@ -87,8 +86,8 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
         for place, gain, tried in modulated(projection)
     ]
     for o, y in enumerate(fit.model.outputs.values()):
-        statistic = _ljung_box(projection, fit.innovations, o) / _excess(
-            [_ljung_box(projection, r, o) for r in rounded], WHITENESS_LAGS
+        statistic = _ljung_box(projection, projection.rest, o) / _excess(
+            [_ljung_box(projection, r, o) for r in nulls], WHITENESS_LAGS
         )
         found.append(
             Test(y.at, "errors of prediction that follow from earlier ones", statistic, WHITENESS_LAGS, locates=False)
@@ -121,20 +120,27 @@ def _columns(projection: Projection, sim: Simulator, term: Term) -> np.ndarray |
     return projection.whiten(out)
 
 
-def _ljung_box(projection: Projection, innovations: Sequence[np.ndarray], output: int) -> float:
-    """Ljung-Box (1978) statistic of one output's innovations over all segments."""
-    total, count = np.zeros(WHITENESS_LAGS), 0
-    power = 0.0
-    whitened = projection.whiten([s[:, :, None] for s in innovations])
-    for s in np.split(whitened, np.cumsum([s.size for s in innovations])[:-1]):
-        e = s.reshape(-1, projection.outputs)[:, output]
-        count += len(e)
-        power += e @ e
-        total += [e[k:] @ e[:-k] for k in range(1, WHITENESS_LAGS + 1)]
-    r = total / power
-    lags = np.arange(1, WHITENESS_LAGS + 1)
-    pairs = np.maximum(count - lags, 1)  # where there is none r is 0
-    return count * (count + 2) * float(np.sum(r**2 / pairs))
+def _ljung_box(projection: Projection, rest: np.ndarray, output: int) -> float:
+    """Ljung-Box (1978) statistic of one output over all segments, of (N m,) white errors that are left of a fit.
+
+    What the unknowns explain of white errors correlates the rest: each segment's initial states alone make those of a
+    short one follow from earlier ones. That is known beforehand and taken out.
+    """
+    total, by_fit, pairs = np.zeros((3, WHITENESS_LAGS))
+    count, power, explained, begin = 0, 0.0, 0.0, 0
+    for e in projection.data.segments:
+        part = slice(begin, begin := begin + e.recorded.size)
+        left = rest[part].reshape(-1, projection.outputs)[:, output]
+        own = projection.own[part].reshape(len(left), projection.outputs, projection.own.shape[1])[:, output]
+        count, power, explained = count + len(left), power + left @ left, explained + np.sum(own**2)
+        for k in range(1, min(WHITENESS_LAGS, len(left) - 1) + 1):
+            total[k - 1] += left[k:] @ left[:-k]
+            by_fit[k - 1] -= np.sum(own[k:] * own[:-k])
+            pairs[k - 1] += len(left) - k
+    if power == 0 or explained >= count:
+        return 0.0
+    r = total / power - by_fit / (count - explained)
+    return count * (count + 2) * float(np.sum(r**2 / np.maximum(pairs, 1)))  # where there is no pair r is 0
 
 
 # ---- what rounding does to the tests -----------------------------------------------------------
