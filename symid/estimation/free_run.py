@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
 
@@ -82,15 +82,23 @@ def with_states_of(fit: Fit, data: Data) -> Fit | None:
     free = Data(data.segments, data.sensor_noise, driven=False, pace=data.pace)
     size = moves(np.vstack([e.recorded for e in data.segments]))
     fitter, found = Fitter.of(fit, free, fixed=tuple(fit.values)), []
-    for x0 in _beginnings(fit, data):
-        try:
+
+    def begin(x0: np.ndarray) -> None:
+        with suppress(SymidError):
             found.append(fitter.fit(fit.values, x0, fit.process))
-        except SymidError:
-            continue
+
+    def left() -> np.ndarray:
+        """(beginnings, segments) mean square of what is left, in parts of the motion's."""
+        return np.array([[np.mean((e / size) ** 2) for e in f.innovations] for f in found])
+
+    for x0 in _beginnings(fit, data):
+        begin(x0)
+    if (not found or np.any(left().min(axis=0) > 1)) and (x0 := _grown(fit, data)) is not None:
+        begin(x0)
     if not found:
         return None
     # Each segment has a state of its own, and so a best beginning of its own.
-    best = np.argmin([[np.sum((e / size) ** 2) for e in f.innovations] for f in found], axis=0)
+    best = np.argmin(left(), axis=0)
     if np.any(best != best[0]):
         together = np.array([found[i].initial[k] for k, i in enumerate(best)])
         with suppress(SymidError):  # in shorter steps of the integrator than some were found with
@@ -127,16 +135,27 @@ def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:
 
     And to the first tenth and more of it by and by: a run from rest need not last so long, or falls over by then.
     """
-    found = []
-    for parts in ((1.0,), (0.1, 0.3, 1.0)):
-        initial = plain
-        try:
-            for part in parts:
-                count = max(8, int(part * data.pace / data.segments[0].step))
-                heads = tuple(e.head(count) for e in data.segments)
-                head = Data(heads, data.sensor_noise, driven=False, pace=data.pace)
-                initial = Fitter.of(fit, head, fixed=tuple(fit.values)).fit(fit.values, initial, fit.process).initial
-        except SymidError:
-            continue
-        found.append(initial)
-    return found
+    by_pace = data.pace / data.segments[0].step
+    tried = (
+        _by_and_by(fit, data, plain, [max(8, int(part * by_pace)) for part in parts])
+        for parts in ((1.0,), (0.1, 0.3, 1.0))
+    )
+    return [x0 for x0 in tried if x0 is not None]
+
+
+def _grown(fit: Fit, data: Data) -> np.ndarray | None:
+    """States fitted to ever longer heads: of what falls over within a segment no far longer one finds the way."""
+    longest = max(len(e.time) for e in data.segments)
+    counts = [8 * 2**k for k in range(int(np.log2(max(longest / 8, 1))) + 1)]
+    return _by_and_by(fit, data, first_states(fit, data), counts)
+
+
+def _by_and_by(fit: Fit, data: Data, initial: np.ndarray, counts: Sequence[int]) -> np.ndarray | None:
+    """States fitted to heads of so many samples, one after the other; None where one of them diverges."""
+    try:
+        for count in counts:
+            head = Data(tuple(e.head(count) for e in data.segments), data.sensor_noise, driven=False, pace=data.pace)
+            initial = Fitter.of(fit, head, fixed=tuple(fit.values)).fit(fit.values, initial, fit.process).initial
+    except SymidError:
+        return None
+    return initial

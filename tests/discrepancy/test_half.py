@@ -8,7 +8,7 @@ from driven_cart import cart, data_of, recorded
 
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import Hypothesis, refit
-from symid.discrepancy.name.search import Search
+from symid.discrepancy.name.simpler import simpler_than_best, without_halves
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.judge import _as_survived
@@ -40,13 +40,22 @@ def test_of_two_forces_of_one_law_neither_is_next_to_nothing(torque, excess, hal
 
 def test_simpler_laws_are_tried_in_the_place_of_one_of_which_a_part_came_to_nothing():
     found = with_parts(0.02, 0.3)
-    search = Search(found.base, found.data, [STRIBECK, COULOMB, VISCOUS, SPRING], lambda: None)
-    instead = {h.suspects: h for h in search._instead([found])}
+    pool = [STRIBECK, COULOMB, VISCOUS, SPRING]
+    instead = {h.suspects: h for h in without_halves([found], pool, found.base)}
     assert instead.keys() == {(SPRING,), (COULOMB, SPRING), (VISCOUS, SPRING)}
     best = max(instead.values(), key=lambda h: h.fit.loglik2)
     assert best.suspects[0] is COULOMB
     assert best.fit.values[COULOMB.term.parameter_name("torque_Nm")] == pytest.approx(0.35, abs=0.02)
-    assert search._instead([with_parts(0.3, 0.3)]) == []
+    assert without_halves([with_parts(0.3, 0.3)], pool, found.base) == []
+
+
+def test_friction_that_falls_with_speed_leads_to_plain_friction_where_that_went_astray():
+    found = with_parts(0.2, 0.15)
+    led = Hypothesis((SPRING, STRIBECK), found.fit, found.base, found.data)
+    (simpler,) = simpler_than_best([led], [STRIBECK, COULOMB, VISCOUS, SPRING], near=0.0)
+    assert simpler.suspects == (SPRING, COULOMB)
+    assert simpler.fit.values[COULOMB.term.parameter_name("torque_Nm")] == pytest.approx(0.35, abs=0.02)
+    assert simpler_than_best([led, simpler], [COULOMB], near=simpler.log_ratio - 1) == []
 
 
 def test_a_law_whose_shape_ends_at_the_bound_of_what_is_possible_is_none():
@@ -61,7 +70,7 @@ def test_rubber_that_never_yields_is_tried_as_a_spring():
     values = rubber.named({"force_Nm": 1.0, size.key: size.bounds[1]})
     fit = refit([rubber], found.base, found.base, found.data, values, iterations=0)
     stuck = Hypothesis((rubber,), replace(fit, values=fit.values | values), found.base, found.data)
-    (instead,) = Search(found.base, found.data, [rubber, spring], lambda: None)._instead([stuck])
+    (instead,) = without_halves([stuck], [rubber, spring], found.base)
     assert instead.suspects == (spring,)
 
 

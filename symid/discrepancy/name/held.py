@@ -89,15 +89,20 @@ class Holds:
             return found
         fit = _met(near, self.jumps).fit
         other = Hypothesis(rest, fit, found.base, self.data)  # against one base: that held inputs are likelier counts
-        if self.better(found, other) is found:
-            return found
         if not same:
-            return other
+            return self.better(found, other)
         if fit.loglik2 <= found.fit.loglik2 + STRONG or not _follows(other):
             return found  # of a motion that is not met half a sample more or less may be better by chance
         begin = dict(v for s in late for v in s.named({LATE[s.term.name]: step / 2}).items())
         delayed = hypothesis([*rest, *late], found.fit, found.base, self.data, begin)
-        return found if delayed and self.better(_met(delayed, self.jumps), other) is not other else other
+        return found if delayed and _is_likelier(_met(delayed, self.jumps), other) else other
+
+
+def _is_likelier(one: Hypothesis, other: Hypothesis) -> bool:
+    """Whether one is believed more, whatever the doubt about the names of what both have."""
+    share = max(one, other, key=lambda h: h.log_ratio).share
+    value, than = (h.evidence(share) + h.doubt() - h.belief() for h in (one, other))
+    return value > than
 
 
 def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:

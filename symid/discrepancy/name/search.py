@@ -16,6 +16,7 @@ from symid.discrepancy.name.held import Holds
 from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
 from symid.discrepancy.name.scan import promising
+from symid.discrepancy.name.simpler import simpler_than_best, without_halves
 from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_holds
@@ -179,27 +180,11 @@ class Search(Judge):
             self.progress("looking for what follows a clock")
             found += self._explored(best, clocks, least)
             self.clocks = self.clocks or [h for h in found if h.suspect.kind == "clock" and self._worth(h, best)]
-        found = self._with_jumps(found + self._instead(found), best)
+        halves = without_halves(found, self.pool, self.base)
+        found = self._with_jumps(found + exact_where_leading(halves, least_near(found)), best)
+        found += simpler_than_best(found, self.pool, least_near(found))
         self.tried += found
         return by_score(found)
-
-    def _instead(self, found: Sequence[Hypothesis]) -> list[Hypothesis]:
-        """The best of `found` with a simpler law for one of which a part came to nothing, or none for an earlier one.
-
-        Friction that falls with speed may have stood for plain friction there and what the new one tells; rubber that
-        never yields is a spring.
-        """
-        sets = []
-        for h in sorted(found, key=lambda h: -h.log_ratio)[: POLICY.rivals]:
-            taken = {s.term for s in h.suspects}
-            for half in (s for s in h.suspects if h.is_half(s)):
-                rest = [s for s in h.suspects if s is not half]
-                if half is not h.suspect:
-                    sets.append((h, rest, {}))
-                alike = (o for o in self.pool if is_alike(o, half) and o.size < half.size and o.term not in taken)
-                sets += [(h, [o, *rest], o.off) for o in alike]
-        tried = in_threads(lambda s: hypothesis(s[1], s[0].fit, self.base, self.data, s[2], exact=False), sets)
-        return exact_where_leading([h for h in tried if h is not None], least_near(found))
 
     def _with_jumps(self, found: list[Hypothesis], less: Hypothesis) -> list[Hypothesis]:
         """`found` on top of `less`, with dry friction that is new there as abrupt as the recording likes it."""

@@ -1,0 +1,57 @@
+"""Laws of fewer unknowns in place of one that tells no more than they do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
+from symid.discrepancy.model.suspects import Suspect, is_alike
+from symid.discrepancy.policy import POLICY
+from symid.estimation.fitting.fit import Fit
+from symid.threads import in_threads
+
+
+def without_halves(found: Sequence[Hypothesis], pool: Sequence[Suspect], base: Fit) -> list[Hypothesis]:
+    """The best of `found` with a simpler law for one of which a part came to nothing, or none for an earlier one.
+
+    Friction that falls with speed may have stood for plain friction there and what the new one tells; rubber that
+    never yields is a spring.
+    """
+    sets = []
+    for h in sorted(found, key=lambda h: -h.log_ratio)[: POLICY.rivals]:
+        taken = {s.term for s in h.suspects}
+        for half in (s for s in h.suspects if h.is_half(s)):
+            rest = [s for s in h.suspects if s is not half]
+            if half is not h.suspect:
+                sets.append((h, rest, {}))
+            alike = (o for o in pool if is_alike(o, half) and o.size < half.size and o.term not in taken)
+            sets += [(h, [o, *rest], o.off) for o in alike]
+    tried = in_threads(lambda s: hypothesis(s[1], s[0].fit, base, s[0].data, s[2], exact=False), sets)
+    return [h for h in tried if h is not None]
+
+
+def simpler_than_best(found: Sequence[Hypothesis], pool: Sequence[Suspect], near: float) -> list[Hypothesis]:
+    """The best of `found` with a law of fewer unknowns in place of its last, from where that one ended.
+
+    Friction that falls with speed leads where plain friction alone did not find the way, and where all speeds are low
+    it is no other (a cart that balances a pole: tests/discrepancy/test_unstable_loops.py).
+
+    Parameters
+    ----------
+    near : log-likelihood ratio from which on such a law in `found` needs no other start.
+    """
+    best = max(found, key=lambda h: h.log_ratio, default=None)
+    if best is None or best.suspect.strength is None:
+        return []
+    *kept, last = best.suspects
+    keys = [q.key for q in last.law.parameters if q.null == 0 and q.unit == last.strength.unit]
+    size = sum(best.fit.values[last.term.parameter_name(k)] for k in keys)
+    led = {h.suspect.term for h in found if h.log_ratio > near}
+    simpler = [o for o in pool if is_alike(o, last) and o.size < last.size and o.term not in led]
+    simpler = [o for o in simpler if o.strength is not None and o.strength.unit == last.strength.unit]
+    begins = [o.named(o.starts()[0] | {o.strength.key: size}) for o in simpler]
+    tried = in_threads(
+        lambda s: hypothesis([*kept, s[0]], best.fit, best.base, best.data, s[1]),
+        list(zip(simpler, begins, strict=True)),
+    )
+    return [polished(h) for h in tried if h is not None]
