@@ -48,9 +48,14 @@ class Holds:
     jumps: Sequence[str] = ()
 
     def asked_again(self, found: Hypothesis) -> Hypothesis:
-        """`found`, or it with inputs held that were not, or else with inputs free that were held, if likelier."""
+        """`found`, or it with inputs held that were not, or else with inputs free that were held, if likelier.
+
+        Of a motion that is not met yet half a sample more or less may be likelier by chance.
+        """
         if (without := self.held(found)) is not found:
             return without
+        if not _follows(found):
+            return found
         free = unheld(found.fit, self.data, self.unstated)
         return found if free is found.fit else replace(found, fit=free)
 

@@ -1,4 +1,4 @@
-"""Machines that fall without their controller: a motion in short pieces, each from a state of its own."""
+"""Machines that a computer controls: its output is held, and what falls without it is followed in short pieces."""
 
 import numpy as np
 import pytest
@@ -76,6 +76,29 @@ def cart_pole(friction: float, seed: int) -> tuple[si.Model, si.Recording]:
     return m, si.Recording("pole", time, {"q": q, "a": a, "u": np.array(forces)}, {"q": "m", "a": "rad", "u": "N"})
 
 
+def positioner(dry: float, push: float, seed: int) -> tuple[si.Model, si.Recording]:
+    """A table on a screw, driven by a force held for 4 ms, 24 s, noise of 2 um; dry friction and a constant force."""
+    rng, time, mass = np.random.default_rng(seed), np.arange(6000) / 250, 95.0
+    part, turn = time % 6 / 6, 2 * np.pi * 6.0
+    wanted = 0.1 * (1 - np.cos(2 * np.pi * part)) * np.where(time // 6 % 2, -0.6, 1) + 0.02 * np.sin(4.4 * time)
+    x, before, seen, forces = np.zeros(2), 0.0, [], []
+    for goal in wanted:
+        seen.append(x[0] + rng.normal(0, 2e-6))
+        rate, before = (goal - before) * 250, goal
+        forces.append(mass * (turn**2 * (goal - seen[-1]) + 1.6 * turn * (rate - x[1])) + rng.normal(0, 0.3))
+        x = stepped(
+            lambda x, f=forces[-1]: np.array([x[1], (f - 200 * x[1] - dry * np.tanh(x[1] / 1e-4) - push) / mass]),
+            x, 0.004, 48,
+        )  # fmt: skip
+    m = si.Model("positioner")
+    m.q, m.v, m.u = si.State(unit="m"), si.State(unit="m/s"), si.Input(unit="N")
+    m.mass, m.viscous = si.Parameter(unit="kg", bounds=(10, 1000)), si.Parameter(unit="N*s/m", bounds=(0, 5000))
+    m.kinematics = si.Equation(m.q.dot - m.v)
+    m.balance = si.Equation(m.mass * m.v.dot + m.viscous * m.v - m.u)
+    m.seen = si.Output(m.q)
+    return m, si.Recording("table", time, {"q": np.array(seen), "u": np.array(forces)}, {"q": "m", "u": "N"})
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", [2, 3])
 @pytest.mark.parametrize("drag", [0.0, 0.3])
@@ -84,7 +107,7 @@ def test_a_levitated_ball_has_nothing_left_in_pieces_of_some_dozen_samples(drag,
     found = si.diagnose(model, recording, fit_window=(0.5, 3.0), held_out=(3.0, 5.9), threads=1)
     assert [e.name for e in found.effects] == ["viscous_friction"] * (drag > 0), str(found)
     assert found.verdict == ("missing_physics" if drag else "adequate"), str(found)
-    assert found.model.inputs["i"].hold == "zero"
+    assert found.final.model.inputs["i"].hold == "zero"
     for effect in found.effects:
         size, error = effect.parameters["coefficient_Nms_rad"]
         assert abs(size - drag) < 4 * error
@@ -99,3 +122,17 @@ def test_dry_friction_of_a_cart_that_balances_a_pole(seed):
     assert found.verdict == "missing_physics" and found.confirmed
     size, error = found.effects[0].parameters["torque_Nm"]
     assert abs(size - 0.6) < max(4 * error, 1e-3)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2])
+def test_friction_and_a_constant_force_of_a_positioner_are_told_to_the_last_digit(seed):
+    """Its first law alone does not meet the motion: whether inputs are held is no question then."""
+    model, recording = positioner(20.0, 3.2, seed)
+    found = si.diagnose(model, recording, fit_window=(0, 12), held_out=(12, 23.9), threads=1)
+    assert {e.name for e in found.effects} == {"coulomb_friction", "constant_torque"}, str(found)
+    assert found.verdict == "missing_physics" and found.confirmed
+    for effect in found.effects:
+        size, error = effect.parameters["torque_Nm"]
+        true = 20.0 if effect.name == "coulomb_friction" else 3.2
+        assert abs(size - true) < 4 * error and error < 1e-3 * true
