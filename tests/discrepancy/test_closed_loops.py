@@ -134,5 +134,5 @@ def test_friction_and_a_constant_force_of_a_positioner_are_told_to_the_last_digi
     assert found.verdict == "missing_physics" and found.confirmed
     for effect in found.effects:
         size, error = effect.parameters["torque_Nm"]
-        true = 20.0 if effect.name == "coulomb_friction" else 3.2
-        assert abs(size - true) < 4 * error and error < 1e-3 * true
+        true = 20.0 if effect.name == "coulomb_friction" else -3.2
+        assert abs(size - true) < 4 * error < 4e-3 * abs(true)
