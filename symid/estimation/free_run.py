@@ -13,6 +13,9 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data, observed_state
 
+SHORTEST = 8
+"""Samples of the shortest head to which a state is fitted: a position and a rate among noise."""
+
 
 @dataclass(frozen=True, eq=False)
 class FreeRun:
@@ -137,7 +140,7 @@ def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:
     """
     by_pace = data.pace / data.segments[0].step
     tried = (
-        _by_and_by(fit, data, plain, [max(8, int(part * by_pace)) for part in parts])
+        _by_and_by(fit, data, plain, [max(SHORTEST, int(part * by_pace)) for part in parts])
         for parts in ((1.0,), (0.1, 0.3, 1.0))
     )
     return [x0 for x0 in tried if x0 is not None]
@@ -146,7 +149,7 @@ def _short_fits(fit: Fit, data: Data, plain: np.ndarray) -> list[np.ndarray]:
 def _grown(fit: Fit, data: Data) -> np.ndarray | None:
     """States fitted to ever longer heads: of what falls over within a segment no far longer one finds the way."""
     longest = max(len(e.time) for e in data.segments)
-    counts = [8 * 2**k for k in range(int(np.log2(max(longest / 8, 1))) + 1)]
+    counts = [SHORTEST * 2**k for k in range(int(np.log2(max(longest / SHORTEST, 1))) + 1)]
     return _by_and_by(fit, data, first_states(fit, data), counts)
 
 

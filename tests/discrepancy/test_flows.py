@@ -106,6 +106,7 @@ def test_a_tank_that_leaks():
     assert found.runs["augmented_heldout"].rms < 1.1e-3
 
 
+@pytest.mark.slow
 def test_a_circuit_whose_capacitor_discharges_by_itself():
     """Charge leaks through the dielectric, 1 microsiemens of 10 microfarads."""
     rng, time = np.random.default_rng(7), np.arange(0, 60, 0.05)
@@ -174,6 +175,7 @@ def diagnosed_tank(drained_in_truth):
     )
 
 
+@pytest.mark.slow
 def test_a_tank_that_drains_as_torricelli_says():
     found = diagnosed_tank(lambda h: 0.4 * sm.sqrt(h))
     assert (found.verdict, found.confirmed) == ("missing_physics", True)

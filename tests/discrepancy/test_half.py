@@ -75,9 +75,16 @@ def test_rubber_that_never_yields_is_tried_as_a_spring():
 
 
 def test_a_size_that_surprises_beside_a_rest_is_what_it_looks_like_only():
-    evidence, effect = SimpleNamespace(survived=()), Effect("sensor_gain", "sensor:cart", {}, None, 1.0, "")
+    evidence, effect = SimpleNamespace(survived=(), proof=None), Effect("sensor_gain", "sensor:cart", {}, None, 1.0, "")
     assert _as_survived(effect, evidence, surprise=0.5 * POLICY.doubt).established
     assert not _as_survived(effect, evidence, surprise=2 * POLICY.doubt).established
+
+
+@pytest.mark.parametrize(("margin", "stays"), [(0.1, True), (-0.1, False)])
+def test_a_name_beside_a_rest_that_the_held_out_data_contradict_is_what_it_looks_like_only(margin, stays):
+    evidence = SimpleNamespace(survived=(), proof=SimpleNamespace(margin=margin))
+    effect = Effect("cubic_stiffness", "motor", {}, None, 1.0, "")
+    assert _as_survived(effect, evidence, surprise=0.0).established is stays
 
 
 def test_a_law_that_became_half_beside_another_loses_its_name_but_does_not_forbid_the_other():

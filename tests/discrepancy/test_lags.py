@@ -55,7 +55,7 @@ def recorded(seed: int, late_s: float = 0.0, pump_lag_s: float = 0.0, gauge_lag_
         pytest.param({"gauge_lag_s": 0.15}, "sensor_lag@sensor:gauge", 0.15, marks=pytest.mark.slow),
         pytest.param({"late_s": 0.06}, "inputs_delay@global", 0.06, marks=pytest.mark.slow),
         pytest.param({"late_s": 0.25}, "inputs_delay@global", 0.25, marks=pytest.mark.slow),
-        ({}, None, 0.0),
+        pytest.param({}, None, 0.0, marks=pytest.mark.slow),
     ],
 )
 def test_what_follows_with_a_lag_and_what_is_late_are_told_apart(how, name, value):

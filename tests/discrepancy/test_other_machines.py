@@ -69,7 +69,7 @@ def test_a_spring_that_stiffens_and_is_damped_although_neither_explains_much_alo
     assert "with the cube of its position" in found.words and "N/m³" in found.words and "deg" not in found.words
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(s, marks=pytest.mark.slow) for s in (1, 2))])
 def test_what_only_brakes_a_disc_that_runs_down_is_dry_friction(seed):
     """A constant torque would explain its speed as well, but dry friction is in every bearing."""
     m = si.Model("disc")

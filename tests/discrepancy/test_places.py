@@ -95,7 +95,8 @@ def test_suspects_of_a_model_without_ports_are_those_of_its_joints_sensors_and_d
     assert {"coulomb_friction@slide", "sensor_delay@sensor:slide", "input_dead_zone@input:push"} <= found
 
 
-@pytest.mark.parametrize("friction", [pytest.param(0.0, marks=pytest.mark.slow), 0.4])
+@pytest.mark.slow
+@pytest.mark.parametrize("friction", [0.0, 0.4])
 def test_dry_friction_is_found_without_a_port_and_nothing_where_nothing_is(friction):
     found = si.diagnose(
         slide(), recorded(lambda x, v, u: -friction * np.tanh(v / 1e-3)), fit_window=(0, 20), held_out=(20, 29.9)
@@ -118,6 +119,7 @@ def test_a_drive_that_does_nothing_below_a_force_is_said_with_that_force():
     assert "the input push does nothing below 0.5" in str(found)
 
 
+@pytest.mark.slow
 def test_a_stop_that_only_the_held_out_motion_reaches_is_no_adequate_model():
     free = recorded(lambda x, v, u: 0.0)
     early = free.time < 19.45
@@ -273,6 +275,7 @@ def test_two_gliders_that_lose_energy_lose_each_by_its_own_plain_law():
     assert {f"{e.name}@{e.location}" for e in found.effects} == {"viscous_friction@left", "viscous_friction@right"}
 
 
+@pytest.mark.slow
 def test_a_motion_that_nothing_can_drive_is_free_whether_that_is_said_or_not():
     m = slide()
     del m.components["u"], m.components["balance"]

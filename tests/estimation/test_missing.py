@@ -54,6 +54,7 @@ def test_segments_of_the_recording_stay_apart():
     assert [r.stop - r.start for r in left.runs] == [49, 50]
 
 
+@pytest.mark.slow
 def test_a_diagnosis_of_a_recording_with_gaps_finds_what_that_without_finds():
     rng = np.random.default_rng(2)
     m = model(False)

@@ -110,7 +110,7 @@ def strung(y: np.ndarray, order: int, size: float | None, **more) -> si.Identifi
     return si.Identification(m, si.Recording("driven", time, {"x": y}, {"x": "m"}), **more)
 
 
-@pytest.mark.parametrize(("known", "seed"), [(True, 0), (True, 1), (False, 1)])
+@pytest.mark.parametrize(("known", "seed"), [(True, 0), (True, 1), pytest.param(False, 1, marks=pytest.mark.slow)])
 def test_damping_beside_process_noise_is_that_of_the_kalman_filter(known, seed):
     """The largest joint density has no damping at all here: what noise drives has the rate that it likes."""
     y = driven(np.array([[-1.0]]), seed, count=200)

@@ -127,11 +127,10 @@ def _ljung_box(projection: Projection, rest: np.ndarray, output: int) -> float:
     short one follow from earlier ones. That is known beforehand and taken out.
     """
     total, by_fit, pairs = np.zeros((3, WHITENESS_LAGS))
-    count, power, explained, begin = 0, 0.0, 0.0, 0
-    for e in projection.data.segments:
-        part = slice(begin, begin := begin + e.recorded.size)
-        left = rest[part].reshape(-1, projection.outputs)[:, output]
-        own = projection.own[part].reshape(len(left), projection.outputs, projection.own.shape[1])[:, output]
+    count, power, explained = 0, 0.0, 0.0
+    ends = np.cumsum([e.recorded.size for e in projection.data.segments])[:-1]
+    for left, own in zip(np.split(rest, ends), np.split(projection.own, ends), strict=True):
+        left, own = left[output :: projection.outputs], own[output :: projection.outputs]
         count, power, explained = count + len(left), power + left @ left, explained + np.sum(own**2)
         for k in range(1, min(WHITENESS_LAGS, len(left) - 1) + 1):
             total[k - 1] += left[k:] @ left[:-k]

@@ -50,14 +50,13 @@ class Holds:
     def asked_again(self, found: Hypothesis) -> Hypothesis:
         """`found`, or it with inputs held that were not, or else with inputs free that were held, if likelier.
 
-        Of a motion that is not met yet half a sample more or less may be likelier by chance.
+        Of a motion that neither meets half a sample more or less may be likelier by chance.
         """
         if (without := self.held(found)) is not found:
             return without
-        if not _follows(found):
-            return found
         free = unheld(found.fit, self.data, self.unstated)
-        return found if free is found.fit else replace(found, fit=free)
+        other = found if free is found.fit else replace(found, fit=free)
+        return other if _follows(found) or _follows(other) else found
 
     def held(self, found: Hypothesis) -> Hypothesis:
         """`found`, or the same with inputs held and without lags of part of a sample, where that is believed more.

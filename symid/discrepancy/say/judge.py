@@ -60,17 +60,22 @@ def _unnamed(test: Test) -> Effect:
 def _as_survived(effect: Effect, evidence: Evidence, surprise: float) -> Effect:
     """The effect, not established where it may only imitate the rest.
 
-    That is where the halves of the recording contradict it, or its size surprises as much as a law without a name does.
+    That is where the halves of the recording or its held-out part contradict it, or its size surprises as much as a law
+    without a name does.
     """
     fallen = {(v.name, v.location) for v in evidence.survived if v.reason}
-    kept = (effect.name, effect.location) not in fallen and surprise <= POLICY.doubt
+    kept = (effect.name, effect.location) not in fallen and surprise <= POLICY.doubt and _helps(evidence)
     return replace(effect, established=effect.established and kept)
 
 
 def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> bool:
     """Whether a rest beside a finding that helps is less than the noise of sensors that nobody stated."""
-    better = evidence.proof is None or evidence.proof.margin > 0
-    return better and not audit.stated.all() and near_noise(evidence.found, search.data)
+    return _helps(evidence) and not audit.stated.all() and near_noise(evidence.found, search.data)
+
+
+def _helps(evidence: Evidence) -> bool:
+    """Whether held-out errors fall by what was found; so it is taken where no data were held out."""
+    return evidence.proof is None or evidence.proof.margin > 0
 
 
 def _voted(flexible: Hypothesis, effect: Effect, rest: Test | None) -> str:
