@@ -76,7 +76,7 @@ SUFFIXES: dict[str, KnownUnit] = {
 _GRAM = KnownUnit("g", "kg", 1e-3)
 _BY_TEXT = {unit.text: unit for unit in (_GRAM, *SUFFIXES.values())}
 
-_POWER = r"(kg|m|s|A|K|mol|cd|rad|Hz|N|Pa|J|W|C|V|ohm|F|Wb|T|H|S)(?:\^([1-9]))?"
+_POWER = r"(kg|m|s|A|K|mol|cd|rad|Hz|N|Pa|J|W|C|V|ohm|F|Wb|T|H|S)(?![A-Za-z])(?:\^([1-9]))?"
 _PRODUCT = re.compile(rf"(?:1|{_POWER})(?:[*/]{_POWER})*")
 """Powers of SI's own units, multiplied and divided: their factor is one (BIPM, The International System of Units 2019,
 section 2.3.4). Half a second passes until pint has been loaded to say so."""

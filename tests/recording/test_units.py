@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from hypothesis import given, strategies as st
+from hypothesis import example, given, settings, strategies as st
 
 from symid import units
 from symid.errors import RecordingError, UnitError
@@ -179,6 +179,9 @@ PRODUCTS = st.tuples(
 
 
 @given(PRODUCTS, PRODUCTS)
+@example("m", "mol")
+@example("W", "Wb")
+@settings(max_examples=300)
 def test_products_of_si_units_are_what_pint_says(one, other):
     assert units.si.base_of(one)[0] == known_unit(one).factor == 1.0
     assert same_dimension(one, other) == (dimension(one) == dimension(other))
