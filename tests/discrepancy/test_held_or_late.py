@@ -82,7 +82,7 @@ def test_a_delay_by_part_of_a_sample_is_compared_with_a_held_input_whatever_that
     base, late = fit_model(model, data), next(s for s in si.suspects(lag()) if s.term.name == "input_delay")
     late = Suspect(late.term)
     found = hypothesis([late], base, base, data, late.named({held_or_late.LATE[late.term.name]: STEP / 2}))
-    chosen = held_or_late.Holds(data, ["u"], lambda *two: max(two, key=lambda h: h.evidence(1.0))).held(found)
+    chosen = held_or_late.Holds(data, ["u"], lambda h, _: h.evidence(1.0)).held(found)
     assert chosen.suspects == ()
     assert chosen.fit.model.inputs["u"].hold == "zero"
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import log
@@ -175,6 +175,12 @@ def penalty(suspects: Sequence[Suspect], data: Data, before: Fit, after: Fit, sh
     states = after.initial.size - before.initial.size
     count = sum(s.size + (s.scanned is not None) for s in suspects)
     return price_of_one(share * data.samples) * count + 2.0 * states
+
+
+def most_believed(one: Hypothesis, other: Hypothesis, value: Callable[[Hypothesis, float], float]) -> Hypothesis:
+    """The one of larger value, where that part of the samples counts which the likelier of them says."""
+    share = max(one, other, key=lambda h: h.log_ratio).share
+    return max(one, other, key=lambda h: value(h, share))
 
 
 def is_met(fit: Fit, data: Data, times: float = POLICY.far) -> bool:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
-from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, is_near
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, is_near, most_believed
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.jump import with_jumps_again
 from symid.errors import SymidError
@@ -38,13 +38,14 @@ class Holds:
 
     Attributes
     ----------
-    unstated : inputs of which nobody said what they do between their samples. better : the one of two that is believed
-        more. jumps : constants that say how abruptly dry friction sets in and that nobody stated.
+    unstated : inputs of which nobody said what they do between their samples. value : how much a hypothesis is
+        believed where a share of the samples counts. jumps : constants that say how abruptly dry friction sets in and
+        that nobody stated.
     """
 
     data: Data
     unstated: Sequence[str]
-    better: Callable[[Hypothesis, Hypothesis], Hypothesis]
+    value: Callable[[Hypothesis, float], float]
     jumps: Sequence[str] = ()
 
     def asked_again(self, found: Hypothesis) -> Hypothesis:
@@ -94,25 +95,22 @@ class Holds:
         fit = _met(near, self.jumps).fit
         other = Hypothesis(rest, fit, found.base, self.data)  # against one base: that held inputs are likelier counts
         if not same:
-            return self.better(found, other)
+            return most_believed(found, other, self.value)
         if fit.loglik2 <= found.fit.loglik2 + STRONG or not _follows(other):
             return found  # of a motion that is not met half a sample more or less may be better by chance
         begin = dict(v for s in late for v in s.named({LATE[s.term.name]: step / 2}).items())
         delayed = hypothesis([*rest, *late], found.fit, found.base, self.data, begin)
-        return found if delayed and _is_likelier(_met(delayed, self.jumps), other) else other
-
-
-def _is_likelier(one: Hypothesis, other: Hypothesis) -> bool:
-    """Whether one is believed more, whatever the doubt about the names of what both have."""
-    share = max(one, other, key=lambda h: h.log_ratio).share
-    value, than = (h.evidence(share) + h.doubt() - h.belief() for h in (one, other))
-    return value > than
+        if delayed is None:
+            return other
+        # Whatever the names of what both have are worth.
+        best = most_believed(other, _met(delayed, self.jumps), lambda h, share: self.value(h, share) + h.doubt())
+        return other if best is other else found
 
 
 def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
     """The fit of a model as given, or that with inputs held where this is likelier."""
     nothing = Hypothesis((), fit, fit, data)
-    return Holds(data, unstated, lambda *two: max(two, key=lambda h: h.evidence(1.0))).held(nothing).fit
+    return Holds(data, unstated, lambda h, _: h.evidence(1.0) - h.doubt()).held(nothing).fit
 
 
 def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:

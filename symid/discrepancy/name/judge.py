@@ -8,7 +8,7 @@ from math import log
 from weakref import WeakKeyDictionary
 
 from symid.discrepancy.locate.remainder import Test, remainder
-from symid.discrepancy.model.hypothesis import Hypothesis, is_met
+from symid.discrepancy.model.hypothesis import Hypothesis, is_met, most_believed
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.fit import Fit
@@ -53,8 +53,7 @@ class Judge:
 
     def better(self, one: Hypothesis, other: Hypothesis) -> Hypothesis:
         """The one of two sets of suspects that is believed more."""
-        share = max(one, other, key=lambda h: h.log_ratio).share
-        return max(one, other, key=lambda h: self.value(h, share))
+        return most_believed(one, other, self.value)
 
     def _preferred(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
         """The one that is believed most, of those that are worth their price on top of `less`.

@@ -86,7 +86,7 @@ class Search(Judge):
         to_end : whether it goes on where the cutoff of a filter moves with what was found. All else hangs on that, too.
         """
         best, single = self.nothing, self.single
-        holds = Holds(self.data, self.unstated, self.better, self.jumps)
+        holds = Holds(self.data, self.unstated, self.value, self.jumps)
         more = self.known[0] if self.known else self._more(best, single)
         had: set[frozenset[Suspect]] = set()  # the same may be believed more beside friction of another abruptness
         while more is not None and frozenset(more.suspects) not in had:
