@@ -94,7 +94,7 @@ def with_states_of(fit: Fit, data: Data) -> Fit | None:
         """(beginnings, segments) mean square of what is left, in parts of the motion's."""
         return np.array([[np.mean((e / size) ** 2) for e in f.innovations] for f in found])
 
-    for x0 in _beginnings(fit, data):
+    for x0 in beginnings(fit, data):
         begin(x0)
     if (not found or np.any(left().min(axis=0) > 1)) and (x0 := _grown(fit, data)) is not None:
         begin(x0)
@@ -109,7 +109,7 @@ def with_states_of(fit: Fit, data: Data) -> Fit | None:
     return found[np.bincount(best).argmax()]
 
 
-def _beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
+def beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
     """Initial states to begin from: the fit's own, or what its predictor knows after some samples."""
     if (
         len(fit.initial) == len(data.segments)

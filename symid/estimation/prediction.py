@@ -12,7 +12,7 @@ import numpy as np
 
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.free_run import first_states
+from symid.estimation.free_run import beginnings
 from symid.estimation.signals.data import Data
 
 FORGOTTEN = 1.0
@@ -46,7 +46,9 @@ def predictions(fit: Fit, data: Data) -> Predictions:
     DiagnosisError : the model cannot follow these data.
     """
     fitter = Fitter(fit.model, data, fixed=tuple(fit.values), near=fit, tune="nothing")
-    begin = first_states(fit, data)
+    p = np.array([fit.values[k] for k in fitter.sim.parameters])
+    # From the wrong tooth of a motor no fit of the state finds the right one.
+    begin = max(beginnings(fit, data), key=lambda x0: fitter.evaluate(p, x0, fit.kalman_gain, fit.process))
     found = fitter.fit(fit.values, begin, fit.process, errors=False, kalman_gain=fit.kalman_gain)
     m, step = len(data.sensor_noise), data.segments[0].step
     constant = -0.5 * np.linalg.slogdet(2 * np.pi * fit.covariance)[1]

@@ -7,10 +7,15 @@ import numpy as np
 import pytest
 from driven_cart import TRUE, cart, data_of, recorded
 
+import symid as si
 from symid.estimation.fitting import bias
 from symid.estimation.fitting.bias import REPEATS, unbiased
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.noise_sizes import noise_sizes
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
+from symid.recording.signals.between import between
+from symid.simulation import simulator
 
 
 @cache
@@ -88,3 +93,27 @@ def test_failing_repeats_and_free_motions_leave_the_fit(monkeypatch):
     assert unbiased(fit, data, ["damping"]) is fit
     free = data_of(recorded(2, gust=0.0), driven=False, length=4.0)
     assert unbiased(fit, free, ["damping"]) is fit
+
+
+def test_repeats_hold_inputs_that_are_held():
+    """Half a sample of a square wave was taken for a bias of what it moves."""
+    m = si.Model("wheel")
+    m.w, m.u, m.gust = si.State(unit="rad/s"), si.Input(unit="N*m", hold="zero"), si.Noise(unit="N*m")
+    m.J, m.b = si.Parameter(unit="kg*m^2", bounds=(1e-3, 10)), si.Parameter(unit="N*m*s/rad", bounds=(0, 10))
+    m.turning = si.Equation(m.J * m.w.dot + m.b * m.w - m.u - m.gust)
+    m.seen = si.Output(m.w, channel="speed")
+    rng, step = np.random.default_rng(4), 0.05
+    t = np.arange(400) * step
+    u = np.sign(np.sin(7.0 * t))
+    fine = between(t, u, np.linspace(0, t[-1], 399 * 8 + 1), "zero")
+    run = simulator(m).simulate(
+        {"J": 0.2, "b": 0.3}, [0.0], np.linspace(0, t[-1], len(fine)), {"u": fine},
+        noise={"gust": 0.02 * rng.standard_normal(len(fine))},
+    )  # fmt: skip
+    seen = run.y[::8] + 1e-3 * rng.standard_normal((400, 1))
+    data = Data((Segment(t, seen, {"u": u}),), np.array([1e-3]), driven=True)
+    fit = fit_model(m, data)
+    sizes = noise_sizes(fit, data)
+    repeats = np.array([bias._repeat(fit, data, *sizes, seed) for seed in range(12)])
+    missed = (repeats.mean(0) - list(fit.values.values())) / [fit.errors[k] for k in fit.values]
+    assert np.abs(missed).max() < 1.5

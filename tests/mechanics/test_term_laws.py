@@ -6,6 +6,7 @@ import sympy as sm
 from term_models import CART, RIG, STANDING, effort
 
 import symid as si
+from symid.errors import ModelError
 from symid.mechanics import LIBRARY, BenchDoublePendulum, lagrange_residuals
 
 
@@ -145,6 +146,31 @@ def test_hysteresis_saturates_at_its_force_and_starts_as_a_spring():
     assert row.xreplace({z.symbol: sm.S.Zero}) == -w
     assert row.xreplace({z.symbol: sm.S.One, w: sm.Integer(2)}) == 0
     assert row.xreplace({z.symbol: -sm.S.One, w: sm.Integer(-2)}) == 0
+
+
+def test_a_bent_loop_saturates_or_stiffens_on_the_way_out_and_springs_back_steeper():
+    model = RIG.with_term(LIBRARY["bent_hysteresis"].at("joint1"))
+    z, w = model.bent_hysteresis_joint1_strain, RIG.link1_velocity.symbol
+    rate = (-model.bent_hysteresis_joint1_strain_equation.expr).xreplace({z.dot: sm.S.Zero})
+    shape = model.bent_hysteresis_joint1_shape.symbol
+
+    def slope(strain, speed, bend):
+        return float(rate.xreplace({z.symbol: sm.Float(strain), w: sm.Float(speed), shape: sm.Float(bend)}) / speed)
+
+    assert slope(0.5, 2.0, 1.0) == 0.0 and slope(-0.5, -2.0, 1.0) == 0.0
+    assert slope(0.5, 2.0, -1.4) == pytest.approx(1.2) and slope(-0.5, -2.0, -1.4) == pytest.approx(1.2)
+    assert slope(0.5, -2.0, -1.4) == pytest.approx(2.2)
+
+
+def test_what_comes_back_in_each_turn_needs_a_joint_that_turns():
+    force, _, augmented = effort(RIG, LIBRARY["cogging_torque"].at("joint1"))
+    sizes = {"amplitude_Nm": 0.5, "per_turn": 6.0, "phase_rad": 0.3}
+    table = {augmented[f"cogging_torque_joint1_{k}"].symbol: v for k, v in sizes.items()}
+    q = RIG.link1_angle.symbol
+    torque = sm.lambdify(q, force.xreplace(table))
+    assert torque(0.2) == pytest.approx(0.5 * np.sin(6 * 0.2 + 0.3)) == torque(0.2 + np.pi / 3)
+    with pytest.raises(ModelError, match="the cart does not turn; give the law a joint that does"):
+        CART.with_term(LIBRARY["cogging_torque"].at("cart"))
 
 
 def test_input_gain_and_delay_reach_the_drive_in_either_order():

@@ -82,3 +82,12 @@ def test_a_held_input_that_is_late_answers_to_its_delay(backend, delay):
     h = 1e-6
     slope = (exact(delay + h) - exact(delay)) / h  # to one side: where a sample is met the other differs
     np.testing.assert_allclose(run.dy[:, 0, 0], slope, atol=0.05 * np.abs(slope).max())
+
+
+@pytest.mark.parametrize("step", [0.002, 0.01, 1 / 30])
+def test_a_held_input_changes_at_its_samples_however_their_times_were_computed(step):
+    t = np.cumsum(np.full(500, step)) - step
+    fine = np.arange(499 * 8 + 1) * step / 8
+    u = np.arange(500.0)
+    np.testing.assert_array_equal(between(t, u, fine, "zero"), np.r_[np.repeat(u[:-1], 8), u[-1]])
+    np.testing.assert_allclose(between(t, u, fine, "either"), np.arange(499 * 8 + 1) / 8, atol=1e-9)

@@ -19,6 +19,7 @@ from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.model import Model
 from symid.recording import Recording
+from symid.recording.signals.between import between
 from symid.simulation import Simulator
 from symid.units import known_unit
 
@@ -101,7 +102,7 @@ def sensed(
             values,
             start,
             fine,
-            {k: np.interp(fine, time, u) for k, u in inputs.items()},
+            {k: between(time, u, fine, simulator.model.inputs[k].hold) for k, u in inputs.items()},
             noise={k: size * s * rng.standard_normal(len(fine)) for k, s in forces.items()},
             substeps=-(-SUBSTEPS // holds),
         )

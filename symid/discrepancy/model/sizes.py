@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -26,11 +26,13 @@ class Sizes:
     Attributes
     ----------
     pace : seconds. reach, torque : by place, where they are not as usual.
+    turning : places of joints that turn by more than one turn, where a torque may come back in each of them.
     """
 
     pace: float = 1.0
     reach: Mapping[str, float] = field(default_factory=dict)
     torque: Mapping[str, float] = field(default_factory=dict)
+    turning: Collection[str] = ()
 
     def at(self, place: str) -> dict[str, float]:
         """By unit."""
@@ -46,7 +48,17 @@ class Sizes:
 
 def sizes_of(fit: Fit, data: Data) -> Sizes:
     """Of a fitted model and the motion to which it was fitted."""
-    return Sizes(data.pace, _reaches(fit, data), _torques(fit, data))
+    return Sizes(data.pace, _reaches(fit, data), _torques(fit, data), _turning(fit, data))
+
+
+def _turning(fit: Fit, data: Data) -> list[str]:
+    joints = [p for p in fit.model.ports.values() if p.role == "joint"]
+    moved = {p.at: weights_of(fit.model, p.position) for p in joints}
+    return [
+        place
+        for place, weights in moved.items()
+        if weights is not None and max(float(np.ptp(e.recorded @ weights)) for e in data.segments) > 2 * np.pi
+    ]
 
 
 def _reaches(fit: Fit, data: Data) -> dict[str, float]:

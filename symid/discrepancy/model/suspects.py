@@ -23,8 +23,10 @@ from symid.mechanics.missing.world_laws import GEOMETRY_LAWS
 from symid.mechanics.places import with_places
 from symid.model import Law, LawParameter, Model, Term
 
-SCANNED = ("frequency", "start", "moment")
-"""What of a clock is looked for on a grid over the recording."""
+SCANNED = ("frequency", "start", "moment", "turn")
+"""What is looked for on a grid: of a clock over the recording, of a turn over whole numbers."""
+MOST_PER_TURN = 48
+"""Up to here a torque that comes back in each turn is looked for: magnets and teeth of small motors. A judgement."""
 KINDS = {
     "sensor": "sensor",
     "gravity": "geometry",
@@ -76,7 +78,8 @@ class Suspect:
     def kind(self) -> str:
         """One of the kinds that `Policy.odds` knows."""
         first = self.law.acts_on if isinstance(self.law.acts_on, str) else self.law.acts_on[0]
-        return "clock" if self.scanned is not None else KINDS.get(first, "state")
+        follows_clock = self.scanned is not None and self.scanned.clock != "turn"
+        return "clock" if follows_clock else KINDS.get(first, "state")
 
     @property
     def bypasses(self) -> bool:
@@ -146,6 +149,8 @@ class Suspect:
                 places = np.arange(
                     max(q.bounds[0], 1.5 / span), min(q.bounds[1], HIGHEST_FREQUENCY / data.pace), 0.75 / span
                 )
+            elif q.clock == "turn":
+                places = np.arange(1, MOST_PER_TURN + 1)
             elif q.clock == "moment":
                 places = np.linspace(t0 + 0.04 * span, t1 - 0.04 * span, 40)
             else:
@@ -158,7 +163,7 @@ class Suspect:
 FAMILIES = (
     {"viscous_friction", "coulomb_friction", "stribeck_friction", "joint_drag", "quadratic_drag", "link_drag"},
     {"coulomb_friction", "stribeck_friction", "bouc_wen_hysteresis"},
-    {"torsional_spring", "bouc_wen_hysteresis"},
+    {"torsional_spring", "bouc_wen_hysteresis", "bent_hysteresis"},
     {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "constant_torque"},
     {"cubic_stiffness", "end_range_stiffness"},
     {"constant_torque", "quadratic_stiffness", "asymmetric_damping"},
@@ -184,6 +189,7 @@ LOSSES = (
     "body_friction",
     "load_dependent_friction",
     "bouc_wen_hysteresis",
+    "bent_hysteresis",
 )
 """Laws by which a mechanism loses energy."""
 EVERYWHERE = "global"
@@ -226,6 +232,8 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     for term in terms_of(model):
         if term.law in OFFSET_LAWS and not has_own_zero(model, term.location):
             continue
+        if any(q.clock == "turn" for q in term.law.parameters) and term.location not in sizes.turning:
+            continue
         term = replace(term, law=_sized(term.law, sizes.at(term.location)))
         equations = _equations(model, term)
         if equations is not None:
@@ -256,6 +264,7 @@ PLAIN = (
     "slow_body_drag",
     "body_friction",
     "gyroscopic_force",
+    "cogging_torque",
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
 _NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *SENSOR_LAWS, *FLOW_LAWS)

@@ -16,7 +16,8 @@ from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, i
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.jump import with_jumps_again
 from symid.errors import SymidError
-from symid.estimation.between_samples import input_groups, with_likeliest_holds
+from symid.estimation.between_samples import holds_of, input_groups, with_likeliest_holds
+from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
@@ -110,7 +111,29 @@ class Holds:
 def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
     """The fit of a model as given, or that with inputs held where this is likelier."""
     nothing = Hypothesis((), fit, fit, data)
-    return Holds(data, unstated, lambda h, _: h.evidence(1.0) - h.doubt()).held(nothing).fit
+    if unstated and not _follows(nothing):
+        return _held_as_predicted(fit, data, unstated)
+    return _held_alone(nothing, unstated).fit
+
+
+def _held_alone(nothing: Hypothesis, unstated: Sequence[str]) -> Hypothesis:
+    return Holds(nothing.data, unstated, lambda h, _: h.evidence(1.0) - h.doubt()).held(nothing)
+
+
+def _held_as_predicted(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
+    """The fit, or that with inputs held where predictions from sample to sample are likelier so.
+
+    They follow a motion that the model as given does not meet, as if its inputs had noise.
+    """
+    predicted = replace(data, driven=True)
+    try:
+        noisy = fit_model(fit.model.with_input_noise(), predicted, fit.values, exact=False)
+        held = _held_alone(Hypothesis((), noisy, noisy, predicted), unstated).fit
+        if held is noisy:
+            return fit
+        return Fitter(fit.model.with_holds(**holds_of(held, fit)), data, near=fit).again(fit)
+    except SymidError:
+        return fit  # what cannot be followed tells nothing
 
 
 def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:

@@ -97,7 +97,7 @@ def survivals(
     others : all suspects in `fit`, where those asked for are not all.
     white : whether innovations are white, so that plain standard errors are believed.
     """
-    lasting = [s for s in suspects if s.scanned is None or s.scanned.clock == "frequency"]
+    lasting = [s for s in suspects if s.scanned is None or s.scanned.clock in ("frequency", "turn")]
     if not lasting or not fit.errors:
         return ()
     all_suspects = list(others or suspects)

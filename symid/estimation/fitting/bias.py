@@ -18,6 +18,7 @@ from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.noise_sizes import noise_sizes
 from symid.estimation.predicting.kalman import held, is_white
 from symid.estimation.signals.data import Data
+from symid.recording.signals.between import between
 from symid.threads import in_threads
 
 REPEATS = 8
@@ -72,7 +73,7 @@ def _repeat(fit: Fit, data: Data, forces: np.ndarray, sensors: np.ndarray, seed:
             fit.values,
             x0,
             time,
-            {k: np.interp(time, fine, u) for k, u in e.inputs.items()},
+            {k: between(fine, u, time, fit.model.inputs[k].hold) for k, u in e.inputs.items()},
             noise=noise,
             substeps=-(-fit.substeps // holds),
             method=fit.method,

@@ -6,11 +6,22 @@ from math import inf
 
 import sympy as sm
 
-from symid.mechanics.missing.laws import dry, effort_law, fit_units, parameter_name, port_at, time_derivative
+from symid.errors import ModelError
+from symid.mechanics.missing.laws import (
+    coordinate_unit,
+    dry,
+    effort_law,
+    fit_units,
+    parameter_name,
+    port_at,
+    time_derivative,
+)
 from symid.model import Equation, Law, LawParameter, State
 
 _POSITIVE = (0.0, inf)
 _BOTH_SIGNS = (-inf, inf)
+_FAR_STRAIN = 20.0
+"""Yield strains that no loop is expected to reach; one that stiffens has no end of its own."""
 _GATE = 40
 """A push begins and ends within this part of its duration, where sin^2 is below 1 %."""
 
@@ -30,25 +41,43 @@ def _push(m, port, p):
     return p.peak_Nm * sm.sin(sm.pi * since) ** 2 * inside
 
 
+def _cogging(model, place, p):
+    """Of magnets before teeth or, once in a turn, of what is out of balance: A sin(n q + phase)."""
+    fit_units(model, place, p)
+    if coordinate_unit(model, place) != "rad":
+        raise ModelError(f"cogging_torque@{place}: the {place} does not turn; give the law a joint that does")
+    port = port_at(model, "joint", place)
+    model.add_effort(port.name, p.amplitude_Nm * sm.sin(p.per_turn * port.position + p.phase_rad))
+
+
+def _strain(model, law, place, bound):
+    """Declare the hysteretic strain of `law` at `place`."""
+    name = parameter_name(law, place, "strain")
+    meaning = "hysteretic strain, in yield strains; forgets its start, begin at 0"
+    setattr(model, name, State(unit="1", bounds=(-bound, bound), role="memory", at=place, meaning=meaning))
+    return model[name]
+
+
 def _hysteresis(model, place, p):
     """Bouc-Wen with exponent 2: y z' = w - (|w z| z + w z^2)/2, torque -F z (z stays within -1 ... 1)."""
     fit_units(model, place, p)
     port = port_at(model, "joint", place)
-    name = parameter_name("bouc_wen_hysteresis", place, "strain")
-    setattr(
-        model,
-        name,
-        State(
-            unit="1",
-            bounds=(-1.2, 1.2),
-            role="memory",
-            at=place,
-            meaning="hysteretic strain, in yield strains; forgets its start, begin at 0",
-        ),
-    )
-    z, w = model[name], port.rate
+    z, w = _strain(model, "bouc_wen_hysteresis", place, 1.2), port.rate
     slip = (sm.Abs(w) * sm.Abs(z.symbol) * z + w * z**2) / 2
-    setattr(model, f"{name}_equation", Equation(p.yield_rad * z.dot - w + slip))
+    setattr(model, f"{z.name}_equation", Equation(p.yield_rad * z.dot - w + slip))
+    model.add_effort(port.name, -p.force_Nm * z)
+
+
+def _bent_hysteresis(model, place, p):
+    """Bouc-Wen with exponent 1 and any shape s: y z' = w - |w| z - s w |z|, torque -F z.
+
+    On the way out z follows dz/dx = (1 - (1 + s) z)/y: it saturates with s > -1, and stiffens with s < -1.
+    """
+    fit_units(model, place, p)
+    port = port_at(model, "joint", place)
+    z, w = _strain(model, "bent_hysteresis", place, _FAR_STRAIN), port.rate
+    slip = sm.Abs(w) * z + p.shape * w * sm.Abs(z.symbol)
+    setattr(model, f"{z.name}_equation", Equation(p.yield_rad * z.dot - w + slip))
     model.add_effort(port.name, -p.force_Nm * z)
 
 
@@ -203,6 +232,18 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         "Newton 1687",
     ),
     Law(
+        "cogging_torque",
+        "joint",
+        (
+            LawParameter("amplitude_Nm", "N*m", _POSITIVE),
+            LawParameter("per_turn", "1", (0.5, 100.0), None, clock="turn"),
+            LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,), clock="phase"),
+        ),
+        _cogging,
+        "A torque of {amplitude_Nm} comes back {per_turn} times in each turn of the {place}",
+        "Newton 1687",
+    ),
+    Law(
         "bouc_wen_hysteresis",
         "joint",
         (
@@ -211,6 +252,18 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         ),
         _hysteresis,
         "The {place} holds on like dry rubber: {force_Nm} after a yield of {yield_rad}",
+        "Bouc 1967; Wen 1976",
+    ),
+    Law(
+        "bent_hysteresis",
+        "joint",
+        (
+            LawParameter("force_Nm", "N*m", _POSITIVE),
+            LawParameter("yield_rad", "rad", (1e-4, 5.0), None, (0.02, 0.1), 0.1),
+            LawParameter("shape", "1", (-5.0, 5.0), None, (-1.0, 0.5), 1.0),
+        ),
+        _bent_hysteresis,
+        "A hysteresis of {force_Nm} per {yield_rad}, of shape {shape} (below -1 it stiffens), holds the {place}",
         "Bouc 1967; Wen 1976",
     ),
 )

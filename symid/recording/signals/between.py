@@ -9,6 +9,8 @@ import numpy as np
 CURVES = "cubic", "band-limited"
 """Splines through the samples, of degree 3 and 9. At six samples a period they lose 0.2 and 0.002 % of a sine, at three
 6 and 0.2 %; the sharper one rings longer where an input jumps."""
+ROUNDED = 1e-6
+"""Part of an interval by which times that were computed otherwise may miss a sample."""
 HALF = 5
 """Of the order of band-limited splines: beyond their ends they would go on as polynomials of a degree below this. With
 the degree's own polynomials the first interval of a sine sampled three times a period would err by three times its size
@@ -73,10 +75,19 @@ def bend(
 
 
 def between(time: np.ndarray, u: np.ndarray, at: np.ndarray, hold: str) -> np.ndarray:
-    """(K,) the curve through the (N,) samples `u` at other times within them, by a `hold` of `CURVES`."""
-    k = np.clip(np.searchsorted(time, at, side="right") - 1, 0, len(time) - 2)
-    slopes, bends = derivatives(time, u[:, None], [hold])
+    """(K,) an input with the (N,) samples `u`, N >= 2, at other times within them.
+
+    Parameters
+    ----------
+    hold : what it does between its samples: "zero", one of `CURVES`, or lines for all else.
+    """
+    k = np.clip(np.searchsorted(time, at + ROUNDED * (time[1] - time[0]), side="right") - 1, 0, len(time) - 2)
     h = time[k + 1] - time[k]
     f, line = (at - time[k]) / h, (u[k + 1] - u[k]) / h
+    if hold == "zero":
+        return np.where(f < 1 - ROUNDED, u[k], u[k + 1])
+    if hold not in CURVES:
+        return u[k] + f * h * line
+    slopes, bends = derivatives(time, u[:, None], [hold])
     ends = None if bends is None else (bends[k, 0], bends[k + 1, 0])
     return u[k] + f * h * line + bend(f, h, slopes[k, 0] - line, slopes[k + 1, 0] - line, ends)[0]
