@@ -23,6 +23,7 @@ from symid.discrepancy.name.equivalents import equivalents
 from symid.discrepancy.name.explore import by_score
 from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
+from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of
 from symid.estimation.fitting.correlated import begun_correlated, is_correlated, with_correlated_forces
@@ -147,12 +148,20 @@ def _again(
         known = [replace(found, fit=explained), *(h for h in search.known if h.suspects != found.suspects)]
         again = _going_on(search, known, data, searched)
         return again, *again.run(to_end)
+    led = _leading(search)
     search = searched(_refitted(search.base, explained, data), data)
-    again, ranking = search.run(to_end)
     kept = Hypothesis(found.suspects, explained, search.base, data)
+    search.met = search.together([(h.suspects, h.fit.values) for h in led], kept)
+    again, ranking = search.run(to_end)
     known = [kept, *search.together([(h.suspects, h.fit.values) for h in likes], kept)]
     search.tried += known
     return search, reduce(search.better, known, again), ranking
+
+
+def _leading(search: Search) -> list[Hypothesis]:
+    """The suspects that explained most alone: a fit under another error model need not find the way to them again."""
+    most = max((h.log_ratio for h in search.single), default=0.0)
+    return [h for h in search.single if h.log_ratio > POLICY.beam_share * most][: POLICY.rivals]
 
 
 def _coloured(fit: Fit, data: Data) -> tuple[Data, Fit]:

@@ -38,6 +38,7 @@ class Search(Judge):
     regression : where a model that is fitted as if nothing were known begins, too.
     starts : where fits on top of the model as given begin, until each suspect was tried alone.
     known : suspects alone, best first, where they are known from another error model; the search goes on from the best.
+    met : suspects alone that explained much under another error model, refitted from there: compared with all others.
     """
 
     jumps: Sequence[str] = ()
@@ -48,6 +49,7 @@ class Search(Judge):
     tried: list[Hypothesis] = field(default_factory=list)
     clocks: list[Hypothesis] = field(default_factory=list)
     known: list[Hypothesis] = field(default_factory=list)
+    met: list[Hypothesis] = field(default_factory=list)
 
     @cached_property
     def projection(self) -> Projection:
@@ -172,7 +174,7 @@ class Search(Judge):
         taken = {s.term for s in best.suspects}
         others = [s for s in self.pool if s.term not in taken]
         states, clocks = ([s for s in others if (s.kind == "clock") is clock] for clock in (False, True))
-        found = self._explored(best, states, least) if best.suspects else list(self.states_alone)
+        found = self._explored(best, states, least) if best.suspects else [*self.states_alone, *self.met]
         first = self._preferred(best, found)
         if first is not None and best.suspects:
             found += self._known_clocks(best, taken, max((h.forecast for h in found), default=0.0))
@@ -184,7 +186,7 @@ class Search(Judge):
         found = self._with_jumps(found + exact_where_leading(halves, least_near(found)), best)
         found += simpler_than_best(found, self.pool, least_near(found))
         self.tried += found
-        return by_score(found)
+        return by_score(list({h.suspects: h for h in sorted(found, key=lambda h: h.log_ratio)}.values()))
 
     def _with_jumps(self, found: list[Hypothesis], less: Hypothesis) -> list[Hypothesis]:
         """`found` on top of `less`, with dry friction that is new there as abrupt as the recording likes it."""
