@@ -8,7 +8,7 @@ from driven_cart import cart, data_of, recorded
 
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import Hypothesis, refit
-from symid.discrepancy.name.simpler import simpler_than_best, without_halves
+from symid.discrepancy.name.instead import simpler_than_best, without_halves
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.judge import _as_survived

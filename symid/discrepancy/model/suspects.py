@@ -161,11 +161,19 @@ class Suspect:
 
 
 FAMILIES = (
-    {"viscous_friction", "coulomb_friction", "stribeck_friction", "joint_drag", "quadratic_drag", "link_drag"},
-    {"coulomb_friction", "stribeck_friction", "bouc_wen_hysteresis"},
+    {
+        "viscous_friction",
+        "coulomb_friction",
+        "stribeck_friction",
+        "joint_drag",
+        "quadratic_drag",
+        "link_drag",
+        "bouc_wen_hysteresis",
+        "bent_hysteresis",
+    },
     {"torsional_spring", "bouc_wen_hysteresis", "bent_hysteresis"},
     {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "constant_torque"},
-    {"cubic_stiffness", "end_range_stiffness"},
+    {"cubic_stiffness", "end_range_stiffness", "bouc_wen_hysteresis", "bent_hysteresis"},
     {"constant_torque", "quadratic_stiffness", "asymmetric_damping"},
     {"extra_mass", "center_of_mass_error", "link_inertia_error"},
     {"feedback_delay", "muscle_lag", "second_order_muscle_lag", "joint_feedback_delay", "joint_muscle_lag"},

@@ -13,10 +13,10 @@ from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import LOSSES, Suspect, is_alike
 from symid.discrepancy.name.explore import by_score, exact_where_leading, explore, least_near
 from symid.discrepancy.name.held import Holds
+from symid.discrepancy.name.instead import around_losses, simpler_than_best, without_halves
 from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
 from symid.discrepancy.name.scan import promising
-from symid.discrepancy.name.simpler import simpler_than_best, without_halves
 from symid.discrepancy.name.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_holds
@@ -123,7 +123,7 @@ class Search(Judge):
             more = self._preferred(best, self._other_pairs(best, single, alone=False))
         if more is None:
             return None
-        if len(more.suspects) == 2 and not self.quiet(more) and not self.beaten(more):
+        if len(more.suspects) == 2 and not self.quiet(more) and (more.is_free or not self.beaten(more)):
             more = self._preferred(best, [more, *self._other_pairs(best, single, above=more.log_ratio)])
         if len(more.suspects) > 1:
             again = self._reexamined(more, single)
@@ -185,6 +185,7 @@ class Search(Judge):
         halves = without_halves(found, self.pool, self.base)
         found = self._with_jumps(found + exact_where_leading(halves, least_near(found)), best)
         found += simpler_than_best(found, self.pool, least_near(found))
+        found += self.together(around_losses(best, self.pool), best)
         self.tried += found
         return by_score(list({h.suspects: h for h in sorted(found, key=lambda h: h.log_ratio)}.values()))
 
@@ -257,6 +258,7 @@ class Search(Judge):
         """Each suspect exchanged for others of its family at its place, or left out, as long as that is believed more.
 
         Of several losses the first takes up what the others lose, and so may be the wrong law at the right place.
+        Instead of a law without an established name one with a name begins anew, too: from its values it may be lost.
         """
         while True:
             taken, sets = {s.term for s in found.suspects}, []
@@ -267,8 +269,11 @@ class Search(Judge):
                 for other in (o for o in alike if o.established >= s.established):
                     chosen = [other if t is s else t for t in found.suspects]
                     sets += [(chosen, other.named(start)) for start in other.starts()]
-            tried = [found, *self.together(sets, found)]
-            self.tried += tried[1:]
+            others = self.together(sets, found)
+            named = [h for h in others if h.established > found.established]
+            others += in_threads(lambda h: begun_anew(h, self.regression), named)
+            tried = [found, *others]
+            self.tried += others
             share = max(tried, key=lambda h: h.log_ratio).share
             best = max(tried, key=lambda h: self.value(h, share))
             if best is found:

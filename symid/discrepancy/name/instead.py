@@ -1,4 +1,4 @@
-"""Laws of fewer unknowns in place of one that tells no more than they do."""
+"""Other laws in the place of one: of fewer unknowns, where it tells no more than they do, or two that it is between."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ from symid.discrepancy.model.suspects import Suspect, is_alike
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.fit import Fit
 from symid.threads import in_threads
+
+BETWEEN = {"viscous_friction": ("coulomb_friction", "joint_drag"), "slow_body_drag": ("body_friction", "body_drag")}
+"""A loss that grows with the speed, which one at any speed and one that grows with its square look like together."""
 
 
 def without_halves(found: Sequence[Hypothesis], pool: Sequence[Suspect], base: Fit) -> list[Hypothesis]:
@@ -55,3 +58,15 @@ def simpler_than_best(found: Sequence[Hypothesis], pool: Sequence[Suspect], near
         list(zip(simpler, begins, strict=True)),
     )
     return [polished(h) for h in tried if h is not None]
+
+
+def around_losses(best: Hypothesis, pool: Sequence[Suspect]) -> list[tuple[list[Suspect], dict[str, float]]]:
+    """The suspects of `best`, with both laws of `BETWEEN` in the place of a loss that lies between them, and values."""
+    taken = {s.term for s in best.suspects}
+    sets = []
+    for s in best.suspects:
+        names = BETWEEN.get(s.term.name, ())
+        two = [o for o in pool if o.term.name in names and o.term.location == s.term.location and o.term not in taken]
+        if len(two) == len(names) > 0:
+            sets.append(([*(t for t in best.suspects if t is not s), *two], two[0].off | two[1].off))
+    return sets
