@@ -7,7 +7,8 @@ from driven_cart import cart, data_of, few, recorded
 import symid.discrepancy.name.explore as steps
 import symid.discrepancy.name.starts as begins
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.model.suspects import Suspect, is_alike, suspects
+from symid.discrepancy.model.families import is_alike
+from symid.discrepancy.model.suspects import Suspect, suspects
 from symid.discrepancy.name.explore import explore
 from symid.discrepancy.name.scan import scan
 from symid.discrepancy.prove.nulls import false_alarm_probability, largest, null_maxima

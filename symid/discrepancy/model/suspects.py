@@ -160,60 +160,6 @@ class Suspect:
                 yield values | {q.key: float(place)}
 
 
-FAMILIES = (
-    {
-        "viscous_friction",
-        "coulomb_friction",
-        "stribeck_friction",
-        "joint_drag",
-        "quadratic_drag",
-        "link_drag",
-        "bouc_wen_hysteresis",
-        "bent_hysteresis",
-    },
-    {"torsional_spring", "bouc_wen_hysteresis", "bent_hysteresis"},
-    {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "constant_torque"},
-    {"cubic_stiffness", "end_range_stiffness", "bouc_wen_hysteresis", "bent_hysteresis"},
-    {"constant_torque", "quadratic_stiffness", "asymmetric_damping"},
-    {"extra_mass", "center_of_mass_error", "link_inertia_error"},
-    {"feedback_delay", "muscle_lag", "second_order_muscle_lag", "joint_feedback_delay", "joint_muscle_lag"},
-    {"input_delay", "input_lag", "inputs_delay", "inputs_lag"},
-    {"sensor_delay", "sensor_lag"},
-    {"sensor_offset", "sensor_drift"},
-    {"body_drag", "slow_body_drag", "body_friction"},
-    {"proportional_loss", "orifice_loss", "quadratic_loss", "constant_flow"},
-    {"proportional_exchange", "orifice_exchange"},
-)
-"""Laws that take up what one another do: each is at one amplitude, or while it is small, nearly another."""
-LOSSES = (
-    "viscous_friction",
-    "coulomb_friction",
-    "quadratic_drag",
-    "stribeck_friction",
-    "joint_drag",
-    "link_drag",
-    "body_drag",
-    "slow_body_drag",
-    "body_friction",
-    "load_dependent_friction",
-    "bouc_wen_hysteresis",
-    "bent_hysteresis",
-)
-"""Laws by which a mechanism loses energy."""
-EVERYWHERE = "global"
-"""The place of laws that act at all places of their kind."""
-
-
-def is_alike(suspect: Suspect, other: Suspect) -> bool:
-    """Whether both are laws of one family at one place, or one of them at all places.
-
-    All muscles may lag where the lag of those at one joint explains much.
-    """
-    places = {suspect.term.location, other.term.location}
-    same = len(places) == 1 or EVERYWHERE in places
-    return same and any({suspect.term.name, other.term.name} <= family for family in FAMILIES)
-
-
 def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     """Every law of the library at every place: the canonical ones established, the others hypotheses.
 
@@ -294,6 +240,8 @@ def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:
         return None
     own = [more[term.parameter_name(q.key)].symbol for q in term.law.parameters]
     plain = {s: s.func(f"unknown{i}") for i, s in enumerate(own)}
+    for i, state in enumerate(x for k, x in more.states.items() if k not in model.states):
+        plain |= {state.symbol: state.symbol.func(f"state{i}"), state.dot: state.symbol.func(f"rate{i}")}
     plain |= {late: late.func(f"{d.of}@{d.lag.xreplace(plain)}") for late, d in more.delays.items()}
     written = (*more.residual(), *(y.expr for y in more.outputs.values()), *(d.lag for d in more.delays.values()))
     if not any(e.has(*own) for e in written):

@@ -8,8 +8,9 @@ import numpy as np
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
+from symid.discrepancy.model.families import is_alike
 from symid.discrepancy.model.hypothesis import Hypothesis, extended, is_met
-from symid.discrepancy.model.suspects import Suspect, is_alike
+from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.short_pieces import ShortPieces
 from symid.discrepancy.name.starts import Start, starts_of
 from symid.discrepancy.policy import POLICY

@@ -3,15 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
+from symid.discrepancy.model.families import is_alike, may_be
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
-from symid.discrepancy.model.suspects import Suspect, is_alike
+from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.fit import Fit
 from symid.threads import in_threads
 
-BETWEEN = {"viscous_friction": ("coulomb_friction", "joint_drag"), "slow_body_drag": ("body_friction", "body_drag")}
-"""A loss that grows with the speed, which one at any speed and one that grows with its square look like together."""
+_LOSS_AND_SPRING = tuple(
+    product(("viscous_friction", "coulomb_friction", "joint_drag"), ("cubic_stiffness", "quadratic_stiffness"))
+)
+TWO = {
+    "viscous_friction": (("coulomb_friction", "joint_drag"),),
+    "slow_body_drag": (("body_friction", "body_drag"),),
+    "stribeck_friction": (("coulomb_friction", "joint_drag"), ("coulomb_friction", "viscous_friction")),
+    "bouc_wen_hysteresis": _LOSS_AND_SPRING,
+    "bent_hysteresis": _LOSS_AND_SPRING,
+}
+"""What two laws together look like. A loss at any speed and one that grows with its square look like one that grows
+with the speed or, beside that, like one that falls with it; a loss and a spring that bends look like a hysteresis."""
+Exchange = tuple[list[Suspect], dict[str, float] | None]
+"""Suspects, and where the fit of those that are new among them begins."""
 
 
 def without_halves(found: Sequence[Hypothesis], pool: Sequence[Suspect], base: Fit) -> list[Hypothesis]:
@@ -60,13 +74,35 @@ def simpler_than_best(found: Sequence[Hypothesis], pool: Sequence[Suspect], near
     return [polished(h) for h in tried if h is not None]
 
 
-def around_losses(best: Hypothesis, pool: Sequence[Suspect]) -> list[tuple[list[Suspect], dict[str, float]]]:
-    """The suspects of `best`, with both laws of `BETWEEN` in the place of a loss that lies between them, and values."""
-    taken = {s.term for s in best.suspects}
-    sets = []
+def exchanges(found: Hypothesis, pool: Sequence[Suspect]) -> list[Exchange]:
+    """One of three or more suspects left out, each exchanged for others that it may stand for, or for two by `TWO`."""
+    taken, sets = {s.term for s in found.suspects}, []
+    if len(taken) > 2:
+        sets = [([t for t in found.suspects if t is not s], None) for s in found.suspects]
+    for s in found.suspects:
+        others = [o for o in pool if may_be(s, o) and o.term not in taken and o.established >= s.established]
+        sets += [
+            ([o if t is s else t for t in found.suspects], start) for o in others for start in _begins(found, s, o)
+        ]
+    return sets + as_two(found, pool)
+
+
+def _begins(found: Hypothesis, old: Suspect, new: Suspect) -> list[dict[str, float]]:
+    """Values from which `new` may stand for `old`: as strong, where both are measured in one unit."""
+    starts, (was, will) = new.starts(), (old.strength, new.strength)
+    if was is not None and will is not None and was.unit == will.unit and was.null == will.null:
+        size = found.fit.values[old.term.parameter_name(was.key)]
+        starts = [start | {will.key: size} for start in starts]
+    return [new.named(start) for start in starts]
+
+
+def as_two(best: Hypothesis, pool: Sequence[Suspect]) -> list[Exchange]:
+    """The suspects of `best` with two laws in the place of one of `TWO`."""
+    taken, sets = {s.term for s in best.suspects}, []
     for s in best.suspects:
-        names = BETWEEN.get(s.term.name, ())
-        two = [o for o in pool if o.term.name in names and o.term.location == s.term.location and o.term not in taken]
-        if len(two) == len(names) > 0:
-            sets.append(([*(t for t in best.suspects if t is not s), *two], two[0].off | two[1].off))
+        here = {o.term.name: o for o in pool if o.term.location == s.term.location and o.term not in taken}
+        for names in TWO.get(s.term.name, ()):
+            if here.keys() >= set(names):
+                two = [here[name] for name in names]
+                sets.append(([*(t for t in best.suspects if t is not s), *two], two[0].off | two[1].off))
     return sets

@@ -9,11 +9,12 @@ from math import inf
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
+from symid.discrepancy.model.families import LOSSES
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
-from symid.discrepancy.model.suspects import LOSSES, Suspect, is_alike
+from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.explore import by_score, exact_where_leading, explore, least_near
 from symid.discrepancy.name.held import Holds
-from symid.discrepancy.name.instead import around_losses, simpler_than_best, without_halves
+from symid.discrepancy.name.instead import as_two, exchanges, simpler_than_best, without_halves
 from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
 from symid.discrepancy.name.scan import promising
@@ -185,7 +186,7 @@ class Search(Judge):
         halves = without_halves(found, self.pool, self.base)
         found = self._with_jumps(found + exact_where_leading(halves, least_near(found)), best)
         found += simpler_than_best(found, self.pool, least_near(found))
-        found += self.together(around_losses(best, self.pool), best)
+        found += self.together(as_two(best, self.pool), best)
         self.tried += found
         return by_score(list({h.suspects: h for h in sorted(found, key=lambda h: h.log_ratio)}.values()))
 
@@ -255,21 +256,13 @@ class Search(Judge):
         return [p for p in pairs if p is not None]
 
     def _exchanged(self, found: Hypothesis) -> Hypothesis:
-        """Each suspect exchanged for others of its family at its place, or left out, as long as that is believed more.
+        """Each suspect exchanged for others that it may stand for, or left out, as long as that is believed more.
 
         Of several losses the first takes up what the others lose, and so may be the wrong law at the right place.
         Instead of a law without an established name one with a name begins anew, too: from its values it may be lost.
         """
         while True:
-            taken, sets = {s.term for s in found.suspects}, []
-            if len(taken) > 2:
-                sets = [([t for t in found.suspects if t is not s], None) for s in found.suspects]
-            for s in found.suspects:
-                alike = [o for o in self.pool if is_alike(o, s) and o.term not in taken]
-                for other in (o for o in alike if o.established >= s.established):
-                    chosen = [other if t is s else t for t in found.suspects]
-                    sets += [(chosen, other.named(start)) for start in other.starts()]
-            others = self.together(sets, found)
+            others = self.together(exchanges(found, self.pool), found)
             named = [h for h in others if h.established > found.established]
             others += in_threads(lambda h: begun_anew(h, self.regression), named)
             tried = [found, *others]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from symid.discrepancy.locate.remainder import Test
-from symid.discrepancy.model.suspects import LOSSES
+from symid.discrepancy.model.families import LOSSES
 from symid.discrepancy.say.names import law_name, place_name
 from symid.discrepancy.say.proof import halves_words, proof_words, unproved, verdicts_of_halves
 from symid.discrepancy.say.rest import nameless_words
