@@ -1,5 +1,7 @@
 """Predictions of data that were not fitted: their density is a Kalman filter's, and the right model's is higher."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from driven_cart import TRUE, cart, data_of, recorded
@@ -13,9 +15,12 @@ from symid.estimation.measurement import of_window
 from symid.estimation.prediction import FORGOTTEN, Predictions, predictions
 
 
-def test_the_density_is_that_of_a_kalman_filter_written_here():
+@pytest.mark.parametrize("share", [1.0, 0.3])
+def test_the_density_is_that_of_a_kalman_filter_written_here(share):
+    """With the gain that a fit found, whatever gain other data would ask for."""
     recording, model = recorded(seed=3), cart().with_holds(shaker="linear")
     fit = fit_model(model, data_of(recording))
+    fit = replace(fit, kalman_gain=share * fit.kalman_gain)
     held = of_window(model, recording, (40.0, 60.0), None, data_of(recording))
     found = predictions(fit, held)
     (e,), step = held.segments, held.segments[0].step
