@@ -59,9 +59,9 @@ def test_it_is_named_with_its_size_and_how_often_it_comes_back(amplitude, per_tu
     (effect,) = found.effects
     assert str(effect) and effect.name == "cogging_torque"
     size, size_error = effect.parameters["amplitude_Nm"]
-    often, often_error = effect.parameters["per_turn"]
+    waves, waves_error = effect.parameters["waves_1_rad"]
     assert size == pytest.approx(amplitude, abs=max(4 * size_error, 1e-3 * amplitude))
-    assert often == pytest.approx(per_turn, abs=max(4 * often_error, 1e-4))
+    assert waves == pytest.approx(per_turn, abs=max(4 * waves_error, 1e-4))
 
 
 @pytest.mark.slow

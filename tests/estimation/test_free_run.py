@@ -57,7 +57,7 @@ def test_each_segment_begins_where_its_own_run_is_best(monkeypatch):
     data = Data(segments_of(atwood(), recorded(), (0, 3), 1.5), NOISE, driven=False)
     fit = fit_model(atwood(), data, {"heavy": HEAVY})
     begun = [fit.initial * np.array([[1.0], [3.0]]), fit.initial * np.array([[3.0], [1.0]])]
-    monkeypatch.setattr("symid.estimation.free_run._beginnings", lambda *a: begun)
+    monkeypatch.setattr("symid.estimation.free_run.beginnings", lambda *a: begun)
     monkeypatch.setattr("symid.estimation.free_run.Fitter.fit", stays)
     np.testing.assert_array_equal(with_states_of(fit, data).initial, fit.initial)
 

@@ -12,6 +12,7 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.path import fitted_path
 from symid.estimation.signals.data import Data
 from symid.mechanics.feedback import torques_along
+from symid.mechanics.missing.laws import coordinate_unit
 
 REACHES, REACH = (0.003, 3.0), 0.1
 """Motions of so many radians or metres, rms, are what laws are stated for, and one that is typical of them."""
@@ -52,7 +53,7 @@ def sizes_of(fit: Fit, data: Data) -> Sizes:
 
 
 def _turning(fit: Fit, data: Data) -> list[str]:
-    joints = [p for p in fit.model.ports.values() if p.role == "joint"]
+    joints = [p for p in fit.model.ports.values() if p.role == "joint" and coordinate_unit(fit.model, p.at) == "rad"]
     moved = {p.at: weights_of(fit.model, p.position) for p in joints}
     return [
         place

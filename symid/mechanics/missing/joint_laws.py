@@ -6,16 +6,7 @@ from math import inf
 
 import sympy as sm
 
-from symid.errors import ModelError
-from symid.mechanics.missing.laws import (
-    coordinate_unit,
-    dry,
-    effort_law,
-    fit_units,
-    parameter_name,
-    port_at,
-    time_derivative,
-)
+from symid.mechanics.missing.laws import dry, effort_law, fit_units, parameter_name, port_at, time_derivative
 from symid.model import Equation, Law, LawParameter, State
 
 _POSITIVE = (0.0, inf)
@@ -39,15 +30,6 @@ def _push(m, port, p):
     since = (m.time - p.start_s) / p.duration_s
     inside = (1 + sm.tanh(_GATE * since)) * (1 - sm.tanh(_GATE * (since - 1))) / 4
     return p.peak_Nm * sm.sin(sm.pi * since) ** 2 * inside
-
-
-def _cogging(model, place, p):
-    """Of magnets before teeth or, once in a turn, of what is out of balance: A sin(n q + phase)."""
-    fit_units(model, place, p)
-    if coordinate_unit(model, place) != "rad":
-        raise ModelError(f"cogging_torque@{place}: the {place} does not turn; give the law a joint that does")
-    port = port_at(model, "joint", place)
-    model.add_effort(port.name, p.amplitude_Nm * sm.sin(p.per_turn * port.position + p.phase_rad))
 
 
 def _strain(model, law, place, bound):
@@ -231,16 +213,16 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         "A constant torque of {torque_Nm} acts at the {place}",
         "Newton 1687",
     ),
-    Law(
+    effort_law(
         "cogging_torque",
         "joint",
         (
             LawParameter("amplitude_Nm", "N*m", _POSITIVE),
-            LawParameter("per_turn", "1", (0.5, 100.0), None, clock="turn"),
+            LawParameter("waves_1_rad", "1/rad", (0.5, 100.0), None, clock="turn"),
             LawParameter("phase_rad", "rad", (-4.0, 4.0), None, (0.0,), clock="phase"),
         ),
-        _cogging,
-        "A torque of {amplitude_Nm} comes back {per_turn} times in each turn of the {place}",
+        lambda m, port, p: p.amplitude_Nm * sm.sin(p.waves_1_rad * port.position + p.phase_rad),
+        "A torque of up to {amplitude_Nm} comes back in each turn of the {place}, with the wave number {waves_1_rad}",
         "Newton 1687",
     ),
     Law(
