@@ -110,14 +110,14 @@ def with_states_of(fit: Fit, data: Data) -> Fit | None:
 
 
 def beginnings(fit: Fit, data: Data) -> list[np.ndarray]:
-    """Initial states to begin from: the fit's own, or what its predictor knows after some samples."""
+    """Initial states to begin from: what sensors show, and the fit's own, if of as many samples, or what some tell."""
+    plain = first_states(fit, data)
     if (
         len(fit.initial) == len(data.segments)
         and fit.innovations
         and len(fit.innovations[0]) == len(data.segments[0].time)
     ):
-        return [fit.initial]
-    plain = first_states(fit, data)
+        return [fit.initial, plain]
     return [plain, *_short_fits(fit, data, plain)]
 
 
