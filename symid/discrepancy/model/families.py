@@ -29,7 +29,7 @@ FAMILIES = (
     {"proportional_exchange", "orifice_exchange"},
 )
 """Laws that take up what one another do: each is at one amplitude, or while it is small, nearly another."""
-LATE = ({"input_delay", "inputs_delay", "sensor_delay"}, {"input_lag", "inputs_lag", "sensor_lag"})
+LATE_ANYWHERE = ({"input_delay", "inputs_delay", "sensor_delay"}, {"input_lag", "inputs_lag", "sensor_lag"})
 """Laws that look alike wherever they act: of a linear machine the drive may be late, or the sensor."""
 LOSSES = (
     "viscous_friction",
@@ -62,4 +62,4 @@ def is_alike(suspect: Suspect, other: Suspect) -> bool:
 
 def may_be(suspect: Suspect, other: Suspect) -> bool:
     """Whether `other` may be what acts in the place of `suspect`: one of its family there, or late elsewhere."""
-    return is_alike(suspect, other) or any({suspect.term.name, other.term.name} <= late for late in LATE)
+    return is_alike(suspect, other) or any({suspect.term.name, other.term.name} <= late for late in LATE_ANYWHERE)

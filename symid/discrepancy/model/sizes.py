@@ -53,6 +53,7 @@ def sizes_of(fit: Fit, data: Data) -> Sizes:
 
 
 def _turning(fit: Fit, data: Data) -> list[str]:
+    """Places of joints that outputs show to turn by more than one turn within a segment."""
     joints = [p for p in fit.model.ports.values() if p.role == "joint" and coordinate_unit(fit.model, p.at) == "rad"]
     moved = {p.at: weights_of(fit.model, p.position) for p in joints}
     return [
