@@ -13,6 +13,7 @@ from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.locate.given import fitted_as_given, regressed
 from symid.discrepancy.model.begun_anew import given_anew
 from symid.discrepancy.model.dry import with_friction_speeds
+from symid.discrepancy.model.levels import with_level_widths
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.sizes import sizes_of
 from symid.discrepancy.model.suspects import Suspect, suspects as suspects_of
@@ -130,7 +131,8 @@ def _under(
     progress: Callable[[str], None],
 ) -> Explained:
     """The laws that explain a recording of which the audit is right."""
-    task = replace(given, model=with_friction_speeds(given.model, pieces, checked.noise))
+    sized = with_level_widths(with_friction_speeds(given.model, pieces, checked.noise), pieces)
+    task = replace(given, model=sized)
     plain = Data(pieces, checked.noise, task.random, checked.rounding)
     plain = plain.thinned() if checked.filter is None else plain  # undoing one needs all samples that it made
 
@@ -160,7 +162,8 @@ def _under(
     def searched(base: Fit, data: Data) -> Search:
         nothing = Hypothesis((), base, base, data)
         flexible = cache(lambda: next(iter(flexible_fits(base, data, flexible_terms(base, data))), nothing))
-        jumps = [c.name for c in base.model.find("friction_speed") if c.name not in given.model.constants]
+        widths = [*base.model.find("friction_speed"), *base.model.find("level_width")]
+        jumps = [c.name for c in widths if c.name not in given.model.constants]
         return Search(
             base,
             data,

@@ -6,6 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+SINGULAR = 1e14
+"""Condition number of a matrix without units from which on nothing is left of 16 digits."""
+AT_ONCE = 1e-6
+"""A lag shorter than this part of the fastest motion's own time is none; a Pade approximant of it would be as stiff."""
+
 
 @dataclass(frozen=True, eq=False)
 class Linearised:
@@ -40,10 +45,11 @@ class Linearised:
         controllable form; the first n states are the model's own.
         """
         n, A, G, C = len(self.A), self.A.copy(), self.G, self.C.copy()
+        fastest = np.abs(np.linalg.eigvals(self.A)).max(initial=0.0)
         for j, state in enumerate(self.late_state):
             if state < 0:
                 continue
-            if self.lag[j] < 1e-6:
+            if self.lag[j] * fastest <= AT_ONCE:
                 A[:n, state] += self.A_late[:, j]
                 C[:, state] += self.C_late[:, j]
                 continue
@@ -58,6 +64,16 @@ class Linearised:
             C[:, state] += self.C_late[:, j] * d
             A, G = grown, np.vstack([G, np.zeros((order, G.shape[1]))])
         return A, G, C
+
+
+def is_singular(mass: np.ndarray) -> bool:
+    """Whether an (n, n) mass matrix has no inverse, whatever the units of its rows and columns."""
+    rows = np.abs(mass).max(axis=1, initial=0.0)
+    if not rows.all():
+        return True
+    scaled = mass / rows[:, None]
+    columns = np.abs(scaled).max(axis=0, initial=0.0)
+    return not columns.all() or not np.linalg.cond(scaled / columns) < SINGULAR
 
 
 def _pade(lag: float, order: int):

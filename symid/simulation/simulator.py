@@ -17,7 +17,7 @@ from symid.errors import SymidError
 from symid.model import Model
 from symid.recording.signals.between import CURVES, derivatives
 from symid.simulation.compiled import CompiledLoop
-from symid.simulation.linear import Linearised
+from symid.simulation.linear import Linearised, is_singular
 from symid.simulation.loop import PythonLoop
 from symid.simulation.run import METHODS, Run, Signals
 from symid.simulation.trajectory import Trajectory
@@ -204,7 +204,7 @@ class Simulator:
         mean = [np.zeros(k) for k in ((n, n), (n, n), (n, late), (n, w), (m, n), (m, late), (late,))]
         self._loop.linearise(points, at, {"xd": zero, "u": u, "w": zero, "p": p, "c": self.constants}, mean)
         mass = mean[0]
-        if not all(np.isfinite(k).all() for k in mean) or not np.linalg.cond(mass) < 1e14:
+        if not all(np.isfinite(k).all() for k in mean) or is_singular(mass):
             raise SymidError(
                 f"simulation of '{self.model.name}': the rates cannot be solved for at the state "
                 f"{points.mean(axis=0)}; the mass matrix is singular or not finite there"

@@ -107,6 +107,52 @@ def test_a_tank_that_leaks():
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("size", [2.0**-20, 1.0, 2.0**12], ids=["micrometres", "metres", "kilometres"])
+def test_an_outlet_of_any_size(size):
+    """A level counts as zero in parts of how it was recorded: a thousandth of a metre would be all of a small one."""
+    rng, time = np.random.default_rng(3), np.arange(0.0, 900.0)
+    inflow = 0.03 * (1.3 + 0.6 * np.sign(np.sin(2 * np.pi * time / 230)) + 0.4 * np.sin(2 * np.pi * time / 90))
+    level = motion(lambda t, x, u: [u - 0.05 * x[0] - 0.02 * np.sqrt(x[0])], (0.5,), time, inflow)
+    m = si.Model("outlet")
+    m.level, m.inflow = si.State(unit="m"), si.Input(unit="m/s", hold="zero")
+    m.drain = si.Parameter(unit="1/s", bounds=(1e-3, 1))
+    m.balance = si.Equation(m.level.dot + m.drain * m.level - m.inflow)
+    m.seen = si.Output(m.level)
+    seen = size * (level[:, 0] + 2e-3 * rng.standard_normal(time.size))
+    recording = si.Recording("outlet", time, {"level": seen, "inflow": size * inflow}, {"level": "m", "inflow": "m/s"})
+    found = si.diagnose(m, recording, fit_window=(0, 600), held_out=(600, 899), driven=False)
+    assert [(e.name, e.location) for e in found.effects] == [("orifice_loss", "level")]
+    value, error = found.effects[0].parameters["coefficient_Nm_root"]
+    assert value == pytest.approx(0.02 * np.sqrt(size), abs=4 * error)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("width", [1e-4, 1e-6], ids=["diodes", "brushes"])
+def test_a_voltage_that_drops_whatever_the_current(width):
+    """How abruptly it does is seen, too, and is no gain of the sensor of the current."""
+    rng, time = np.random.default_rng(1), np.arange(0, 0.1, 5e-5)
+    voltage = 5 * np.sign(np.sin(2 * np.pi * 130 * time)) + steps(rng, time, 2e-3, -5, 5)
+    m = si.Model("circuit")
+    m.current, m.charged, m.voltage = si.State(unit="A"), si.State(unit="V"), si.Input(unit="V", hold="zero")
+    m.inductance, m.capacity = si.Parameter(unit="H", bounds=(1e-4, 1)), si.Parameter(unit="F", bounds=(1e-8, 1e-4))
+    m.resistance = si.Parameter(unit="ohm", bounds=(0, 1e3))
+    m.coil = si.Equation(m.inductance * m.current.dot + m.resistance * m.current + m.charged - m.voltage)
+    m.capacitor = si.Equation(m.capacity * m.charged.dot - m.current)
+    m.clamp, m.probe = si.Output(m.current, channel="clamp"), si.Output(m.charged, channel="probe")
+
+    def rates(t, x, u):
+        return [(u - 20 * x[0] - x[1] - 0.3 * np.tanh(x[0] / width)) / 0.01, x[0] / 1e-6]
+
+    seen = motion(rates, (0.0, 0.0), time, voltage) + rng.standard_normal((time.size, 2)) * [5e-4, 0.02]
+    channels = {"clamp": seen[:, 0], "probe": seen[:, 1], "voltage": voltage}
+    recording = si.Recording("circuit", time, channels, {"clamp": "A", "probe": "V", "voltage": "V"})
+    found = si.diagnose(m, recording, fit_window=(0, 0.05), held_out=(0.05, 0.0999), driven=False)
+    assert [(e.name, e.location) for e in found.effects] == [("constant_loss", "clamp")]
+    value, error = found.effects[0].parameters["loss_Nm"]
+    assert value == pytest.approx(0.3, abs=4 * error)
+
+
+@pytest.mark.slow
 def test_a_circuit_whose_capacitor_discharges_by_itself():
     """Charge leaks through the dielectric, 1 microsiemens of 10 microfarads."""
     rng, time = np.random.default_rng(7), np.arange(0, 60, 0.05)

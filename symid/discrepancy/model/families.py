@@ -25,7 +25,7 @@ FAMILIES = (
     {"sensor_delay", "sensor_lag"},
     {"sensor_offset", "sensor_drift"},
     {"body_drag", "slow_body_drag", "body_friction"},
-    {"proportional_loss", "orifice_loss", "quadratic_loss", "constant_flow"},
+    {"proportional_loss", "orifice_loss", "constant_loss", "quadratic_loss", "constant_flow"},
     {"proportional_exchange", "orifice_exchange"},
 )
 """Laws that take up what one another do: each is at one amplitude, or while it is small, nearly another."""

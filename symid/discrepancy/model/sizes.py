@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.discrepancy.model.dry import weights_of
+from symid.discrepancy.model.levels import signed
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.path import fitted_path
 from symid.estimation.signals.data import Data
@@ -28,12 +29,14 @@ class Sizes:
     ----------
     pace : seconds. reach, torque : by place, where they are not as usual.
     turning : places of joints that turn by more than one turn, where a torque may come back in each of them.
+    signed : places of balances whose levels change their sign, where a loss may follow it.
     """
 
     pace: float = 1.0
     reach: Mapping[str, float] = field(default_factory=dict)
     torque: Mapping[str, float] = field(default_factory=dict)
     turning: Collection[str] = ()
+    signed: Collection[str] = ()
 
     def at(self, place: str) -> dict[str, float]:
         """By unit."""
@@ -49,7 +52,7 @@ class Sizes:
 
 def sizes_of(fit: Fit, data: Data) -> Sizes:
     """Of a fitted model and the motion to which it was fitted."""
-    return Sizes(data.pace, _reaches(fit, data), _torques(fit, data), _turning(fit, data))
+    return Sizes(data.pace, _reaches(fit, data), _torques(fit, data), _turning(fit, data), signed(fit.model, data.segments))
 
 
 def _turning(fit: Fit, data: Data) -> list[str]:

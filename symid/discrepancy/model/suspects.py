@@ -188,6 +188,8 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
             continue
         if any(q.clock == "turn" for q in term.law.parameters) and term.location not in sizes.turning:
             continue
+        if term.name == "constant_loss" and term.location not in sizes.signed:
+            continue
         term = replace(term, law=_sized(term.law, sizes.at(term.location)))
         equations = _equations(model, term)
         if equations is not None:

@@ -12,6 +12,7 @@ import numpy as np
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.dry import PARTS, WIDER, widths
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished, refit
+from symid.discrepancy.model.levels import level_widths
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.fit import Fit
@@ -231,6 +232,8 @@ class _Widths:
 
 
 def _widths_at(model: Model, width: Constant, data: Data) -> tuple[float, ...]:
+    if width.role == "level_width":
+        return level_widths(model, width.at, data.segments)
     return widths(model, port_at(model, "joint", width.at), data.segments, data.sensor_noise)
 
 

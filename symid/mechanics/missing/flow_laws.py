@@ -11,17 +11,28 @@ from symid.model import Law, LawParameter, Model, Port
 
 _POSITIVE = (0.0, inf)
 _BOTH_SIGNS = (-inf, inf)
-ROOT_WIDTH = 1e-3
-"""Within so much [unit of the level] of zero a root is straight: at zero its slope would be infinite. A judgement: of
-levels below it the law sees a proportional loss."""
+LEVEL_WIDTH = 1e-3
+"""Within so much [unit of the level] of zero a level counts as zero where a model states no `level_width`: at zero a
+root's slope would be infinite, and a sign jumps. A judgement: of levels below it the laws see a proportional loss."""
 
 
 def _root(model: Model, port: Port, law: str) -> sm.Expr:
     """The root of the port's level with its sign, smoothed."""
-    level = port.position
-    unit = next(s.unit for s in model.states.values() if s.symbol in level.free_symbols)
-    width = fixed(model, parameter_name(law, port.at, "width"), ROOT_WIDTH, unit, "width in which a root is straight")
-    return level / (level**2 + width**2) ** sm.Rational(1, 4)
+    return port.position / (port.position**2 + _width(model, port, law) ** 2) ** sm.Rational(1, 4)
+
+
+def _width(model: Model, port: Port, law: str) -> sm.Symbol:
+    """Width within which the port's level counts as zero, as stated or declared for `law`."""
+    stated = model.find("level_width", port.at)
+    if stated:
+        return stated[0].symbol
+    name = parameter_name(law, port.at, "width")
+    return fixed(model, name, LEVEL_WIDTH, level_unit(model, port), "width in which a level counts as zero")
+
+
+def level_unit(model: Model, port: Port) -> str:
+    """Unit of the level of a balance, or of the difference between two."""
+    return next(s.unit for s in model.states.values() if s.symbol in port.position.free_symbols)
 
 
 FLOW_LAWS: tuple[Law, ...] = (
@@ -48,6 +59,14 @@ FLOW_LAWS: tuple[Law, ...] = (
         lambda m, port, p: -p.coefficient_Nm_root * _root(m, port, "orifice_loss"),
         "The {place} leaks with the root of its value, {coefficient_Nm_root}",
         "Torricelli 1644",
+    ),
+    effort_law(
+        "constant_loss",
+        "balance",
+        (LawParameter("loss_Nm", "N*m", _POSITIVE),),
+        lambda m, port, p: -p.loss_Nm * sm.tanh(port.position / _width(m, port, "constant_loss")),
+        "The {place} loses {loss_Nm} whatever its value",
+        "Widmark 1932",
     ),
     effort_law(
         "quadratic_loss",
