@@ -84,6 +84,7 @@ long simulate(const Ode *model, Run *given)
         double h = (r->t[k+1] - r->t[k]) / m;
         for (long s = 0; s < m; s++) {
             double t = r->t[k] + s * h;
+            v->begun++;
             if (step(v, t, h, k, keep ? 0 : HALVINGS, 0)) goto end;
             v->hk = 0;
             if (keep) {

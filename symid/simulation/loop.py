@@ -15,6 +15,7 @@ from symid.simulation.step_errors import UNEQUAL, UNSEEN, StepErrors
 
 FAST, GAMMA, EVEN, HALVINGS = 2.0, 1 - 2**-0.5, 0.5, 10
 SMOOTH = 6.0, 50.0
+CUTS_A_STEP, MOST_CUTS = 30, 2000
 """Of stiff steps, as in `steps.c`."""
 Rates = tuple[np.ndarray, np.ndarray]
 """(n,) of the state and (n, nq) of its sensitivities."""
@@ -85,6 +86,7 @@ class _Simulation:
         self.x, self.S = run.x0.copy(), np.zeros((len(run.x0), run.nq))
         self.S[run.qx, run.nqp + np.arange(run.nqx)] = 1
         self.errors, self.still = StepErrors(len(run.x0)), np.zeros(len(run.x0))
+        self.begun = self.cuts = 0
         zero = np.zeros(max(loop.sizes["x"], 1))
         call = (zero, self.x, zero, zero, zero, run.p, run.c, 0.0)
         late = len(source.late)
@@ -107,6 +109,7 @@ class _Simulation:
                 self._correct(k, *surprise)
             h, halvings = (run.t[k + 1] - run.t[k]) / run.substeps, 0 if len(self.loop.source.late) else HALVINGS
             for s in range(run.substeps):
+                self.begun += 1
                 if not self._step(run.t[k] + s * h, h, k, halvings, False):
                     return k + 1
         return run.N
@@ -168,7 +171,8 @@ class _Simulation:
             self.past.correct(self.run.t[k], self.run.t[k + 1] - self.run.t[k], e, Sy)
 
     def _step(self, t: float, h: float, k: int, halvings: int, bend: bool) -> bool:
-        """One step of the integrator from t, which may be halved so often; False where a matrix is singular.
+        """One step of the integrator from t, which may be halved so often; False where a matrix is singular, or too
+        many steps were cut.
 
         bend : whether the rates bend in it.
         """
@@ -184,6 +188,9 @@ class _Simulation:
         except np.linalg.LinAlgError:
             return False
         if len(stages) == 2:
+            self.cuts += 1
+            if self.cuts > MOST_CUTS + CUTS_A_STEP * self.begun:
+                return False
             halves = ((t, stages[0]), (t + h / 2, stages[1]))
             return all(self._step(start, h / 2, k, halvings - 1, bends) for start, bends in halves)
         first, middle, last = stages

@@ -40,6 +40,7 @@ typedef struct {
     double *err, span_err;              /* of the two steps before, the later first; how long these were */
     double calm;                        /* what steps erred by before the rates bent, of the sizes; 0 at the start */
     int smooth;                         /* so many steps before this one were looked at, and are smooth */
+    long begun, cuts;                   /* steps that a run was to make so far, and how often they were halved */
     long stiff;                         /* steps in which something was stiff */
     int inside;                         /* k1 of the present step is known */
     double *x, *S, *xs, *Sx;            /* the state and its sensitivities, now and within a step */

@@ -13,6 +13,11 @@
 /* So often a step is halved in which something sets in, as dry friction does where it comes to stick. */
 #define HALVINGS 10
 #define CUT 2
+/* A run ends that is cut everywhere: for each step that it was to make so many times, and at a few places to the last.
+ * Of 60000 that were looked at (dry friction, hysteresis, valves), 45 were cut more often than 30 times a step: those
+ * near a singular mass or far from any motion, with 1000 times the work of all others. */
+#define CUTS_A_STEP 30
+#define MOST_CUTS 2000
 /* What a step may err by where its rates bend, of the size of each state: a precise sensor sees 1e-6 of its range, and
  * a motion that cannot be followed for long makes 100 times as much of it. */
 #define UNSEEN 1e-8
@@ -188,7 +193,8 @@ static int bends(Work *v, double t, double h, long k, int halvings, int bend)
     return found;
 }
 
-/* One step from x and S, and its stages, which may be halved so often; 1 where a mass matrix is singular.
+/* One step from x and S, and its stages, which may be halved so often; 1 where a mass matrix is singular, or too many
+ * steps were cut.
  * bend : whether the rates bend in it. */
 static int step(Work *v, double t, double h, long k, int halvings, int bend)
 {
@@ -219,6 +225,7 @@ static int step(Work *v, double t, double h, long k, int halvings, int bend)
         }
     }
     memcpy(v->x, v->xk, NX * sizeof(double)); memcpy(v->S, v->sk, big * sizeof(double));
+    if (++v->cuts > MOST_CUTS + CUTS_A_STEP * v->begun) return 1;
     return step(v, t, h/2, k, halvings - 1, halves & FIRST_HALF)
         || step(v, t + h/2, h/2, k, halvings - 1, halves & SECOND_HALF);
 }

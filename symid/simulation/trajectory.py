@@ -17,7 +17,7 @@ class Trajectory:
     x : (N, n) states, y : (N, m) outputs; rows after the end of a run that diverged are NaN.
     wrt : names of the unknowns of the sensitivities: parameters, then ``<state>(0)``, then what only a gain depends on.
     dx : (N, n, q) and dy : (N, m, q) derivatives of x and y, or None.
-    reached : samples before the run diverged; N if it did not.
+    reached : samples before the run diverged, or its steps had to be cut everywhere; N if neither.
     state_names, output_names : of the columns of x and y.
     stiff : steps of the integrator in which something was stiff, where those were asked for.
     unseen : first samples of which an output reads what was before the run.

@@ -63,8 +63,8 @@ def simpler_than_best(found: Sequence[Hypothesis], pool: Sequence[Suspect], near
     *kept, last = best.suspects
     keys = [q.key for q in last.law.parameters if q.null == 0 and q.unit == last.strength.unit]
     size = sum(best.fit.values[last.term.parameter_name(k)] for k in keys)
-    led = {h.suspect.term for h in found if h.log_ratio > near}
-    simpler = [o for o in pool if is_alike(o, last) and o.size < last.size and o.term not in led]
+    known = {h.suspect.term for h in found if h.log_ratio > near} | {s.term for s in kept}
+    simpler = [o for o in pool if is_alike(o, last) and o.size < last.size and o.term not in known]
     simpler = [o for o in simpler if o.strength is not None and o.strength.unit == last.strength.unit]
     begins = [o.named(o.starts()[0] | {o.strength.key: size}) for o in simpler]
     tried = in_threads(

@@ -119,8 +119,10 @@ def with_jumps_beside(found: Hypothesis, made: Sequence[str], less: Hypothesis) 
     if found.fit.kalman_gain is None:
         had = _used(less, made, less.base.model)
         for name in (n for n in _used(found, made, found.base.model) if n in had):
-            widths_of = _Widths(found, name)
-            found = widths_of.best(widths_of.sharp)
+            before = None
+            while found is not before:  # a free width stays within a decade of where it began
+                before, widths_of = found, _Widths(found, name)
+                found = widths_of.best(widths_of.sharp)
     return found
 
 
