@@ -40,6 +40,11 @@ def flow_ports(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, 
     for (n, p), x in product(balances.items(), others):
         if not residuals[n].has(x):
             found[f"{n}_{others[x]}"] = _port(p, x, "coupling", f"{p.at} from {names[x]}", p.into)
+    drives = [u for u in model.inputs.values() if u not in levels and any(r.has(u.symbol) for r in residuals.values())]
+    for (n, p), u in product(ports.items(), drives if len(drives) > 1 else ()):
+        if not residuals[n].has(u.symbol):
+            at = f"{p.at} from {u.channel or u.name}"
+            found[f"{n}_{u.name}_coupling"] = _port(p, u.symbol, "coupling", at, p.into)
     return found
 
 

@@ -190,6 +190,14 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         "Newton 1687",
     ),
     effort_law(
+        "cubic_damping",
+        "joint",
+        (LawParameter("coefficient_Nm_s3_rad3", "N*m*s^3/rad^3", _POSITIVE),),
+        lambda m, port, p: -p.coefficient_Nm_s3_rad3 * port.rate**3,
+        "The {place} is damped with the cube of its speed, {coefficient_Nm_s3_rad3}",
+        "Norrbin 1963",
+    ),
+    effort_law(
         "asymmetric_damping",
         "joint",
         (LawParameter("coefficient_Nms_rad", "N*m*s/rad", _BOTH_SIGNS),),

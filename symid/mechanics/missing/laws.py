@@ -43,9 +43,12 @@ def _ports_at(model: Model, place: str) -> list[Port]:
 
 
 def coordinate_unit(model: Model, place: str) -> str:
-    """Unit of what moves at `place`: "rad" of a joint that turns, "m" where a force [N] acts along a displacement."""
-    ports = _ports_at(model, place)
-    units = {s.unit for port in ports for s in model.states.values() if s.symbol in port.position.free_symbols}
+    """Unit of what moves at `place`: "rad" of a joint that turns, "m" where a force [N] acts along a displacement.
+
+    Where an input is what acts there, as by a coupling, that of the input.
+    """
+    ports, signals = _ports_at(model, place), (*model.states.values(), *model.inputs.values())
+    units = {s.unit for port in ports for s in signals if s.symbol in port.position.free_symbols} - {""}
     if units:
         return "rad" if "rad" in units else min(units)
     parts = [c for role in ("feedback_torque", "feedback_error") for c in model.find(role, place)]
@@ -73,7 +76,7 @@ def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
 def unit_along(unit: str, force: str, length: str) -> str:
     """Unit of a law's parameter, stated for a torque [N*m] and an angle, for another kind of force and coordinate."""
     length = f"({length})" if "/" in length else length
-    if force == "N":  # reads better than what pint would make of it
+    if force == "N" and "N" not in length:  # reads better than what pint would make of it
         return unit.replace("N*m", "N").replace("rad", length)
     return reduced(unit.replace("rad", length).replace("N*m", f"({force})"))
 
