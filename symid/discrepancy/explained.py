@@ -13,8 +13,8 @@ from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
 from symid.discrepancy.locate.given import fitted_as_given, regressed
 from symid.discrepancy.model.begun_anew import given_anew
 from symid.discrepancy.model.dry import with_friction_speeds
-from symid.discrepancy.model.levels import with_level_widths
 from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.model.levels import with_level_widths
 from symid.discrepancy.model.sizes import sizes_of
 from symid.discrepancy.model.suspects import Suspect, suspects as suspects_of
 from symid.discrepancy.name.error_model import with_error_model

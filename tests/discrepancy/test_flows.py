@@ -49,6 +49,16 @@ def test_the_places_of_flows():
     }
 
 
+def test_each_of_two_inputs_may_act_on_more_than_the_model_says():
+    """A level outside is none: it acts by its difference from the state."""
+    m = rooms()
+    m.t3, m.sun = si.State(unit="K"), si.Input(unit="W/m^2", channel="sun")
+    m.third = si.Equation(900 * m.t3.dot + m.window * (m.t3 - m.outside) - 0.5 * m.sun)
+    found = {p.at for p in with_places(m).ports.values() if p.role == "coupling"}
+    assert {"t1 from sun", "t2 from sun", "t2 from heat", "t3 from heat"} <= found
+    assert not any("outside" in at for at in found)
+
+
 def test_an_input_that_is_no_level_has_no_exchange():
     """An elevator turns in radians as the angle of attack does, and is no angle that flows into it."""
     m = si.Model("aircraft")

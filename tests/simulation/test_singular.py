@@ -19,11 +19,7 @@ def test_any_units_of_rows_and_columns():
 
 @pytest.mark.parametrize(
     "mass",
-    [
-        np.zeros((2, 2)),
-        np.array([[1.0, 0.0], [1.0, 0.0]]),
-        np.array([[1.0, 2.0], [2e9, 4e9]]),
-    ],
+    [np.zeros((2, 2)), np.array([[1.0, 0.0], [1.0, 0.0]]), np.array([[1.0, 2.0], [2e9, 4e9]])],
     ids=["nothing", "empty column", "two rows alike"],
 )
 def test_a_singular_one(mass):

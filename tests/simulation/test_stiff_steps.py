@@ -141,3 +141,14 @@ def test_a_step_is_halved_wherever_in_it_friction_changes_its_sign(creep, subste
         found = AnySimulator(m).simulate([], start, time, push, method="stiff", substeps=substeps)
         exact = AnySimulator(m).simulate([], start, time, push, substeps=1024)
         np.testing.assert_allclose(found.x, exact.x, atol=error)
+
+
+def test_a_run_ends_whose_steps_would_be_cut_everywhere(Simulator):
+    """A bumpy road: a thousand bumps within each step, of which halving it ten times shows none."""
+    m = Model("bumps")
+    m.x, m.v, m.height = State(unit="m"), State(unit="m/s"), Parameter(unit="m/s^2")
+    m.kinematics, m.seen = Equation(m.x.dot - m.v), Output(m.x)
+    m.balance = Equation(m.v.dot + m.height * sm.sin(6e5 * m.x))
+    sim = Simulator(m)
+    assert sim.simulate([0.0], [0.0, 1.0], TIME, {}, method="stiff").reached == len(TIME)
+    assert 1 < sim.simulate([50.0], [0.0, 1.0], TIME, {}, method="stiff").reached < 10

@@ -98,7 +98,8 @@ class Hypothesis:
         """
         return sum(
             POLICY.doubt * (not self.is_named(s))
-            + POLICY.never * (self._is_harmonic(s) or self._is_skew(s) or s is self.suspect and self.is_half(s))
+            + POLICY.never
+            * (self._is_harmonic(s) or self._is_skew(s) or self._is_ahead(s) or s is self.suspect and self.is_half(s))
             for s in self.suspects
         )
 
@@ -130,6 +131,13 @@ class Hypothesis:
     def _path(self) -> np.ndarray:
         """(N, n) states along the fit."""
         return fitted_path(self.fit, self.data)
+
+    def _is_ahead(self, suspect: Suspect) -> bool:
+        """Whether a drive lags and yet comes before what was recorded of it: a smoothing, which no machine does."""
+        if suspect.term.name not in ("input_delay", "inputs_delay"):
+            return False
+        lags = any(s.term.name in ("input_lag", "inputs_lag") for s in self.suspects)
+        return lags and self.fit.values[suspect.term.parameter_name(suspect.law.parameters[0].key)] < 0
 
     def _is_skew(self, suspect: Suspect) -> bool:
         """Whether one channel comes later than others by less than a clock keeps to its samples."""

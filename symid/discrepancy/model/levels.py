@@ -1,4 +1,4 @@
-"""Which levels count as zero, and which have a sign: of balances of heat, liquid or charge, from how they were recorded."""
+"""Which levels of heat, liquid or charge count as zero, and which have a sign, from how they were recorded."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NEAR_ZERO = 2e-3
 """Part of a level's usual size within which it counts as zero: small beside what a root or a sign does above it, and
 wide enough for an integrator's steps. A judgement, as for dry friction."""
 BOTH_SIDES = 0.1
-"""A level has a sign where this part of its samples has the rarer one: else a loss that follows its sign is a constant."""
+"""A level has a sign where so many of its samples have the rarer one: else a loss that follows it is a constant."""
 
 
 def with_level_widths(model: Model, segments: Sequence[Segment]) -> Model:

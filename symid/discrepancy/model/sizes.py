@@ -52,7 +52,9 @@ class Sizes:
 
 def sizes_of(fit: Fit, data: Data) -> Sizes:
     """Of a fitted model and the motion to which it was fitted."""
-    return Sizes(data.pace, _reaches(fit, data), _torques(fit, data), _turning(fit, data), signed(fit.model, data.segments))
+    return Sizes(
+        data.pace, _reaches(fit, data), _torques(fit, data), _turning(fit, data), signed(fit.model, data.segments)
+    )
 
 
 def _turning(fit: Fit, data: Data) -> list[str]:
