@@ -76,8 +76,8 @@ def fit_units(model: Model, place: str, p: SimpleNamespace) -> None:
 def unit_along(unit: str, force: str, length: str) -> str:
     """Unit of a law's parameter, stated for a torque [N*m] and an angle, for another kind of force and coordinate."""
     length = f"({length})" if "/" in length else length
-    if force == "N" and "N" not in length:  # reads better than what pint would make of it
-        return unit.replace("N*m", "N").replace("rad", length)
+    if force == "N" and "N" not in length or force == "N*m" and not any(c in length for c in "Nm"):
+        return unit.replace("N*m", force).replace("rad", length)  # reads better than what pint would make of it
     return reduced(unit.replace("rad", length).replace("N*m", f"({force})"))
 
 
