@@ -24,6 +24,8 @@ from symid.simulation import Simulator
 
 CONSTANT = "constant_torque"
 """The law of a force that nothing changes."""
+AHEAD = 1.5
+"""A drive that is early by up to so many lags undoes them in part: of a first-order lag it makes a smoothing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,11 +135,15 @@ class Hypothesis:
         return fitted_path(self.fit, self.data)
 
     def _is_ahead(self, suspect: Suspect) -> bool:
-        """Whether a drive lags and yet comes before what was recorded of it: a smoothing, which no machine does."""
+        """Whether a drive comes before what was recorded of it, and something lags as much: a smoothing, of no machine.
+
+        Two recorders may be out of step, but hardly by what a lag takes.
+        """
         if suspect.term.name not in ("input_delay", "inputs_delay"):
             return False
-        lags = any(s.term.name in ("input_lag", "inputs_lag") for s in self.suspects)
-        return lags and self.fit.values[suspect.term.parameter_name(suspect.law.parameters[0].key)] < 0
+        early = -self.fit.values[suspect.term.parameter_name(suspect.law.parameters[0].key)]
+        lags = [s for s in self.suspects if s.term.name in ("input_lag", "inputs_lag", "sensor_lag")]
+        return any(0 < early < AHEAD * self.fit.values[s.term.parameter_name(s.law.parameters[0].key)] for s in lags)
 
     def _is_skew(self, suspect: Suspect) -> bool:
         """Whether one channel comes later than others by less than a clock keeps to its samples."""
