@@ -46,10 +46,9 @@ def with_places(model: Model) -> Model:
     equation of first order, such as that of a tank, a force has no rate of its own, and moves the state: a
     ``balance``; between two of one kind, or such a state and an input of its kind, something may flow: an
     ``exchange``; and a state that is not in it may act on it, as each of several inputs may on a balance that does not
-    have it: a ``coupling``. Where no port is declared at all, a mass that moves as no coordinate does is a ``body``, two
-    neighbours of one kind are a ``pair``, and a constant without a role is ``stated``. Outputs without a role become
-    sensors, inputs without one excitations. A port of
-    which no unit is known gets that of a force or a torque.
+    have it: a ``coupling``. Where no port is declared at all, a mass that moves as no coordinate does is a ``body``,
+    two neighbours of one kind are a ``pair``, and a constant without a role is ``stated``. Outputs without a role
+    become sensors, inputs without one excitations. A port of which no unit is known gets that of a force or a torque.
 
     Examples
     --------
