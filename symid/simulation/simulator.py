@@ -88,7 +88,8 @@ class Simulator:
         substeps : steps of the integrator per sample interval. method : ``"rk4"``, ``"euler"``, or ``"stiff"``: as
             ``"rk4"``, but steps in which something dies out faster than that can follow are implicit, of order 2, and
             those within which rates bend, as where dry friction changes its sign, are halved around it as often as
-            needed (at most ten times; in a model with late signals not at all).
+            needed (at most ten times; in a model with late signals not at all). A run whose steps would be
+            halved everywhere ends.
         history : (K,) times before ``time[0]`` and (K, n) states, for delayed signals; without it
             the initial state held before the start.
         earlier : (E,) times before ``time[0]`` and name -> (E,) inputs there, for delayed inputs; without it, and for

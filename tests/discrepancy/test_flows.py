@@ -6,6 +6,8 @@ import sympy as sm
 from scipy.integrate import solve_ivp
 
 import symid as si
+from symid.discrepancy.model.levels import signed
+from symid.estimation.signals.segment import Segment
 from symid.mechanics.places import with_places
 from symid.simulation import Simulator
 
@@ -134,6 +136,19 @@ def test_an_outlet_of_any_size(size):
     assert [(e.name, e.location) for e in found.effects] == [("orifice_loss", "level")]
     value, error = found.effects[0].parameters["coefficient_Nm_root"]
     assert value == pytest.approx(0.02 * np.sqrt(size), abs=4 * error)
+
+
+def test_a_loss_follows_the_sign_of_levels_that_change_it():
+    m = si.Model("circuit")
+    m.current, m.voltage, m.coil = si.State(unit="A"), si.Input(unit="V"), si.Constant(0.01, unit="H")
+    m.balance, m.clamp = si.Equation(m.coil * m.current.dot - m.voltage), si.Output(m.current)
+    port = next(iter(with_places(m).ports.values()))
+    time = np.arange(0, 1, 0.01)
+
+    def at(level):
+        return signed(with_places(m), [Segment(time, level[:, None], {"voltage": 0 * time})])
+
+    assert at(np.sin(9 * time)) == [port.at] and at(2 + np.sin(9 * time)) == []
 
 
 @pytest.mark.slow

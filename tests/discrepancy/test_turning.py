@@ -46,7 +46,7 @@ def test_it_is_a_suspect_of_joints_that_turn_by_more_than_a_turn():
     def names(sizes: Sizes | None) -> set[str]:
         return {str(s.term) for s in si.suspects(motor(), sizes)}
 
-    assert names(Sizes(turning=["angle"])) - names(None) == {"cogging_torque@angle"}
+    assert names(Sizes(only={"cogging_torque": ["angle"]})) - names(None) == {"cogging_torque@angle"}
 
 
 @pytest.mark.slow

@@ -9,6 +9,7 @@ from math import log
 
 import numpy as np
 
+from symid.discrepancy.model.families import LATE_ANYWHERE
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
@@ -25,7 +26,7 @@ from symid.simulation import Simulator
 CONSTANT = "constant_torque"
 """The law of a force that nothing changes."""
 AHEAD = 1.5
-"""A drive that is early by up to so many lags undoes them in part: of a first-order lag it makes a smoothing."""
+"""A signal that is early by up to so many lags undoes them in part: of a first-order lag it makes a smoothing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,14 +136,15 @@ class Hypothesis:
         return fitted_path(self.fit, self.data)
 
     def _is_ahead(self, suspect: Suspect) -> bool:
-        """Whether a drive comes before what was recorded of it, and something lags as much: a smoothing, of no machine.
+        """Whether a drive or a sensor comes early, and something lags as much: a smoothing, of no machine.
 
         Two recorders may be out of step, but hardly by what a lag takes.
         """
-        if suspect.term.name not in ("input_delay", "inputs_delay"):
+        delays, lagging = LATE_ANYWHERE
+        if suspect.term.name not in delays:
             return False
         early = -self.fit.values[suspect.term.parameter_name(suspect.law.parameters[0].key)]
-        lags = [s for s in self.suspects if s.term.name in ("input_lag", "inputs_lag", "sensor_lag")]
+        lags = [s for s in self.suspects if s.term.name in lagging]
         return any(0 < early < AHEAD * self.fit.values[s.term.parameter_name(s.law.parameters[0].key)] for s in lags)
 
     def _is_skew(self, suspect: Suspect) -> bool:

@@ -28,15 +28,14 @@ class Sizes:
     Attributes
     ----------
     pace : seconds. reach, torque : by place, where they are not as usual.
-    turning : places of joints that turn by more than one turn, where a torque may come back in each of them.
-    signed : places of balances whose levels change their sign, where a loss may follow it.
+    only : places, by name, of laws that need more than their port: a torque that comes back in each turn a joint that
+        turns by more than one, a loss that follows a level's sign a level that changes it.
     """
 
     pace: float = 1.0
     reach: Mapping[str, float] = field(default_factory=dict)
     torque: Mapping[str, float] = field(default_factory=dict)
-    turning: Collection[str] = ()
-    signed: Collection[str] = ()
+    only: Mapping[str, Collection[str]] = field(default_factory=lambda: {"cogging_torque": (), "constant_loss": ()})
 
     def at(self, place: str) -> dict[str, float]:
         """By unit."""
@@ -52,9 +51,8 @@ class Sizes:
 
 def sizes_of(fit: Fit, data: Data) -> Sizes:
     """Of a fitted model and the motion to which it was fitted."""
-    return Sizes(
-        data.pace, _reaches(fit, data), _torques(fit, data), _turning(fit, data), signed(fit.model, data.segments)
-    )
+    only = {"cogging_torque": _turning(fit, data), "constant_loss": signed(fit.model, data.segments)}
+    return Sizes(data.pace, _reaches(fit, data), _torques(fit, data), only)
 
 
 def _turning(fit: Fit, data: Data) -> list[str]:

@@ -186,9 +186,7 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
     for term in terms_of(model):
         if term.law in OFFSET_LAWS and not has_own_zero(model, term.location):
             continue
-        if any(q.clock == "turn" for q in term.law.parameters) and term.location not in sizes.turning:
-            continue
-        if term.name == "constant_loss" and term.location not in sizes.signed:
+        if term.location not in sizes.only.get(term.name, (term.location,)):
             continue
         term = replace(term, law=_sized(term.law, sizes.at(term.location)))
         equations = _equations(model, term)

@@ -1,4 +1,7 @@
-"""How abruptly dry friction sets in, told by the recording: before friction is looked for, or once it is found."""
+"""How abruptly dry friction sets in, told by the recording: before friction is looked for, or once it is found.
+
+Likewise within which width a level counts as zero, of a loss that follows its sign or its root.
+"""
 
 from __future__ import annotations
 
@@ -88,7 +91,8 @@ def with_fitted_jumps(
 
     Parameters
     ----------
-    made : the friction speeds that nobody stated. known : those count on which this model does not yet depend.
+    made : the friction speeds and level widths that nobody stated. known : those count on which this model does not
+        depend yet.
     told : what another law at their joint likes best, from which this one begins.
     """
     if found.fit.kalman_gain is not None:
@@ -171,7 +175,7 @@ def with_jumps_of(fit: Fit, base: Fit, made: Sequence[str]) -> Fit:
 
 
 class _Widths:
-    """A hypothesis fitted with other values of one friction speed."""
+    """A hypothesis fitted with other values of one friction speed or level width."""
 
     def __init__(self, found: Hypothesis, name: str):
         self.found, self.name, self.model = found, name, found.base.model
@@ -240,7 +244,7 @@ def _widths_at(model: Model, width: Constant, data: Data) -> tuple[float, ...]:
 
 
 def _used(found: Hypothesis, made: Sequence[str], known: Model) -> list[str]:
-    """Those of the friction speeds on which the model of a fit depends, and a `known` one does not."""
+    """Those of the widths on which the model of a fit depends, and a `known` one does not."""
     model = found.fit.model
     return [n for n in made if model[n].symbol in _symbols(model) - _symbols(known)]
 
