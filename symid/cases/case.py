@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from symid import checked
-from symid.analysis.bodies import bodies_words, determined, rig_with_unknown_bodies, unknown_bodies
 from symid.cases.schema import refuse_violations
 from symid.discrepancy.diagnose import diagnose
 from symid.discrepancy.say.diagnosis import Diagnosis
 from symid.errors import DiagnosisError, RecordingError, SymidError
+from symid.estimation.bodies import bodies_words, determined, rig_with_unknown_bodies, unknown_bodies
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.swings import piece_length
 from symid.estimation.signals.windows import segments_of

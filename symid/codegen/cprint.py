@@ -65,6 +65,10 @@ PATTERNS = {
     "pow": "pow({}, {})",
 }
 REPEATING = ("sign", "max", "min")
+COSTLY = frozenset(
+    ("exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "atan2", "pow", "sqrt")
+)
+"""Functions that take longer than to read a number from memory."""
 CONDITIONS = ("lt", "le", "gt", "ge", "eq", "ne", "and", "or", "not")
 
 
@@ -91,11 +95,13 @@ class Statements:
     ----------
     names : how a symbol's key is written, where it is not written as the key itself.
     patterns, number : how operations and numbers are written.
+    given : how operations are written that are computed elsewhere.
     """
 
-    def __init__(self, graph: Graph, outputs: Iterable[int], names=None, patterns=PATTERNS, number=number):
+    def __init__(self, graph: Graph, outputs: Iterable[int], names=None, patterns=PATTERNS, number=number, given=None):
         self.graph, self.names, self.patterns, self.number = graph, names or {}, patterns, number
-        order = graph.needed(outputs)
+        self.given = given or {}
+        order = [k for k in graph.needed(outputs, self.given) if k not in self.given]
         uses = Counter(a for k in order for a in graph.operands(k))
         apart = {
             a for k in order for a in graph.operands(k) if graph.level[a] != graph.level[k] or graph.ops[k] in REPEATING
@@ -106,6 +112,8 @@ class Statements:
     def expression(self, k: int, top: bool = False) -> str:
         if k in self.variable and not top:
             return self.variable[k]
+        if k in self.given:
+            return self.given[k]
         op, args = self.graph.ops[k], self.graph.args[k]
         if op == "number":
             return self.number(args[0])
@@ -143,9 +151,43 @@ def c_statements(pairs: list[tuple[str, sm.Expr]], names: dict[sm.Symbol, str]) 
         where math.h is included. All values are computed before the first assignment.
     """
     g = Graph()
+    places = [place for place, _ in pairs]
+    return _assigned(g, places, _lowered(g, pairs, names))
+
+
+def c_statements_of_two(
+    first: list[tuple[str, sm.Expr]], then: list[tuple[str, sm.Expr]], names: dict[sm.Symbol, str], array: str
+) -> tuple[str, str, int]:
+    """`c_statements` of two functions that are called one after the other with the same arguments.
+
+    Returns
+    -------
+    tuple of str, str, int
+        Both, and the length of `array`: there the first puts what it has computed by functions such as the sine that
+        the second needs, too.
+    """
+    g = Graph()
+    outputs, more = _lowered(g, first, names), _lowered(g, then, names)
+    both = set(g.needed(outputs)) & set(g.needed(more))
+    shared = {k: f"{array}[{i}]" for i, k in enumerate(sorted(k for k in both if _is_costly(g.ops[k])))}
+    return (
+        _assigned(g, [*(place for place, _ in first), *shared.values()], [*outputs, *shared]),
+        _assigned(g, [place for place, _ in then], more, shared),
+        len(shared),
+    )
+
+
+def _is_costly(op: str) -> bool:
+    return op in COSTLY or op.startswith(FOREIGN)
+
+
+def _lowered(g: Graph, pairs: list[tuple[str, sm.Expr]], names: dict[sm.Symbol, str]) -> list[int]:
     leaves = {s: g.symbol(text, UNIFORM) for s, text in names.items()}
-    outputs = lower(g, [e for _, e in pairs], leaves)
-    text = Statements(g, outputs)
+    return lower(g, [e for _, e in pairs], leaves)
+
+
+def _assigned(g: Graph, places: list[str], outputs: list[int], given: dict[int, str] | None = None) -> str:
+    text = Statements(g, outputs, given=given)
     results = [f"const double r{i} = {text.expression(k)};" for i, k in enumerate(outputs)]
-    assignments = [f"{lvalue} = r{i};" for i, (lvalue, _) in enumerate(pairs)]
+    assignments = [f"{place} = r{i};" for i, place in enumerate(places)]
     return "\n".join([*text.declarations(UNIFORM), *results, *assignments])

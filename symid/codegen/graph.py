@@ -7,7 +7,7 @@ same at all points, so that these can be computed once outside of the loop over 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from math import inf
 
 FOREIGN = "C "  # before the name of a function that the user gives, as an operation
@@ -218,12 +218,12 @@ class Graph:
     def operands(self, k: int) -> tuple[int, ...]:
         return () if self.ops[k] in ("number", "symbol") else self.args[k]
 
-    def needed(self, outputs: Iterable[int]) -> list[int]:
-        """The operations on which `outputs` depend, in order."""
+    def needed(self, outputs: Iterable[int], given: Container[int] = ()) -> list[int]:
+        """The operations on which `outputs` depend, in order; what those that are `given` depend on is left out."""
         seen, stack = set(), list(outputs)
         while stack:
             k = stack.pop()
             if k not in seen:
                 seen.add(k)
-                stack.extend(self.operands(k))
+                stack.extend(() if k in given else self.operands(k))
         return sorted(seen)

@@ -8,15 +8,15 @@ printed. `symid/simulation/loop.c` is compiled once and integrates what the expo
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 import sympy as sm
 
-from symid.codegen.cprint import c_statements, foreign_text
+from symid.codegen.cprint import c_statements, c_statements_of_two, foreign_text
 from symid.codegen.numpyprint import python_function
 from symid.errors import CodegenError
 from symid.model import TIME, Model, c_texts, explicit, symbol
@@ -31,6 +31,9 @@ ARGUMENTS = ("xd", "x", "l", "u", "w", "p", "c")
 """Arrays of every function, before the time t: rates, states, late signals, inputs, noises, parameters, constants."""
 BETWEEN = "linear", "zero", "cubic", "band-limited"
 """What an input does between its samples, numbered as rates.c knows it."""
+SLOPES = 20_000
+"""So many derivatives are kept: the models of a search share nearly all terms, some 40 by 20 symbols each, and SymPy's
+own memory of 1000 results forgets them between two models: a sixth of a search whose models are new."""
 UNSTATED = {"smooth": "cubic", "either": "linear"}
 """What it does where its declaration leaves that open."""
 
@@ -48,6 +51,7 @@ class OdeSource:
     late_kind, late_index : of each late signal, 0 for a state and 1 for an input, and which.
     input_between : of each input, what it does between its samples, by the place in `BETWEEN`.
     outputs_need_rates : whether an output holds rates or late signals.
+    coupled : the states whose rates are solved for together; of each other one the mass matrix is 1.
     written : symbol -> how the functions name it, ``x[0]``.
     """
 
@@ -64,17 +68,20 @@ class OdeSource:
     late_index: list[int]
     input_between: list[int]
     outputs_need_rates: bool
+    coupled: list[int]
     written: dict[sm.Symbol, str]
 
-    @cached_property
+    @functools.cached_property
     def text(self) -> str:
         """C that exports ``ode``, the table of sizes and functions that ``loop.c`` uses."""
         sizes = [
             len(k)
             for k in (self.states, self.late, self.inputs, self.noises, self.parameters, self.constants, self.outputs)
         ]
+        written, shared = self._c_functions()
         entries = [
-            *map(str, (*sizes, int(self.outputs_need_rates))),
+            *map(str, (*sizes, int(self.outputs_need_rates), len(self.coupled), shared)),
+            "coupled",
             "late_kind",
             "late_index",
             "input_between",
@@ -82,6 +89,7 @@ class OdeSource:
             *(f"{{{k}_count, {k}_row, {k}_col}}" for k in self.entries),
         ]
         lists = [
+            _ints("coupled", self.coupled),
             _ints("late_kind", self.late_kind),
             _ints("late_index", self.late_index),
             _ints("input_between", self.input_between),
@@ -95,17 +103,27 @@ class OdeSource:
                 TOGETHER,
                 TABLE,
                 *lists,
-                *(self._c_function(name) for name in self.functions),
+                *written,
                 f"const Ode ode = {{{', '.join(entries)}}};",
             ]
         )
 
-    def _c_function(self, name: str) -> str:
-        arrays = self.functions[name]
-        pairs = [(f"{array}[{i}]", e) for array, elements in arrays.items() for i, e in enumerate(elements)]
+    def _c_functions(self) -> tuple[list[str], int]:
+        """All functions, and how many values `mass` hands to `slopes`."""
+        pairs = {
+            name: [(f"{array}[{i}]", e) for array, elements in arrays.items() for i, e in enumerate(elements)]
+            for name, arrays in self.functions.items()
+        }
+        mass, slopes, shared = c_statements_of_two(pairs["mass"], pairs["slopes"], self.written, "shared")
+        bodies = {"mass": mass, "slopes": slopes}
+        more = {"mass": ", double *shared", "slopes": ", const double *shared"}
         given = ", ".join(f"const double *{a}" for a in ARGUMENTS)
-        out = ", ".join(f"double *{array}" for array in arrays)
-        return f"static void {name}({given}, double t, {out})\n{{\n{c_statements(pairs, self.written)}\n}}"
+        texts = []
+        for name, arrays in self.functions.items():
+            out = ", ".join(f"double *{array}" for array in arrays) + more.get(name, "")
+            body = bodies.get(name) or c_statements(pairs[name], self.written)
+            texts.append(f"static void {name}({given}, double t, {out})\n{{\n{body}\n}}")
+        return texts, shared
 
     def in_python(self) -> dict[str, Callable[..., list[np.ndarray]]]:
         """The functions by name; each takes `ARGUMENTS` and t, and returns its arrays in order."""
@@ -138,6 +156,7 @@ def ode_source(model: Model) -> OdeSource:
     mass = residual.jacobian(rates)
     if mass.free_symbols & set(rates):
         raise CodegenError(f"model '{model.name}' is not linear in its rates x', so it cannot be solved for them")
+    residual, mass = _in_order(residual, mass)
     lags = sm.Matrix([model.delays[s].lag for s in late])
     functions = {
         "mass": {"M": list(mass), "force": list(residual.xreplace({r: sm.Integer(0) for r in rates}))},
@@ -175,13 +194,41 @@ def ode_source(model: Model) -> OdeSource:
         [states.index(o) if o in states else inputs.index(o) for o in of],
         [BETWEEN.index(UNSTATED.get(u.hold, u.hold)) for u in model.inputs.values()],
         bool(observed.free_symbols & {*rates, *late}),
+        _coupled(mass),
         written,
     )
 
 
+def _in_order(residual: sm.Matrix, mass: sm.Matrix) -> tuple[sm.Matrix, sm.Matrix]:
+    """Both, with each equation that holds a single rate, times a number, in its state's place and divided by that."""
+    n, own = mass.rows, {}
+    for i in range(n):
+        held = [j for j in range(n) if mass[i, j] != 0]
+        if len(held) == 1 and mass[i, held[0]].is_Number:
+            own[held[0]] = i
+    others = iter([i for i in range(n) if i not in own.values()])
+    order = [own[j] if j in own else next(others) for j in range(n)]
+    parts = [mass[i, j] if j in own else sm.Integer(1) for j, i in enumerate(order)]
+    divided = sm.Matrix([sm.expand_mul(residual[i] / part) for i, part in zip(order, parts, strict=True)])
+    return divided, sm.Matrix([mass.row(i) / part for i, part in zip(order, parts, strict=True)])
+
+
+def _coupled(mass: sm.Matrix) -> list[int]:
+    """The rows in which `mass`, or the column of the same number, is not the identity matrix."""
+    apart = mass - sm.eye(mass.rows)
+    return [i for i in range(mass.rows) if any(apart.row(i)) or any(apart.col(i))]
+
+
 def slope(expr: sm.Expr, of: sm.Symbol) -> sm.Expr:
     """The derivative as compiled ones are: that of a step (sign, Heaviside, floor) is zero (`codegen.lower`)."""
-    found = sm.diff(expr, of)
+    return sm.Add(*(_slope(term, of) for term in sm.Add.make_args(expr)))
+
+
+@functools.lru_cache(SLOPES)
+def _slope(term: sm.Expr, of: sm.Symbol) -> sm.Expr:
+    if not term.has(of):
+        return sm.Integer(0)
+    found = sm.diff(term, of)
     return found.xreplace(dict.fromkeys(found.atoms(sm.DiracDelta, sm.Derivative, sm.Subs), sm.Integer(0)))
 
 

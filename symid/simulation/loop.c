@@ -123,10 +123,11 @@ void linearise(const Ode *m, long points, const double *xd, const double *x, con
 {
     double mass[m->nx*m->nx], force[m->nx], late[NON(m->nl)], part = 1.0 / points;
     double dx[NON(m->rx.count)], dl[NON(m->rl.count)], dp[NON(m->rp.count)], dw[NON(m->rw.count)];
+    double shared[NON(m->nshared)];
     double ox[NON(m->hx.count)], ol[NON(m->hl.count)], op[NON(m->hp.count)], od[NON(m->hxd.count)];
     for (long k = 0; k < points; k++, x += m->nx, l += m->nl) {
-        m->mass(xd, x, l, u, w, p, c, 0.0, mass, force);
-        m->slopes(xd, x, l, u, w, p, c, 0.0, dx, dl, dp, dw);
+        m->mass(xd, x, l, u, w, p, c, 0.0, mass, force, shared);
+        m->slopes(xd, x, l, u, w, p, c, 0.0, dx, dl, dp, dw, shared);
         m->observe_slopes(xd, x, l, u, w, p, c, 0.0, ox, ol, op, od);
         m->lags(xd, x, l, u, w, p, c, 0.0, late);
         for (int i = 0; i < m->nx*m->nx; i++) M[i] += part * mass[i];

@@ -156,29 +156,35 @@ static int rates(Work *v, double t, long k, const double *x, const double *S, do
 {
     const Run *r = &v->r;
     long nq = v->nq;
-    double u[NON(NU)], l[NON(NL)], M[NXX*NXX];
     const Ode *m = v->m;
+    const int n = m->ncoupled, *coupled = m->coupled;
+    double u[NON(NU)], l[NON(NL)], M[NXX*NXX], C[NON(n*n)], b[NON(n)], shared[NON(m->nshared)];
     const double *w = r->w + k*m->nw;
     inputs_at(v, t, k, u, 0);
     late_at(v, t, k, x, S, l, lS);
-    m->mass(xd, x, l, u, w, r->p, r->c, t, M, xd);
-    int pivot[NXX];
+    m->mass(xd, x, l, u, w, r->p, r->c, t, M, xd, shared);
+    int pivot[NON(n)];
     for (int i = 0; i < NX; i++) xd[i] = -xd[i];
-    if (factor(NX, M, pivot, xd)) return 1;
+    for (int i = 0; i < n; i++) {
+        b[i] = xd[coupled[i]];
+        for (int j = 0; j < n; j++) C[i*n+j] = M[coupled[i]*NX+coupled[j]];
+    }
+    if (factor(n, C, pivot, b)) return 1;
+    for (int i = 0; i < n; i++) xd[coupled[i]] = b[i];
     if (!nq && !A) return 0;
     double dx[NON(m->rx.count)], dl[NON(m->rl.count)], dp[NON(m->rp.count)], dw[NON(m->rw.count)];
-    m->slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dw);
+    m->slopes(xd, x, l, u, w, r->p, r->c, t, dx, dl, dp, dw, shared);
     if (A) {
         memset(A, 0, NX * PADDED(NX) * sizeof(double));
         for (int i = 0; i < m->rx.count; i++) A[m->rx.row[i]*PADDED(NX) + m->rx.col[i]] -= dx[i];
-        solve(NX, M, pivot, A, PADDED(NX));
+        solve(n, C, pivot, coupled, A, PADDED(NX));
     }
     if (!nq) return 0;
     memset(Sd, 0, NX * nq * sizeof(double));
     chain(-1, &m->rx, dx, S, Sd, nq);
     chain(-1, &m->rl, dl, lS, Sd, nq);
     direct(-1, &m->rp, dp, v, Sd);
-    solve(NX, M, pivot, Sd, nq);
+    solve(n, C, pivot, coupled, Sd, nq);
     return 0;
 }
 

@@ -90,6 +90,7 @@ static inline __attribute__((always_inline)) int factored(const int n, double *r
 static int factor(int n, double *restrict M, int *restrict pivot, double *restrict b)
 {
     switch (n) {
+    case 1: return factored(1, M, pivot, b);
     case 2: return factored(2, M, pivot, b);
     case 3: return factored(3, M, pivot, b);
     case 4: return factored(4, M, pivot, b);
@@ -99,17 +100,19 @@ static int factor(int n, double *restrict M, int *restrict pivot, double *restri
     }
 }
 
-/* B = M^-1 B for n rows of B, padded, with the factors of M. */
-static void solve(int n, const double *M, const int *pivot, double *B, long padded)
+/* B = M^-1 B for n padded rows of B, those of the numbers `rows` or the first ones, with the factors of M. */
+static void solve(int n, const double *M, const int *pivot, const int *rows, double *B, long padded)
 {
-    for (int k = 0; k < n; k++) if (pivot[k] != k) swap(B + k*padded, B + pivot[k]*padded, padded);
+    double *row[NON(n)];
+    for (int k = 0; k < n; k++) row[k] = B + (rows ? rows[k] : k)*padded;
+    for (int k = 0; k < n; k++) if (pivot[k] != k) swap(row[k], row[pivot[k]], padded);
     for (int k = 0; k < n; k++)
         for (int i = k + 1; i < n; i++)
-            if (M[i*n+k] != 0.0) add(-M[i*n+k], B + k*padded, B + i*padded, padded);
+            if (M[i*n+k] != 0.0) add(-M[i*n+k], row[k], row[i], padded);
     for (int k = n - 1; k >= 0; k--) {
         for (int i = k + 1; i < n; i++)
-            if (M[k*n+i] != 0.0) add(-M[k*n+i], B + i*padded, B + k*padded, padded);
-        double inv = M[k*n+k], *row = B + k*padded;
-        if (inv != 1.0) for (long j = 0; j < padded; j += WIDE) for (int l = 0; l < WIDE; l++) row[j+l] *= inv;
+            if (M[k*n+i] != 0.0) add(-M[k*n+i], row[i], row[k], padded);
+        double inv = M[k*n+k];
+        if (inv != 1.0) for (long j = 0; j < padded; j += WIDE) for (int l = 0; l < WIDE; l++) row[k][j+l] *= inv;
     }
 }

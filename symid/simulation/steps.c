@@ -60,7 +60,7 @@ static int damped_step(Work *v, double t, double h, long k)
     for (int i = 0; i < NX; i++)
         for (int j = 0; j < NX; j++) W[i*NX+j] = (i == j) - h * v->A[i*PADDED(NX)+j];
     if (rates(v, t + h, k, v->x, v->S, k1, K1, v->lS, 0) || factor(NX, W, pivot, k1)) return 1;
-    solve(NX, W, pivot, K1, v->nq);
+    solve(NX, W, pivot, 0, K1, v->nq);
     return euler_step(v, h);
 }
 
@@ -83,15 +83,15 @@ static int implicit_step(Work *v, double t, double h, long k, int halvings)
     for (int i = 0; i < NX; i++) v->xs[i] = v->x[i] + h*k1[i];
     if (nq && rates(v, t + h, k, v->xs, v->S, k2, G, v->lS, 0)) return 1;
     for (long i = 0; i < big; i++) { G[i] = GAMMA * (G[i] - K1[i]); K1[i] += G[i]; }
-    solve(NX, W, pivot, K1, nq);
+    solve(NX, W, pivot, 0, K1, nq);
     for (long i = 0; i < big; i++) v->Sx[i] = v->S[i] + h*K1[i];
     if (rates(v, t + h, k, v->xs, v->Sx, k2, K2, v->lS, A)) return 1;
     double before = decay(NX, v->A), after = decay(NX, A);
     if (!(after > EVEN * before && before > EVEN * after)) return halvings ? CUT : damped_step(v, t, h, k);
     for (int i = 0; i < NX; i++) d[i*WIDE] = k2[i] - 2*k1[i] - g[i];
     for (long i = 0; i < big; i++) K2[i] -= 2*K1[i] + G[i];
-    solve(NX, W, pivot, d, WIDE);
-    solve(NX, W, pivot, K2, nq);
+    solve(NX, W, pivot, 0, d, WIDE);
+    solve(NX, W, pivot, 0, K2, nq);
     for (int i = 0; i < NX; i++) k1[i] = 1.5*k1[i] + 0.5*d[i*WIDE];
     for (long i = 0; i < big; i++) K1[i] = 1.5*K1[i] + 0.5*K2[i];
     return euler_step(v, h);

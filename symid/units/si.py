@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from symid import checked
 from symid.errors import UnitError
 from symid.interrupt import held_back
+from symid.units.dimension import SI, Dimension
 
 FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
@@ -76,7 +77,7 @@ SUFFIXES: dict[str, KnownUnit] = {
 _GRAM = KnownUnit("g", "kg", 1e-3)
 _BY_TEXT = {unit.text: unit for unit in (_GRAM, *SUFFIXES.values())}
 
-_POWER = r"(kg|m|s|A|K|mol|cd|rad|Hz|N|Pa|J|W|C|V|ohm|F|Wb|T|H|S)(?![A-Za-z])(?:\^([1-9]))?"
+_POWER = rf"({'|'.join(SI)})(?![A-Za-z])(?:\^([1-9]))?"
 _PRODUCT = re.compile(rf"(?:1|{_POWER})(?:[*/]{_POWER})*")
 """Powers of SI's own units, multiplied and divided: their factor is one (BIPM, The International System of Units 2019,
 section 2.3.4). Half a second passes until pint has been loaded to say so."""
@@ -107,21 +108,23 @@ def si_factor(text: str) -> float:
     return known_unit(text).factor
 
 
-def dimension(text: str):
+@functools.cache
+def dimension(text: str) -> Dimension:
     """Physical dimension of a unit text, an angle being dimensionless.
 
     Dimensions can be multiplied, divided, raised to a power, compared and printed:
     ``dimension("N*m*s/rad") == dimension("N") * dimension("m") * dimension("s")``.
     """
-    return parsed(normal(text)).dimensionality
+    text = normal(text)
+    if _PRODUCT.fullmatch(text):
+        return Dimension.of_si(_exponents(text))
+    return Dimension(parsed(text).dimensionality)
 
 
 def same_dimension(a: str, b: str) -> bool:
     """Whether two unit texts measure the same kind of quantity: "deg" and "rad", not "m"."""
     a, b = normal(a), normal(b)
-    if a == b or _PRODUCT.fullmatch(a) and _PRODUCT.fullmatch(b) and _exponents(a) == _exponents(b):
-        return True
-    return dimension(a) == dimension(b)
+    return a == b or dimension(a) == dimension(b)
 
 
 def _exponents(product: str) -> dict[str, int]:
@@ -212,6 +215,6 @@ _BASE = {
 }
 
 
-def base_unit(found) -> str:
+def base_unit(found: Dimension) -> str:
     """Unit text in SI base units of what `dimension` gives: ``base_unit(dimension("N"))`` is ``"kg*m/s^2"``."""
     return reduced("*".join(f"{_BASE[name]}^{power:g}" for name, power in found.items()) or "1")

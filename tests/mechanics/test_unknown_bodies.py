@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from rigs import DOUBLE, SINGLE
 
-from symid.analysis.bodies import bodies_words, determined, rig_with_unknown_bodies, unknown_bodies
 from symid.cases import diagnose_case, rig_case
 from symid.discrepancy import suspects
 from symid.errors import RecordingError
+from symid.estimation.bodies import bodies_words, determined, rig_with_unknown_bodies, unknown_bodies
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of

@@ -9,7 +9,6 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from symid.analysis.bodies import Determined
 from symid.discrepancy.design.experiment import Experiment, experiments
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.flexible_law import FlexibleLaw
@@ -24,6 +23,7 @@ from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.say.answer import answer_of
 from symid.discrepancy.say.html import html_of
 from symid.errors import DiagnosisError
+from symid.estimation.bodies import Determined
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.free_run import FreeRun
 from symid.estimation.signals.data import Data
