@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from symid.errors import SymidError
+from symid.estimation.predicting.history import states_before
 from symid.estimation.predicting.kalman import KalmanFilter, is_white, linearised_along, points_along
 from symid.estimation.sensors.whitening import Whitening, whitening_of
 from symid.estimation.signals.data import Data
@@ -25,8 +26,6 @@ LONGEST_STEP = 0.02
 """First longest step of the integrator [s], of a motion with the pace of a second."""
 SLOPE_STEP = 1e-4
 """Slopes of the gain are differences over such a part of a parameter."""
-REACH = 0.03
-"""The motion at the start of a segment is continued backwards for so long [s], for signals that are late."""
 
 
 class Predictor:
@@ -74,7 +73,7 @@ class Predictor:
 
         gain_slopes : of `gain`, as the method of that name makes them: where known, a part of the sensitivities.
         """
-        out, late = [], self._late(p, x0)
+        out, (late, lag) = [], self._late(p, x0)
         for e, start in zip(self.segments(process), x0, strict=True):
             t = e.simulate(
                 self.sim,
@@ -85,7 +84,7 @@ class Predictor:
                 keep=keep,
                 sensitivity=self.free if sensitivities else (),
                 initial_sensitivity=self.sim.states if sensitivities else (),
-                history=self._history(p, start, e),
+                history=self._history(p, start, e, lag),
                 late=late,
                 **self.steps,
             )
@@ -94,26 +93,22 @@ class Predictor:
             out.append(t)
         return out
 
-    def _late(self, p, x0) -> np.ndarray | None:
-        """(m,) [s] how late each output is; None where no state is read late."""
+    def _late(self, p, x0) -> tuple[np.ndarray | None, float]:
+        """(m,) [s] how late each output is, and how late any state is read; None and zero where none is."""
         if not self.model.delays:
-            return None
+            return None, 0.0
         try:
             linear = linearised_along(self.sim, p, x0, self.data.mean_inputs, points=1)
         except SymidError:  # it diverges, too
-            return None
-        return np.where(linear.late_state < 0, 0.0, (linear.C_late != 0) * linear.lag).max(axis=1, initial=0.0)
+            return None, 0.0
+        of_states = np.where(linear.late_state < 0, 0.0, linear.lag)
+        return ((linear.C_late != 0) * of_states).max(axis=1, initial=0.0), of_states.max(initial=0.0)
 
-    def _history(self, p, start, segment):
-        """States just before an segment of a motion without random forces, where something reads them late."""
-        if self.driven or not self.model.delays:
+    def _history(self, p, start, segment: Segment, lag: float):
+        """States just before a segment of a motion without random forces, where something reads them late."""
+        if self.driven or lag <= 0:
             return None
-        x = segment.head(3).simulate(self.sim, p, start, keep="states", **self.steps).x
-        if not np.isfinite(x).all():
-            return None
-        ago = np.linspace(-REACH * self.data.pace, 0.0, 7)[:, None]
-        slope, bend = (4 * x[1] - 3 * x[0] - x[2]) / (2 * self.step), (x[2] - 2 * x[1] + x[0]) / self.step**2
-        return segment.time[0] + ago[:, 0], x[0] + ago * slope + ago**2 / 2 * bend
+        return states_before(self.sim, p, start, segment, lag, self.data.pace, self.steps)
 
     def segments(self, process) -> tuple[Segment, ...]:
         """The segments at the sharpness that stands behind the noises in `process`."""

@@ -1,0 +1,43 @@
+"""What states were before a window: where its inputs are known they lead to where it begins."""
+
+import numpy as np
+import pytest
+
+import symid as si
+from symid.estimation.predicting.history import states_before
+from symid.estimation.signals.segment import Segment
+from symid.simulation import simulator
+
+STEP, LAG = 0.005, 0.06
+VALUES = {"k": 40.0, "d": 3.0}
+
+
+def late_arm(hold: str) -> si.Model:
+    """A mass that is pulled back by what its place and its speed were some time ago, towards an input."""
+    m = si.Model("late arm")
+    m.x, m.v = si.State(unit="m"), si.State(unit="m/s")
+    m.to = si.Input(unit="m", hold=hold)
+    m.k, m.d = si.Parameter(unit="1/s^2"), si.Parameter(unit="1/s")
+    m.kinematics = si.Equation(m.x.dot - m.v)
+    m.balance = si.Equation(m.v.dot + m.k * (m.delayed(m.x, LAG) - m.to) + m.d * m.delayed(m.v, LAG) + m.v)
+    m.place = si.Output(m.x)
+    return m
+
+
+@pytest.mark.parametrize("hold", ["zero", "linear"])
+@pytest.mark.parametrize("begin", [402, 408, 415])
+def test_a_jump_of_the_input_just_before_a_window_is_in_its_past(hold, begin):
+    """The jump is at sample 400."""
+    time = np.arange(600) * STEP
+    to = np.where(np.arange(600) % 200 < 100, 0.0, 0.5)
+    sim = simulator(late_arm(hold))
+    run = sim.simulate(VALUES, {"x": 0.1, "v": 0.0}, time, {"to": to}, substeps=4)
+    segment = Segment(time, run.y, {"to": to}).part(slice(begin, None))
+    p = np.array([VALUES[k] for k in sim.parameters])
+    steps = {"substeps": 4, "method": "rk4"}
+    before, x = states_before(sim, p, run.x[begin], segment, LAG, 1.0, steps)
+    late = before > time[begin] - LAG
+    truth = np.column_stack([np.interp(before, time, column) for column in run.x.T])
+    scale = np.abs(run.x).max(axis=0)
+    np.testing.assert_array_less(np.abs(x - truth)[late] / scale, 2e-3)
+    np.testing.assert_array_equal(x[-1], run.x[begin])
