@@ -209,7 +209,8 @@ def _in_order(residual: sm.Matrix, mass: sm.Matrix) -> tuple[sm.Matrix, sm.Matri
     others = iter([i for i in range(n) if i not in own.values()])
     order = [own[j] if j in own else next(others) for j in range(n)]
     parts = [mass[i, j] if j in own else sm.Integer(1) for j, i in enumerate(order)]
-    divided = sm.Matrix([sm.expand_mul(residual[i] / part) for i, part in zip(order, parts, strict=True)])
+    terms = [sm.Add.make_args(residual[i]) for i in order]
+    divided = sm.Matrix([sm.Add(*(a / part for a in row)) for row, part in zip(terms, parts, strict=True)])
     return divided, sm.Matrix([mass.row(i) / part for i, part in zip(order, parts, strict=True)])
 
 
