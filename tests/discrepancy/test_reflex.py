@@ -45,12 +45,14 @@ def pushed(reflex: float, delay_s: float, seed: int) -> si.Recording:
 
 
 @pytest.mark.slow
-def test_a_late_reflex_is_told_and_no_sensor_that_lags():
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_late_reflex_is_told_and_no_sensor_that_lags(seed):
     """It was called a lag of the sensor, of a drive that comes before what was recorded of it.
 
-    What the speed was before a window begins is not known; with seed 2 that costs the reflex more than the lag.
+    What the speed was before a window begins follows from the torques before it; when a parabola stood for it seed 2
+    was told as a lag still.
     """
-    found = si.diagnose(forearm(), pushed(1.2, 0.05, 1), fit_window=(0, 20), held_out=(20, 39.9), threads=1)
+    found = si.diagnose(forearm(), pushed(1.2, 0.05, seed), fit_window=(0, 20), held_out=(20, 39.9), threads=1)
     assert found.verdict == "unexplained" and "as by a stretch reflex" in found.words, str(found)
     (law,) = [e for e in found.effects if e.name == "late_damping"]
     for key, true in (("coefficient_Nms_rad", 1.2), ("delay_s", 0.05)):

@@ -18,7 +18,7 @@ FAMILIES = (
     },
     {"torsional_spring", "bouc_wen_hysteresis", "bent_hysteresis"},
     {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "constant_torque"},
-    {"cubic_stiffness", "end_range_stiffness", "bouc_wen_hysteresis", "bent_hysteresis"},
+    {"cubic_stiffness", "end_range_stiffness", "clearance", "bouc_wen_hysteresis", "bent_hysteresis"},
     {"constant_torque", "quadratic_stiffness", "asymmetric_damping"},
     {"extra_mass", "center_of_mass_error", "link_inertia_error"},
     {"feedback_delay", "muscle_lag", "second_order_muscle_lag", "joint_feedback_delay", "joint_muscle_lag"},

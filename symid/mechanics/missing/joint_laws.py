@@ -26,6 +26,11 @@ def _stribeck(m, port, p):
     return -size * dry(m, port, "stribeck_friction")
 
 
+def _clearance(m, port, p):
+    free = (sm.Abs(port.position + p.gap_rad) - sm.Abs(port.position - p.gap_rad)) / 2
+    return -p.k_Nm_rad * (port.position - free)
+
+
 def _late_damping(m, port, p):
     late = {s: m.delayed(s, p.delay_s) for s in (x.symbol for x in m.states.values()) if port.rate.has(s)}
     return -p.coefficient_Nms_rad * port.rate.xreplace(late)
@@ -177,6 +182,17 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         lambda m, port, p: -p.torque_Nm * sm.sinh(port.position / p.width_rad),
         "The {place} meets a resistance that grows exponentially, e-fold every {width_rad}",
         "Audu & Davy 1985",
+    ),
+    effort_law(
+        "clearance",
+        "joint",
+        (
+            LawParameter("k_Nm_rad", "N*m/rad", _POSITIVE),
+            LawParameter("gap_rad", "rad", (1e-4, 1.0), None, (0.01, 0.05, 0.15), 0.05),
+        ),
+        _clearance,
+        "A further spring of {k_Nm_rad} acts at the {place} beyond {gap_rad} to either side, as behind a play or at stops",
+        "Shaw & Holmes 1983",
     ),
     effort_law(
         "quadratic_stiffness",
