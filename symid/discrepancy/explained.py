@@ -39,7 +39,7 @@ from symid.model import Model
 CLEARER = 0.7
 """No filter was there where a free run of what explains the recording without one leaves less than this part of the
 error: 0.001 of a positioning drive whose encoder resolves a millionth of its travel, 0.02 of a free double pendulum
-whose swing feigned a mean of 37 samples (tests/discrepancy/test_fine_sensors.py; draw 109 of "spoilt")."""
+whose swing feigned a mean of 37 samples (tests/discrepancy/recordings/test_fine_sensors.py; draw 109 of "spoilt")."""
 
 
 @dataclass(frozen=True, eq=False)

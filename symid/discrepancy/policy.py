@@ -37,7 +37,7 @@ class Policy:
         part came to nothing; a channel that is late by less than `skew` samples.
     least_part : of two forces of one law neither is less than this part of the other, else the law is never named. A
         Stribeck curve with ten times as much friction at rest as in motion lets a spring stop where it turns, and
-        imitates any period that depends on the amplitude (tests/discrepancy/test_other_machines.py).
+        imitates any period that depends on the amplitude (tests/discrepancy/machines/test_other_machines.py).
     skew : of a sample, by which channels of one recorder may be apart: its multiplexer reads them one after the other,
         and what a model leaves out of a smooth motion looks like a hundredth of a sample.
     harmonics : multiples that count.

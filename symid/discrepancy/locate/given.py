@@ -23,7 +23,7 @@ FAR = 10.0
 """Seconds, at the pace of one, of the pieces in which a motion is compared that the model as given is far from, or half
 of it: over all of its time the wrong model is out of step, and so is every law that completes it. A beam swings eight
 times in them and shows its losses; whole, twenty seconds of it led nowhere, nor did fourteen of a drive whose load a
-spring holds (tests/discrepancy/test_far_from_the_model.py)."""
+spring holds (tests/discrepancy/machines/test_far_from_the_model.py)."""
 PIECES = 4
 """So many of the longest pieces of a recording are enough for a start."""
 

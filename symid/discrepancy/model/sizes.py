@@ -14,6 +14,7 @@ from symid.estimation.fitting.path import fitted_path
 from symid.estimation.signals.data import Data
 from symid.mechanics.feedback import torques_along
 from symid.mechanics.missing.laws import coordinate_unit
+from symid.model import Model
 
 REACHES, REACH = (0.003, 3.0), 0.1
 """Motions of so many radians or metres, rms, are what laws are stated for, and one that is typical of them."""
@@ -29,7 +30,8 @@ class Sizes:
     ----------
     pace : seconds. reach, torque : by place, where they are not as usual.
     only : places, by name, of laws that need more than their port: a torque that comes back in each turn a joint that
-        turns by more than one, a loss that follows a level's sign a level that changes it.
+        turns by more than one, a loss that follows a level's sign a level that changes it, a speed that is felt late a
+        machine without a controller, which has laws of its own for that.
     """
 
     pace: float = 1.0
@@ -51,8 +53,16 @@ class Sizes:
 
 def sizes_of(fit: Fit, data: Data) -> Sizes:
     """Of a fitted model and the motion to which it was fitted."""
-    only = {"cogging_torque": _turning(fit, data), "constant_loss": signed(fit.model, data.segments)}
+    only = {
+        "cogging_torque": _turning(fit, data),
+        "constant_loss": signed(fit.model, data.segments),
+        "late_damping": _joints_without_controller(fit.model),
+    }
     return Sizes(data.pace, _reaches(fit, data), _torques(fit, data), only)
+
+
+def _joints_without_controller(model: Model) -> list[str]:
+    return [] if model.find("feedback_torque") else [p.at for p in model.ports.values() if p.role == "joint"]
 
 
 def _turning(fit: Fit, data: Data) -> list[str]:

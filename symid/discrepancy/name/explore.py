@@ -103,8 +103,8 @@ def _from_nothing(found: list[Hypothesis], data: Data, count: int, regression: R
     """The same, where none meets a free motion with those that explain most fitted as if nothing were known.
 
     A motor that drives a load by a shaft lacked dry friction at the load, took nearly all inertia for the motor's, and
-    then the friction for it, too (tests/discrepancy/test_from_nothing.py). Only laws with one unknown: they tell the
-    place, from where others of their family begin, and find their size from anywhere.
+    then the friction for it, too (tests/discrepancy/machines/test_from_nothing.py). Only laws with one unknown: they
+    tell the place, from where others of their family begin, and find their size from anywhere.
     """
     simple = [h for h in found if h.suspect.size == 1 and h.suspect.scanned is None]
     first = sorted(simple, key=lambda h: -h.log_ratio)[:count]

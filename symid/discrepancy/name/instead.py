@@ -51,7 +51,7 @@ def simpler_than_best(found: Sequence[Hypothesis], pool: Sequence[Suspect], near
     """The best of `found` with a law of fewer unknowns in place of its last, from where that one ended.
 
     Friction that falls with speed leads where plain friction alone did not find the way, and where all speeds are low
-    it is no other (a cart that balances a pole: tests/discrepancy/test_closed_loops.py).
+    it is no other (a cart that balances a pole: tests/discrepancy/machines/test_closed_loops.py).
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ SMALL = 0.15
 FINER = 1.4
 """Delays and lags of a sensor at which a predictor is asked, in parts of the one before. Its likelihood has a narrow
 peak: that of a sensor 37 ms late was 2500 above that of none at 30 and 40 ms, and as far below it at 20 and 50 ms
-(tests/discrepancy/test_late_under_forces.py)."""
+(tests/discrepancy/machines/test_late_under_forces.py)."""
 
 
 @dataclass(frozen=True, eq=False)

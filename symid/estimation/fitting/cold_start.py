@@ -21,12 +21,12 @@ from symid.simulation import simulator
 FIRST, GROWING = 0.1, 4.0
 """Seconds of each segment, at the pace of a second, that are fitted first, so that free runs find their initial
 states, and by what factor they grow: from 1.5 s to 150 s at once, the period of a swing that never dies out was 4 % off
-for good (tests/discrepancy/test_other_machines.py)."""
+for good (tests/discrepancy/machines/test_other_machines.py)."""
 CONFIDENT = 10.0
 """The first process noise moves the outputs by this many sensor noises: the fit then leans on the data."""
 FEWEST_STEPS = 10
 """Steps in which the first size of a force is looked for. After a single one of Euler it has moved no position yet:
-that of a ball on a beam, sampled at 10 Hz, began at 10^13 rad (tests/discrepancy/test_ball_and_beam.py)."""
+that of a ball on a beam, sampled at 10 Hz, began at 10^13 rad (tests/discrepancy/machines/test_ball_and_beam.py)."""
 ELSEWHERE = (1 / 64, 1 / 16, 1 / 4, 4.0, 16.0)
 """Factors of the size of each random force at which a likelihood with several maxima may be higher. Sensors seem to
 be perfect at one: at that of an arm twice the log-likelihood was 135 less than with a force a seventeenth as large

@@ -15,7 +15,8 @@ from symid.simulation import simulator
 
 STARTS = 3.0, 30.0
 """Samples over which forces are correlated where a fit begins. Shorter ones are nearly white, and far longer ones a
-random walk; what lies between is within half a decade of one of these (tests/discrepancy/test_correlated_forces.py)."""
+random walk; what lies between is within half a decade of one of these
+(tests/discrepancy/recordings/test_correlated_forces.py)."""
 
 
 def is_correlated(fit: Fit) -> bool:

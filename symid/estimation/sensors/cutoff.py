@@ -31,7 +31,7 @@ thousands of samples are worth hundreds, dips of white noise near them a few (te
 EXPLAINED = 0.55
 """And leave less than this part of what a noise without it leaves unexplained of the spectra: 0.12 to 0.29 in
 tests/estimation/test_smoothing.py, up to 0.43 beside a resonance, 0.69 and more where a motion is no noise, as in
-tests/discrepancy/test_pace.py and tests/mechanics/test_rig.py. A judgement, looked at on these."""
+tests/discrepancy/recordings/test_pace.py and tests/mechanics/test_rig.py. A judgement, looked at on these."""
 NEAREST = 5
 """So many are compared by their likelihood, which takes longer than least squares."""
 FILLED = 1e-3

@@ -191,7 +191,7 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
             LawParameter("gap_rad", "rad", (1e-4, 1.0), None, (0.01, 0.05, 0.15), 0.05),
         ),
         _clearance,
-        "A further spring of {k_Nm_rad} acts at the {place} beyond {gap_rad} to either side, as behind a play or at stops",
+        "A further spring of {k_Nm_rad} acts at the {place} beyond {gap_rad} either way, as behind a play or at stops",
         "Shaw & Holmes 1983",
     ),
     effort_law(

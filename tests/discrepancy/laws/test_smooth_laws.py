@@ -1,6 +1,6 @@
 """Twelve smooth laws that the library lacks, on three mechanisms: how much a flexible law closes, what is proposed.
 
-``pytest -m slow tests/discrepancy/test_smooth_laws.py -s`` prints the table; a few minutes.
+``pytest -m slow tests/discrepancy/laws/test_smooth_laws.py -s`` prints the table; a few minutes.
 """
 
 import numpy as np
