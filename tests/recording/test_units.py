@@ -10,6 +10,7 @@ from hypothesis import example, given, settings, strategies as st
 from symid import units
 from symid.errors import RecordingError, UnitError
 from symid.units import column_name, dimension, known_unit, same_dimension, si_factor, split_column_name
+from symid.units.dimension import SI, Dimension
 
 
 @pytest.mark.parametrize("suffix", units.si.SUFFIXES)
@@ -57,6 +58,22 @@ def test_dimensions_multiply_divide_and_have_powers():
     assert dimension("rad/s^2") == dimension("s") ** -2 == dimension("1") / dimension("s") ** 2
     assert dimension("kg*m^2") * dimension("rad/s^2") == dimension("N*m")
     assert dimension("N*m") != dimension("N")
+
+
+@given(
+    st.lists(st.tuples(st.sampled_from(sorted(SI)), st.integers(1, 4), st.sampled_from("*/")), min_size=1, max_size=4)
+)
+@settings(max_examples=60, deadline=None)
+def test_dimensions_of_products_of_the_si_agree_with_pint(parts):
+    text = "1" + "".join(f"{sign}{unit}^{power}" for unit, power, sign in parts)
+    found = dimension(text)
+    assert found == Dimension(units.si.parsed(text).dimensionality)
+    assert hash(found) == hash(Dimension(dict(found.items())))
+
+
+def test_a_dimension_is_written_in_base_quantities():
+    assert str(dimension("N*m")) == "[length] ** 2 * [mass] / [time] ** 2"
+    assert str(dimension("1/s")) == "1 / [time]" and str(dimension("rad")) == "dimensionless"
 
 
 def test_an_angle_is_dimensionless():

@@ -30,8 +30,8 @@ def begun_anew(found: Hypothesis, regression: Regression) -> Hypothesis:
 
     Only of a free motion that is not met: without what it lacks a model ends at values that are wrong for it, beside
     which the likelihood of a long motion has other optima. An arm on a spring, with a pendulum at its end, stayed in
-    one (tests/discrepancy/search/test_begun_anew.py); a drive whose load a spring holds stayed in one from the middle of
-    its bounds, too, where regression knew its optimum within a percent
+    one (tests/discrepancy/search/test_begun_anew.py); a drive whose load a spring holds stayed in one from the middle
+    of its bounds, too, where regression knew its optimum within a percent
     (tests/discrepancy/machines/test_far_from_the_model.py).
     """
     if found.fit.kalman_gain is not None or not found.suspects or is_met(found.fit, found.data, POLICY.sensors):
