@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.signal import find_peaks
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import Suspect
@@ -57,6 +56,8 @@ def comb(
                 for f in np.array_split(fine, len(fine) // CHUNK + 1)
             ]
         )
+
+    from scipy.signal import find_peaks  # here: it loads scipy.stats, 0.4 s that most diagnoses never need
 
     projection.scans.append(lambda rest: gains(rest).max(axis=0))
     gain = gains(projection.rest[:, None])[:, 0]

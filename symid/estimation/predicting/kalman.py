@@ -35,7 +35,7 @@ def linearised_along(
 
 def points_along(states: np.ndarray, points: int = 16) -> np.ndarray:
     """(P, n) states of a trajectory at which it is linearised: of themselves they give the same ones again."""
-    rows = states[np.isfinite(states).all(axis=1)]
+    rows = states if np.isfinite(states.sum()) else states[np.isfinite(states).all(axis=1)]
     return rows[np.linspace(0, len(rows) - 1, points).astype(int)] if len(rows) else states[:1]
 
 

@@ -11,8 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from scipy.optimize import minimize
-from scipy.signal import periodogram
-from scipy.stats import chi2
+from scipy.special import chdtrc
 
 PER_OCTAVE = 4
 """Bands of an octave in which a spectrum is compared: a resonance of a damping ratio of 0.1 fills one."""
@@ -40,6 +39,8 @@ def is_first_order(errors: Sequence[np.ndarray]) -> bool:
 
 def _chance(series: Sequence[np.ndarray]) -> float:
     """Probability that noise of first order differs so much from its fitted spectrum."""
+    from scipy.signal import periodogram  # here: it loads scipy.stats, 0.4 s that most diagnoses never need
+
     spectra = [periodogram(s, window=("tukey", TAPER), detrend="constant") for s in series if len(s) > 2]
     f, power = (np.concatenate(parts) for parts in zip(*((f[1:-1], p[1:-1]) for f, p in spectra), strict=True))
     shape = _fitted(f, power)
@@ -47,7 +48,7 @@ def _chance(series: Sequence[np.ndarray]) -> float:
     band = np.floor(PER_OCTAVE * np.log2(f / f.min()))
     means = [(np.sum(band == b), np.mean(ratio[band == b])) for b in np.unique(band)]
     deviance = sum(2 * n * (m - 1 - np.log(m)) for n, m in means)
-    return float(chi2.sf(deviance, len(means) - 3))  # memory, white part and scale were fitted
+    return float(chdtrc(len(means) - 3, deviance))  # memory, white part and scale were fitted
 
 
 def _fitted(f: np.ndarray, power: np.ndarray) -> np.ndarray:

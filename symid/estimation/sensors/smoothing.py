@@ -8,7 +8,6 @@ from math import ceil
 
 import numpy as np
 from scipy.optimize import brentq
-from scipy.signal import savgol_coeffs
 
 from symid.estimation.sensors.zero_phase import ROLL_OFF, ZeroPhase
 from symid.units import rough
@@ -40,7 +39,9 @@ class Smoothing(ZeroPhase):
 
     @cached_property
     def _weights(self) -> np.ndarray:
-        return savgol_coeffs(self.samples, self.order)
+        """(samples,) by which samples count in the middle of the polynomial of least squares (Savitzky & Golay 1964)."""
+        half = self.samples // 2
+        return np.linalg.pinv(np.vander(np.arange(-half, half + 1) / max(half, 1), self.order + 1, increasing=True))[0]
 
     def _gain(self, angle: np.ndarray) -> np.ndarray:
         """At an angle a sample [rad]; the weights are the same before and after."""

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
-from scipy.signal import csd, welch
 
 DIFFERENCES = 2, 4
 """Orders of the differences of which spectra are taken."""
@@ -14,6 +12,10 @@ TINY = 1e-100
 """Stands for no power: of no unit is it any, and its inverse can still be squared."""
 COHERENT = 1e-12
 """Part of the power, and of what tells inputs apart, below which a difference of spectra is rounding."""
+
+
+WINDOW = 0.35875, -0.48829, 0.14128, -0.01168
+"""Cosines of a window that leaks 92 dB less than a look's own frequency (Harris 1978, table 1)."""
 
 
 def power_spectrum(
@@ -32,13 +34,11 @@ def power_spectrum(
     ----------
     step : between samples [s]. samples : of one look, from 2 to N less the largest of `DIFFERENCES`.
     """
-    found = []
+    found, frequency = [], np.fft.rfftfreq(samples, step)
     for order in DIFFERENCES:
-        how = {"fs": 1 / step, "window": "blackmanharris", "nperseg": samples, "noverlap": 2 * samples // 3}
-        how["detrend"] = "linear"
-        y = np.diff(x, order)
-        frequency, power = welch(y, **how)
-        power = np.maximum(power - _answer([np.diff(u, order) for u in inputs], y, how), COHERENT * power)
+        y, *drives = (looks(np.diff(signal, order), step, samples) for signal in (x, *inputs))
+        power = _mean(y, y).real
+        power = np.maximum(power - _answer(drives, y), COHERENT * power)
         power[1:] /= (2 * np.sin(np.pi * frequency[1:] * step)) ** (2 * order)
         found.append(power)
     least = np.maximum(np.minimum(*found), TINY)
@@ -46,17 +46,34 @@ def power_spectrum(
     return frequency, least
 
 
-def _answer(inputs: list[np.ndarray], y: np.ndarray, how: dict[str, Any]) -> np.ndarray:
-    """(F,) power of the linear answer of `y` to all inputs together."""
+def looks(x: np.ndarray, step: float, samples: int) -> np.ndarray:
+    """(L, F) spectra of looks at (N,) `x` that overlap by two thirds, of which power is the mean square (Welch 1967).
+
+    Each is taken without its straight line. This is `scipy.signal.welch` with a window by Blackman and Harris, of which
+    the import takes longer than all spectra of a diagnosis.
+    """
+    rows = np.lib.stride_tricks.sliding_window_view(x, samples)[:: samples - 2 * samples // 3]
+    line = np.linspace(-1.0, 1.0, samples)
+    rows = rows - rows.mean(axis=1, keepdims=True)
+    rows = rows - np.outer(rows @ line / (line @ line), line)
+    angle = 2 * np.pi * np.arange(samples) / samples
+    window = sum(part * np.cos(k * angle) for k, part in enumerate(WINDOW))
+    both_sides = np.full(samples // 2 + 1, 2.0)
+    both_sides[[0, -1] if samples % 2 == 0 else [0]] = 1.0
+    return np.fft.rfft(rows * window) * np.sqrt(both_sides * step / (window @ window))
+
+
+def _mean(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """(F,) cross spectrum of two signals from (L, F) of their looks."""
+    return np.mean(a.conj() * b, axis=0)
+
+
+def _answer(inputs: list[np.ndarray], y: np.ndarray) -> np.ndarray:
+    """(F,) power of the linear answer of `y` to all inputs together; (L, F) looks at each."""
     if not inputs:
         return np.zeros(1)
-    size = [np.sqrt(np.maximum(welch(u, **how)[1], TINY)) for u in inputs]
-    both = np.array([csd(u, y, **how)[1] / a for u, a in zip(inputs, size, strict=True)]).T
-    among = np.array(
-        [
-            [csd(u, v, **how)[1] / (a * b) for v, b in zip(inputs, size, strict=True)]
-            for u, a in zip(inputs, size, strict=True)
-        ]
-    )
+    inputs = [u / np.sqrt(np.maximum(_mean(u, u).real, TINY)) for u in inputs]
+    both = np.array([_mean(u, y) for u in inputs]).T
+    among = np.array([[_mean(u, v) for v in inputs] for u in inputs])
     inverse = np.linalg.pinv(np.moveaxis(among, -1, 0), rcond=COHERENT, hermitian=True)
     return np.einsum("fi,fij,fj->f", both.conj(), inverse, both).real
