@@ -39,7 +39,7 @@ class Smoothing(ZeroPhase):
 
     @cached_property
     def _weights(self) -> np.ndarray:
-        """(samples,) by which samples count in the middle of the polynomial of least squares (Savitzky & Golay 1964)."""
+        """(samples,) by which each counts in the middle of a polynomial of least squares (Savitzky & Golay 1964)."""
         half = self.samples // 2
         return np.linalg.pinv(np.vander(np.arange(-half, half + 1) / max(half, 1), self.order + 1, increasing=True))[0]
 
