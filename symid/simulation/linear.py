@@ -76,14 +76,13 @@ def is_singular(mass: np.ndarray) -> bool:
     return not columns.all() or not np.linalg.cond(scaled / columns) < SINGULAR
 
 
-def _pade(lag: float, order: int):
-    """State space (a, b, c, d) of the Pade approximant of a delay."""
-    from scipy.signal import tf2ss
-
+def _pade(lag: float, order: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """State space (a, b, c, d) of the Pade approximant of a delay, in controllable form."""
     p = [1.0]
     for k in range(1, order + 1):
         p.append(p[-1] * (order - k + 1) / (k * (2 * order - k + 1)))
     low_first = np.array(p) * lag ** np.arange(order + 1)
-    den, num = low_first[::-1], (low_first * (-1.0) ** np.arange(order + 1))[::-1]
-    a, b, c, d = tf2ss(num, den)
-    return a, b[:, 0], c[0], d[0, 0]
+    den, num = low_first[::-1] / low_first[-1], (low_first * (-1.0) ** np.arange(order + 1))[::-1] / low_first[-1]
+    a = np.eye(order, k=-1)
+    a[0] = -den[1:]
+    return a, np.eye(order)[0], num[1:] - num[0] * den[1:], float(num[0])
