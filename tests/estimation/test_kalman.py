@@ -2,8 +2,9 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import solve_discrete_are
 
-from symid.estimation.predicting.kalman import KalmanFilter
+from symid.estimation.predicting.kalman import KalmanFilter, stationary_covariance
 from symid.estimation.signals.segment import _between
 from symid.simulation import Linearised
 
@@ -71,3 +72,26 @@ def test_slopes_are_those_of_the_gain():
         ]
         for a, b in zip(got, wanted, strict=True):
             np.testing.assert_allclose(a, b, atol=1e-3 * np.abs(b).max())
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_covariance_is_that_of_scipy(seed):
+    """Of systems that grow, too, where an output shows what grows."""
+    rng = np.random.default_rng(seed)
+    n, m = 2 + seed % 5, 1 + seed % 2
+    F, C, G = rng.standard_normal((n, n)), rng.standard_normal((m, n)), rng.standard_normal((n, 1))
+    F *= (0.5, 0.99, 1.1)[seed % 3] / np.abs(np.linalg.eigvals(F)).max()
+    Q = G @ G.T + 1e-9 * np.eye(n)
+    P = stationary_covariance(F, C, Q)
+    np.testing.assert_allclose(P, solve_discrete_are(F.T, C.T, Q, np.eye(m)), rtol=1e-7, atol=1e-7 * np.abs(P).max())
+
+
+def test_a_mode_that_dies_out_within_a_sample_has_a_covariance():
+    F, C = np.diag([0.97, 1e-150]), np.array([[1.0, 1.0]])
+    P = stationary_covariance(F, C, np.diag([1e-3, 1e-12]))
+    after = P - P @ C.T @ C @ P / (1 + C @ P @ C.T)
+    np.testing.assert_allclose(F @ after @ F.T + np.diag([1e-3, 1e-12]), P, rtol=1e-12)
+
+
+def test_what_grows_unseen_has_no_covariance():
+    assert stationary_covariance(np.diag([1.1, 0.5]), np.array([[0.0, 1.0]]), np.eye(2)) is None

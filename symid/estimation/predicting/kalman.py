@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import LinAlgError, expm, matrix_balance, solve_discrete_are
+from scipy.linalg import expm, matrix_balance
 
 from symid.model import WHITE, Model
 from symid.simulation import Linearised, Simulator
@@ -16,8 +16,9 @@ HOLD, MOST_HOLDS = 0.01, 8
 FLOOR = 1e-12
 """Every state is moved by at least so small a variance, that of a sensor's noise being one: a mode that nothing moves
 has no stationary gain."""
-MOST_DOUBLINGS, DIED_OUT = 40, 1e-9
-"""A change of the covariance is followed over at most 2^40 samples, until so small a part of it is left."""
+MOST_DOUBLINGS, DIED_OUT, SETTLED = 40, 1e-9, 1e-14
+"""The covariance and a change of it are followed over at most 2^40 samples: until so small a part of a change is left,
+and until the covariance grows by no larger part."""
 
 
 def linearised_along(
@@ -79,14 +80,10 @@ class KalmanFilter:
         F, Q = _moved(A, G, step, process, white)
         size = _sizes(F, C / sensor[:, None])
         found = cls(linear, step, sensor, size, *_scaled(F, Q, C / sensor[:, None], size), P=None, white=white)
-        moved, alike = found.Q + FLOOR * np.eye(len(F)), np.eye(len(C))
         for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
-            try:
-                with np.errstate(over="ignore", invalid="ignore"):
-                    P = solve_discrete_are((leak * found.F).T, found.C.T, moved, alike)
+            P = stationary_covariance(leak * found.F, found.C, found.Q + FLOOR * np.eye(len(F)))
+            if P is not None:
                 return replace(found, P=P, leak=leak)
-            except (LinAlgError, ValueError):
-                continue
         return found
 
     @property
@@ -155,6 +152,29 @@ class KalmanFilter:
                 for (far, *_), own, *model in zip(others, sensor, F, C, self.P + change, strict=True)
             ]
         )
+
+
+def stationary_covariance(F: np.ndarray, C: np.ndarray, Q: np.ndarray) -> np.ndarray | None:
+    """(n, n) P = F P (1 + C'C P)^-1 F' + Q, of a predicted state that (m, n) C shows with noise of variance one.
+
+    None where there is none. By doubling the number of samples: Anderson's recursion of 1978, as Guo, Chu, Liang & Lin
+    describe it (2020, arXiv 2005.08288). It takes a third of the time of `scipy.linalg.solve_discrete_are`, which finds
+    nothing where a mode dies out within a sample.
+    """
+    back, seen, P, one = F.T, C.T @ C, Q, np.eye(len(F))
+    with np.errstate(over="ignore", invalid="ignore"):  # of a mode that grows unseen
+        for _ in range(MOST_DOUBLINGS):
+            try:
+                apart = np.linalg.inv(one + seen @ P)
+            except np.linalg.LinAlgError:
+                return None
+            between, more = back @ apart, back.T @ P @ apart @ back
+            P, seen, back = P + (more + more.T) / 2, seen + between @ seen @ back.T, between @ back
+            if not np.isfinite(P).all():
+                return None
+            if np.abs(more).max() <= SETTLED * np.abs(P).max():
+                return P
+    return None
 
 
 def _scaled(F, Q, C, size: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
