@@ -23,8 +23,8 @@ long simulate(const Ode *model, Run *given)
     for (int i = 0; i < model->np; i++) column[i] = -1;
     for (long k = 0; k < r->nqp; k++) column[r->qp[k]] = (int)k;
     v->column = column;
-    long nsteps = keep ? (r->N - 1) * m + 1 : 0;
     double *space = calloc(9 * big + 2 * NON(NL) * nq + NON(NY) * nq + 64, sizeof(double));
+    if (!space) return -1;
     double x[NXX], xs[NXX], rate[4*NXX], y[NON(NY)], xk[NXX], first[NXX], ak[NXX], lag[NON(NL)], A[NXX*PADDED(NX)], size[NXX], err[2*NXX];
     long hint[NON(NL)];
     memset(ak, 0, NX * sizeof(double)); memset(first, 0, NX * sizeof(double)); memset(hint, 0, NON(NL) * sizeof(long));
@@ -36,14 +36,7 @@ long simulate(const Ode *model, Run *given)
     v->sk = room; v->sk1 = room + big; v->sak = room + 2*big; v->dlag = room + 3*big;
     double *lS = v->lS = v->dlag + NON(NL)*nq, *Sy = lS + NON(NL)*nq;
     double *k1 = v->rate[0], *k2 = v->rate[1], *k4 = v->rate[3], *K1 = v->Rate[0], *K2 = v->Rate[1], *K4 = v->Rate[3];
-    if (keep) {
-        v->when = malloc(2 * nsteps * sizeof(double));
-        v->span = v->when + nsteps;
-        v->poly = malloc(nsteps * 4 * NXX * (1 + nq) * sizeof(double));
-        v->spoly = v->poly + nsteps * 4 * NXX;
-    }
     long done = 0;
-    if (!space || (keep && (!v->when || !v->poly))) { done = -1; goto end; }
     memcpy(x, r->x0, NX * sizeof(double));
     for (long k = 0; k < r->nqx; k++) S[r->qx[k]*nq + r->nqp + k] = 1;
     v->m->lags(x, x, x, x, x, r->p, r->c, 0, v->lag);
@@ -51,6 +44,15 @@ long simulate(const Ode *model, Run *given)
         double dp[NON(v->m->lp.count)];
         v->m->lag_slopes(x, x, x, x, x, r->p, r->c, 0, dp);
         direct(1, &v->m->lp, dp, v, v->dlag);
+    }
+    if (keep) {
+        long n = v->kept = steps_kept(v);
+        v->when = malloc(2 * n * sizeof(double));
+        v->span = v->when + n;
+        v->poly = malloc(n * 4 * NXX * (1 + nq) * sizeof(double));
+        v->spoly = v->poly + n * 4 * NXX;
+        v->told = malloc((r->npast + 1) * NXX * (1 + nq) * sizeof(double));
+        if (!v->when || !v->poly || !v->told) { done = -1; goto end; }
     }
     memcpy(v->xk, x, NX * sizeof(double)); memcpy(v->sk, S, big * sizeof(double));
     v->tk = r->t[0];
@@ -89,8 +91,8 @@ long simulate(const Ode *model, Run *given)
             v->hk = 0;
             if (keep) {
                 long n = v->steps;
-                double *P = v->poly + n*4*NX, *Q = v->spoly + n*4*big;
-                v->when[n] = t; v->span[n] = h;
+                double *P = v->poly + n % v->kept * 4*NX, *Q = v->spoly + n % v->kept * 4*big;
+                v->when[n % v->kept] = t; v->span[n % v->kept] = h;
                 memcpy(P, v->xk, NX*sizeof(double)); memcpy(P+NX, k1, NX*sizeof(double));
                 memcpy(P+2*NX, k2, NX*sizeof(double)); memcpy(P+3*NX, k4, NX*sizeof(double));
                 memcpy(Q, v->sk, big*sizeof(double)); memcpy(Q+big, K1, big*sizeof(double));
@@ -105,7 +107,7 @@ long simulate(const Ode *model, Run *given)
     }
 end:
     given->stiff = v->stiff;
-    if (keep) { free(v->when); free(v->poly); }
+    if (keep) { free(v->when); free(v->poly); free(v->told); }
     free(space);
     return done;
 }

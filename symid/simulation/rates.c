@@ -105,11 +105,13 @@ static void state_at(Work *v, int j, int i, double s, double *value, double *rat
         *rate = f > 0 ? (b - a) / h : 0;
         return;
     }
-    long k = v->hint[j];
-    if (k >= v->steps) k = v->steps - 1;
-    while (k > 0 && s < v->when[k]) k--;
-    while (k < v->steps - 1 && s > v->when[k] + v->span[k]) k++;
-    v->hint[j] = k;
+    long n = v->hint[j], oldest = v->steps > v->kept ? v->steps - v->kept : 0, k;
+    if (n >= v->steps) n = v->steps - 1;
+    if (n < oldest) n = oldest;
+    while (n > oldest && s < v->when[n % v->kept]) n--;
+    while (n < v->steps - 1 && s > v->when[n % v->kept] + v->span[n % v->kept]) n++;
+    v->hint[j] = n;
+    k = n % v->kept;
     double h = v->span[k], q = (s - v->when[k]) / h, q2 = q*q, q3 = q2*q;
     double b1 = h * (q - 1.5*q2 + 2*q3/3), b2 = h * (q2 - 2*q3/3), b4 = h * (-0.5*q2 + 2*q3/3);
     const double *P = v->poly + k*4*NX;
@@ -215,55 +217,66 @@ static int healthy(int n, const double *x, double limit)
     return 1;
 }
 
-/* Correction of state i per unit of surprise o, `late` sample intervals before the sample. */
-static double past_gain(const Work *v, double late, int i, int o)
+/* How many steps late signals and the corrections of the past may still read. */
+static long steps_kept(const Work *v)
 {
-    long j = (long)late, size = NX*NY;
-    if (late < 0) return v->r.gain[i*NY+o];
-    if (j >= v->r.npast) return 0;
-    double f = late - j;
-    return (1-f) * v->r.gain[j*size + i*NY+o] + f * v->r.gain[(j+1)*size + i*NY+o];
+    const Run *r = &v->r;
+    double longest = 0, least = INFINITY, most = 0, all = (double)(r->N - 1) * r->substeps + 1;
+    for (int j = 0; j < NL; j++) if (!v->m->late_kind[j] && !(v->lag[j] <= longest)) longest = v->lag[j];
+    for (long k = 0; k < r->N - 1; k++) {
+        double h = r->t[k+1] - r->t[k];
+        if (h < least) least = h;
+        if (h > most) most = h;
+    }
+    double kept = ((longest + (r->npast + 1) * most) / least + 4) * r->substeps;
+    return (long)(kept < all ? kept : all);
 }
 
-/* Slopes of `past_gain`, `part` times, added to a padded row. */
-static void add_past_slopes(const Work *v, double part, double late, int i, int o, double *row)
+/* A value and its row of sensitivities `late` sample intervals before a sample, between those at whole ones. */
+static double told_at(const Work *v, double late, int i, double *row)
 {
-    long j = late < 0 ? 0 : (long)late, size = NX*NY*v->nq;
-    const double *slopes = v->r.dgain + j*size + (i*NY+o)*v->nq;
-    if (late < 0) add(part, slopes, row, v->nq);
-    if (late < 0 || j >= v->r.npast) return;
-    add((1 - (late - j)) * part, slopes, row, v->nq);
-    add((late - j) * part, slopes + size, row, v->nq);
+    long j = late < 0 ? 0 : (long)late, wide = 1 + v->nq;
+    memset(row, 0, v->nq * sizeof(double));
+    if (j >= v->r.npast) return 0;
+    double f = late < 0 ? 0 : late - j;
+    const double *one = v->told + (j*NX + i)*wide, *next = one + NX*wide;
+    add(1 - f, one + 1, row, v->nq);
+    add(f, next + 1, row, v->nq);
+    return (1-f) * one[0] + f * next[0];
 }
 
 /* What a sample says about the past that delayed signals still read: a fixed-lag smoother
- * (Anderson & Moore 1979, 7.3) on the stored steps, linear within each. */
+ * (Anderson & Moore 1979, 7.3) on the stored steps, linear within each. First `told`: by how much each state was more
+ * than was thought, 0, 1 ... sample intervals ago, and the slopes of that. */
 static void correct_past(Work *v, double now, double interval, const double *e, const double *Sy)
 {
-    long nq = v->nq, big = NX*nq;
-    for (long n = v->steps - 1; n >= 0; n--) {
-        double h = v->span[n], a = (now - v->when[n]) / interval, b = a - h / interval;
+    long nq = v->nq, big = NX*nq, wide = 1 + nq;
+    for (long j = 0; j <= v->r.npast; j++)
+        for (int i = 0; i < NX; i++) {
+            double *told = v->told + (j*NX + i)*wide;
+            const double *gain = v->r.gain + (j*NX + i)*NY;
+            memset(told, 0, wide * sizeof(double));
+            for (int o = 0; o < NY; o++) {
+                told[0] += gain[o] * e[o];
+                add(-gain[o], Sy + o*nq, told + 1, nq);
+                if (v->r.dgain) add(e[o], v->r.dgain + ((j*NX + i)*NY + o)*nq, told + 1, nq);
+            }
+        }
+    double start[NON(nq)], slope[NON(nq)];
+    for (long n = v->steps - 1; n >= 0 && n >= v->steps - v->kept; n--) {
+        long at = n % v->kept;
+        double h = v->span[at], a = (now - v->when[at]) / interval, b = a - h / interval;
         if (b >= v->r.npast) break;
-        double *P = v->poly + n*4*NX, *Q = v->spoly + n*4*big;
-        for (int i = 0; i < NX; i++)
-            for (int o = 0; o < NY; o++) {
-                double start = past_gain(v, a, i, o), slope = (past_gain(v, b, i, o) - start) / h;
-                double part[4] = {start, slope, 2*slope, slope};
-                for (int k = 0; k < 4; k++) {
-                    P[k*NX+i] += part[k] * e[o];
-                    add(-part[k], Sy + o*nq, Q + k*big + i*nq, nq);
-                }
-            }
-        for (int i = 0; v->r.dgain && i < NX; i++) {
-            double start[nq], slope[nq];
-            memset(start, 0, nq * sizeof(double)); memset(slope, 0, nq * sizeof(double));
-            for (int o = 0; o < NY; o++) {
-                add_past_slopes(v, e[o], a, i, o, start);
-                add_past_slopes(v, e[o] / h, b, i, o, slope);
-            }
-            add(-1 / h, start, slope, nq);
+        double *P = v->poly + at*4*NX, *Q = v->spoly + at*4*big;
+        for (int i = 0; i < NX; i++) {
+            double begin = told_at(v, a, i, start), rate = (told_at(v, b, i, slope) - begin) / h;
+            for (long q = 0; q < nq; q++) slope[q] = (slope[q] - start[q]) / h;
             add(1, start, Q + i*nq, nq);
-            for (int k = 1; k < 4; k++) add(k == 2 ? 2 : 1, slope, Q + k*big + i*nq, nq);
+            P[i] += begin;
+            for (int k = 1; k < 4; k++) {
+                P[k*NX+i] += k == 2 ? 2*rate : rate;
+                add(k == 2 ? 2 : 1, slope, Q + k*big + i*nq, nq);
+            }
         }
     }
 }

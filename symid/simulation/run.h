@@ -35,7 +35,9 @@ typedef struct {
     const Ode *m;
     long steps, *hint, nq;              /* nq: sensitivities in a padded row */
     const int *column;                  /* of each parameter among the sensitivities, -1 where not asked for */
-    double *when, *span, *poly, *spoly; /* stored steps: x0, k1, k2 + k3, k4 of states, then of S */
+    double *when, *span, *poly, *spoly; /* the last `kept` steps: x0, k1, k2 + k3, k4 of states, then of S */
+    long kept;                          /* step n is stored in the place n % kept */
+    double *told;                       /* what a sample tells of the past, see `correct_past` */
     double *lag, *dlag;                 /* NL, NL x nq */
     double tk, hk;                      /* start and length of the present step; 0 between steps */
     double *ak, *sak;                   /* rate of change of x' in the last step, and of S' */
