@@ -50,17 +50,17 @@ def weights_of(model: Model, expr: Any) -> np.ndarray | None:
 
     Where several sums do, the shortest; outputs that are not linear in the states take no part, zeros do not count.
     """
-    asked = None if expr == 0 else _slopes(model, expr)
+    asked = None if expr == 0 else slopes_of(model, expr)
     if asked is None:
         return None
-    shown = [_slopes(model, y.expr) for y in model.outputs.values()]
+    shown = [slopes_of(model, y.expr) for y in model.outputs.values()]
     each = np.array([np.zeros_like(asked) if row is None else row for row in shown])
     weights = np.linalg.lstsq(each.T, asked)[0]
     missed = np.abs(each.T @ weights - asked).max()
     return weights if missed < ROUNDED * np.abs(asked).max() else None
 
 
-def _slopes(model: Model, expr: Any) -> np.ndarray | None:
+def slopes_of(model: Model, expr: Any) -> np.ndarray | None:
     """(n,) derivatives of an expression with respect to the states; None where these are no known numbers."""
     known = {c.symbol: c.value for c in model.constants.values()}
     slopes = [expr.diff(s.symbol).subs(known) for s in model.states.values()]

@@ -7,14 +7,14 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from symid.discrepancy.model.dry import weights_of
+from symid.discrepancy.model.dry import slopes_of, weights_of
 from symid.discrepancy.model.levels import signed
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.path import fitted_path
 from symid.estimation.signals.data import Data
 from symid.mechanics.feedback import torques_along
 from symid.mechanics.missing.laws import coordinate_unit
-from symid.model import Model
+from symid.model import Model, Port
 
 REACHES, REACH = (0.003, 3.0), 0.1
 """Motions of so many radians or metres, rms, are what laws are stated for, and one that is typical of them."""
@@ -58,7 +58,8 @@ def sizes_of(fit: Fit, data: Data) -> Sizes:
         "constant_loss": signed(fit.model, data.segments),
         "late_damping": _joints_without_controller(fit.model),
     }
-    return Sizes(data.pace, _reaches(fit, data), _torques(fit, data), only)
+    path = fitted_path(fit, data)
+    return Sizes(data.pace, _reaches(fit, data, path), _torques(fit, data, path), only)
 
 
 def _joints_without_controller(model: Model) -> list[str]:
@@ -76,11 +77,10 @@ def _turning(fit: Fit, data: Data) -> list[str]:
     ]
 
 
-def _reaches(fit: Fit, data: Data) -> dict[str, float]:
+def _reaches(fit: Fit, data: Data, path: np.ndarray) -> dict[str, float]:
     found = {}
     for port in (p for p in fit.model.ports.values() if p.role == "joint"):
-        weights = weights_of(fit.model, port.position)
-        moved = 0.0 if weights is None else float(np.median([np.std(e.recorded @ weights) for e in data.segments]))
+        moved = _moved(fit.model, port, data, path)
         if moved and not REACHES[0] <= moved <= REACHES[1]:
             found[port.at] = moved / REACH
     for i, sensor in enumerate(fit.model.outputs.values()):
@@ -90,14 +90,28 @@ def _reaches(fit: Fit, data: Data) -> dict[str, float]:
     return found
 
 
-def _torques(fit: Fit, data: Data) -> dict[str, float]:
+def _moved(model: Model, port: Port, data: Data, path: np.ndarray) -> float:
+    """How far a joint moves, rms: as outputs show, or else, as where speeds are recorded, as states do along the fit.
+
+    0 where neither tells.
+    """
+    weights, slopes = weights_of(model, port.position), None
+    if weights is not None:
+        return float(np.median([np.std(e.recorded @ weights) for e in data.segments]))
+    if port.position != 0 and np.isfinite(path).all():
+        slopes = slopes_of(model, port.position)
+    ends = np.cumsum([len(e.time) for e in data.segments])[:-1]
+    return 0.0 if slopes is None else float(np.median([np.std(part @ slopes) for part in np.split(path, ends)]))
+
+
+def _torques(fit: Fit, data: Data, path: np.ndarray) -> dict[str, float]:
     """Rms of excitations, and sizes of the torques of loops that follow from states and parameters alone."""
     found = {
         u.at: float(np.sqrt(np.mean(np.concatenate([e.inputs[k] for e in data.segments]) ** 2))) or 1.0
         for k, u in fit.model.inputs.items()
         if u.role == "excitation"
     }
-    for place, torque in torques_along(fit.model, fitted_path(fit, data), fit.values).items():
+    for place, torque in torques_along(fit.model, path, fit.values).items():
         size = float(np.std(torque))
         if size and not TORQUES[0] <= size <= TORQUES[1]:
             found[place] = size / TORQUE
