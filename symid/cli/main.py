@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import gc
 import os
 import sys
 import traceback
@@ -28,9 +27,6 @@ EXAMPLES = """examples:
   symid identify --help"""
 LEAST_BYTES = 700 * 2**20
 """Addresses that the libraries take before the first number is read: 510 to 600 MB, and a small problem's."""
-COLLECT_AFTER = 50_000
-"""Python looks for objects that hold each other after so many new ones, not after 700: equations are many small objects
-that stay, which took a twentieth of a diagnosis to look at again and again."""
 TOO_LITTLE = (
     f"this process may take less than {LEAST_BYTES / 1e6:.0f} MB more memory; symid needs that much to begin with. "
     "Raise the limit (`ulimit -v`, the memory of the container or of the job), or free memory"
@@ -40,7 +36,6 @@ TOO_LITTLE = (
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run one command: exit code 0 done or solved, 1 not solved, 2 bad input."""
     _open_closed_streams()
-    gc.set_threshold(COLLECT_AFTER)
     try:
         return _done(build_parser().parse_args(arguments))
     except KeyboardInterrupt:

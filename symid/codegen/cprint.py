@@ -35,6 +35,8 @@ SYMID_VECTOR extern double tanh(double);
 #endif
 """
 
+FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh")
+
 # An operand that a pattern repeats is always a variable (REPEATING). NaN must pass through:
 # every comparison with NaN is false, hence the order of the branches.
 PATTERNS = {
@@ -57,17 +59,12 @@ PATTERNS = {
     "sign": "({0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})",
     "max": "({0} > {1} ? {0} : {1} >= {0} ? {1} : {0} + {1})",
     "min": "({0} < {1} ? {0} : {1} <= {0} ? {1} : {0} + {1})",
-    **{
-        f: f + "({})"
-        for f in ("sqrt", "exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "floor")
-    },
+    **{f: f + "({})" for f in (*FUNCTIONS, "floor")},
     "atan2": "atan2({}, {})",
     "pow": "pow({}, {})",
 }
 REPEATING = ("sign", "max", "min")
-COSTLY = frozenset(
-    ("exp", "log", "sin", "cos", "tan", "asin", "acos", "atan", "sinh", "cosh", "tanh", "atan2", "pow", "sqrt")
-)
+COSTLY = frozenset((*FUNCTIONS, "atan2", "pow"))
 """Functions that take longer than to read a number from memory."""
 CONDITIONS = ("lt", "le", "gt", "ge", "eq", "ne", "and", "or", "not")
 

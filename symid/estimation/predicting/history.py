@@ -10,7 +10,8 @@ from symid.simulation import Simulator
 REACH = 0.03
 """Where no inputs are known before it the motion at the start is continued backwards for so long [s]."""
 BACK = 2.0
-"""In so many of the longest lag a motion meets its inputs before the segment, and forgets what its own past was."""
+"""Over so many of the longest lag a motion is led to where the segment begins: in the last of them what it reads late
+is its own, too (tests/estimation/test_history.py)."""
 FORGOTTEN = 1e-3
 """What a state was is not asked where less of it than this is left at the start of the segment."""
 ROUNDS = 2
@@ -44,7 +45,7 @@ def states_before(
 
 def _led(simulator, p, start, segment: Segment, seconds: float, begin: np.ndarray, steps: dict) -> History | None:
     """The motion of the last `seconds` that comes to `start`, tried from `begin`; None where it cannot be simulated."""
-    if segment.earlier is None or seconds <= 0:
+    if segment.earlier is None or not len(segment.earlier[0]):
         return None
     before, inputs = segment.earlier
     first = max(int(np.searchsorted(before, segment.time[0] - seconds)) - 1, 0)
@@ -53,7 +54,7 @@ def _led(simulator, p, start, segment: Segment, seconds: float, begin: np.ndarra
     signals = simulator.signals(time, given, earlier=(before[:first], {k: u[:first] for k, u in inputs.items()}))
     for _ in range(ROUNDS):
         run = simulator.simulate(p, begin, signals, initial_sensitivity=simulator.states, **steps)
-        if run.diverged or run.dx is None:
+        if run.diverged or not np.isfinite(run.dx).all():
             return None
         size = np.abs(run.x).max(axis=0) + np.abs(start) + np.finfo(float).tiny
         moved = size * np.linalg.lstsq(run.dx[-1] * size / size[:, None], (start - run.x[-1]) / size, FORGOTTEN)[0]
