@@ -172,12 +172,7 @@ def ode_source(model: Model) -> OdeSource:
     ):
         functions[name] = {}
         for g in wrt:
-            found = [
-                (i, j, d)
-                for i, r in enumerate(rows)
-                for j, s in enumerate(groups[g])
-                if r.has(s) and (d := slope(r, s)) != 0
-            ]
+            found = [(i, j, d) for i, r in enumerate(rows) for j, s in enumerate(groups[g]) if (d := slope(r, s)) != 0]
             functions[name][f"d{g}"] = [d for _, _, d in found]
             entries[f"{name}_{g}"] = [i for i, _, _ in found], [j for _, j, _ in found]
     of = [str(model.delays[s].of) for s in late]

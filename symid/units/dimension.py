@@ -29,7 +29,7 @@ SI = {
     "H": (1, 2, -2, -2),
     "S": (-1, -2, 3, 2),
 }
-"""Powers of the base quantities in each unit of the SI (BIPM, The International System of Units 2019, table 4)."""
+"""Powers of the base quantities in each unit of the SI (BIPM, The International System of Units 2019, 2.3.4)."""
 
 
 class Dimension:

@@ -29,7 +29,7 @@ def states_before(
 
     Parameters
     ----------
-    p, start : values of the parameters and of the states where the segment begins.
+    p, start : (q,) parameters and (n,) states where the segment begins, SI.
     lag : how late the states are read at most [s]. pace : of the motion [s], as of `Data`.
     steps : how the integrator steps, as `Simulator.simulate` takes it.
     """

@@ -15,7 +15,7 @@ COHERENT = 1e-12
 
 
 WINDOW = 0.35875, -0.48829, 0.14128, -0.01168
-"""Cosines of a window that leaks 92 dB less than a look's own frequency (Harris 1978, table 1)."""
+"""Of the cosines of the window by Blackman and Harris, as `scipy.signal.windows.blackmanharris` has them."""
 
 
 def power_spectrum(

@@ -192,7 +192,7 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         ),
         _clearance,
         "A further spring of {k_Nm_rad} acts at the {place} beyond {gap_rad} either way, as behind a play or at stops",
-        "Shaw & Holmes 1983",
+        "Den Hartog & Heiles 1936",
     ),
     effort_law(
         "quadratic_stiffness",
