@@ -121,11 +121,15 @@ def _beside_colour(search: Search) -> dict[Hypothesis, float]:
 
 
 def _going_on(search: Search, known: list[Hypothesis], data: Data, searched: Callable[[Fit, Data], Search]) -> Search:
-    """A search under the error model of `data` that goes on from what is known, best first."""
+    """A search under the error model of `data` that goes on from what is known, best first; anew from nothing where the
+    best is not worth its price there: the model as given may have found a likelier fit from the values of that."""
     first, *others = known
     again = searched(_refitted(search.base, first.fit, data), data)
+    best = replace(first, base=again.base, data=data)
+    if not again.worth(best, again.nothing):
+        return again
     found = in_threads(lambda h: hypothesis(h.suspects, h.fit, again.base, data, again.base.values), others)
-    again.known = [replace(first, base=again.base, data=data), *by_score([h for h in found if h is not None])]
+    again.known = [best, *by_score([h for h in found if h is not None])]
     again.tried, again.clocks = list(again.known), search.clocks
     return again
 

@@ -63,9 +63,9 @@ class Holds:
     def held(self, found: Hypothesis) -> Hypothesis:
         """`found`, or the same with inputs held and without lags of part of a sample, where that is believed more.
 
-        Longer delays stay as they are: held or not, they differ by half a sample. Longer lags may be of held inputs.
+        Longer delays and lags may be of held inputs; of these a delay is half a sample less.
         """
-        step = self.data.segments[0].step / self.data.segments[0].ratio
+        step = self.data.segments[0].input_step
         for names in input_groups(found.base.model, self.unstated):
             if any(found.base.model.inputs[k].hold == "zero" for k in names):
                 continue
@@ -73,9 +73,8 @@ class Holds:
             places = {t.location for t in laws} | {found.base.model.inputs[k].at for k in names}
             late = [s for s in found.suspects if s.term.name in LATE and s.term.location in places]
             short = [s for s in late if 0 < _seconds(found, s) < step]
-            if all(s in short or s.term.name not in (DELAY, ALL_DELAY) for s in late):
-                rest = tuple(s for s in found.suspects if s not in short)
-                found = self._likelier(found, rest, names, [Suspect(t) for t in laws], step)
+            rest = tuple(s for s in found.suspects if s not in short)
+            found = self._likelier(found, rest, names, [Suspect(t) for t in laws], step)
         return found
 
     def _likelier(
@@ -84,13 +83,15 @@ class Holds:
         """The `rest` of what was found with inputs held, if that is believed more than `found`, and than any delay."""
         model = found.base.model.with_holds(**dict.fromkeys(names, "zero"))
         same = len(rest) == len(found.suspects)
-        if same and _follows(found) and _promise(found, rest, model, self.data) <= found.fit.loglik2 + STRONG:
+        delays = delays_of(rest, model, names)
+        begin = later(found.fit, delays, -step / 2)
+        if same and _follows(found) and promise(begin, rest, model, self.data) <= found.fit.loglik2 + STRONG:
             return found  # far from a motion one step promises little
         try:
             base = Fitter(model, self.data, near=found.base).again(found.base)
         except SymidError:
             return found  # what cannot be followed is not likelier
-        near = hypothesis(rest, found.fit, base, self.data) if rest else Hypothesis((), base, base, self.data)
+        near = hypothesis(rest, begin, base, self.data) if rest else Hypothesis((), base, base, self.data)
         if near is None:
             return found
         fit = _met(near, self.jumps).fit
@@ -99,8 +100,10 @@ class Holds:
             return most_believed(found, other, self.value)
         if fit.loglik2 <= found.fit.loglik2 + STRONG or not _follows(other):
             return found  # of a motion that is not met half a sample more or less may be better by chance
-        begin = dict(v for s in late for v in s.named({LATE[s.term.name]: step / 2}).items())
-        delayed = hypothesis([*rest, *late], found.fit, found.base, self.data, begin)
+        if delays:
+            return other
+        half = dict(v for s in late for v in s.named({LATE[s.term.name]: step / 2}).items())
+        delayed = hypothesis([*rest, *late], found.fit, found.base, self.data, half)
         if delayed is None:
             return other
         # Whatever the names of what both have are worth.
@@ -161,6 +164,17 @@ def _delays(model: Model, names: Sequence[str]) -> list[Term]:
     return list(dict.fromkeys(LIBRARY[DELAY].at(model.inputs[k].at) for k in names))
 
 
+def delays_of(suspects: Sequence[Suspect], model: Model, names: Sequence[str]) -> list[str]:
+    """The parameters that say by how much these inputs are late."""
+    places = {t.location for t in _delays(model, names)} | {model.inputs[k].at for k in names}
+    return [_named(s) for s in suspects if s.term.name in (DELAY, ALL_DELAY) and s.term.location in places]
+
+
+def later(fit: Fit, delays: Sequence[str], seconds: float) -> Fit:
+    """The fit with these delays so much longer, as one to begin from."""
+    return replace(fit, values=fit.values | {k: fit.values[k] + seconds for k in delays})
+
+
 def _follows(found: Hypothesis) -> bool:
     """Whether a fit is near the motion, as one that is corrected at each sample is."""
     return found.fit.kalman_gain is not None or is_met(found.fit, found.data)
@@ -171,15 +185,17 @@ def _met(found: Hypothesis, jumps: Sequence[str]) -> Hypothesis:
     return found if _follows(found) else with_jumps_again(found, jumps)
 
 
-def _promise(found: Hypothesis, rest: tuple[Suspect, ...], model: Model, data: Data) -> float:
-    """Twice the log-likelihood that one step promises for the `rest` of what was found, on top of another `model`.
+def promise(fit: Fit, rest: tuple[Suspect, ...], model: Model, data: Data) -> float:
+    """Twice the log-likelihood that one step from a `fit` promises for the `rest` of it, on top of another `model`.
 
-    Infinite where that begins far from the motion, as where a part of a sample runs away in what nothing holds back:
-    such a step tells little.
+    Infinite where such a step tells little: where that begins far from the motion, as where a part of a sample runs
+    away in what nothing holds back, or noise with a memory takes what is far from the motion for its own.
     """
+    if data.memory:
+        return inf
     for s in rest:
         model = model.with_term(s.term)
-    fitter, fit = Fitter(model, data, near=found.fit, tune="nothing"), found.fit
+    fitter = Fitter(model, data, near=fit, tune="nothing")
     values = {k: fit.values[k] for k in fitter.sim.parameters}
     begin = fitter.run(values, fit.initial, fit.kalman_gain, False, process=fit.process)
     if begin is None or not is_near(fitter.innovations(begin, fit.process), data):
@@ -189,4 +205,9 @@ def _promise(found: Hypothesis, rest: tuple[Suspect, ...], model: Model, data: D
 
 def _seconds(found: Hypothesis, suspect: Suspect) -> float:
     """How late an input is by one of the laws `LATE`."""
-    return found.fit.values[suspect.term.parameter_name(LATE[suspect.term.name])]
+    return found.fit.values[_named(suspect)]
+
+
+def _named(suspect: Suspect) -> str:
+    """The parameter that says how late."""
+    return suspect.term.parameter_name(LATE[suspect.term.name])

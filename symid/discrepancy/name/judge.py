@@ -39,7 +39,7 @@ class Judge:
         price = 2 * log(max(len(self.pool), 1)) + POLICY.accept
         return found.evidence(share) - price * len(found.suspects) - (found.belief() if belief else found.doubt())
 
-    def _worth(self, more: Hypothesis, less: Hypothesis) -> bool:
+    def worth(self, more: Hypothesis, less: Hypothesis) -> bool:
         """Whether what `more` explains is worth its price, whatever its names.
 
         A clock imitates a part of any rest: one that leaves a rest must be worth believing, too.
@@ -60,7 +60,7 @@ class Judge:
 
         A clock imitates what follows the state of a motion that nothing drives: it comes after what explains as much.
         """
-        worth = [h for h in found if self._worth(h, less)]
+        worth = [h for h in found if self.worth(h, less)]
         if not worth:
             return None
         share = max(worth, key=lambda h: h.log_ratio).share

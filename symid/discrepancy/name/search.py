@@ -129,7 +129,7 @@ class Search(Judge):
         if len(more.suspects) > 1:
             again = self._reexamined(more, single)
             more = more if again is more else self._with_jumps([again], best)[0]
-            return more if self._worth(more, best) else None
+            return more if self.worth(more, best) else None
         return more
 
     def _goes_on_from(self, best: Hypothesis) -> None:
@@ -182,7 +182,7 @@ class Search(Judge):
         elif clocks and (first is None or not self.quiet(first)):
             self.progress("looking for what follows a clock")
             found += self._explored(best, clocks, least)
-            self.clocks = self.clocks or [h for h in found if h.suspect.kind == "clock" and self._worth(h, best)]
+            self.clocks = self.clocks or [h for h in found if h.suspect.kind == "clock" and self.worth(h, best)]
         halves = without_halves(found, self.pool, self.base)
         found = self._with_jumps(found + exact_where_leading(halves, least_near(found)), best)
         found += simpler_than_best(found, self.pool, least_near(found))
@@ -248,7 +248,7 @@ class Search(Judge):
         rivals = [h for h in others if h.established and h.suspect.kind != "clock"]
         if alone:
             enough = POLICY.beam_share * best.score
-            rivals = [h for h in rivals if h.score > enough and self._worth(h, self.nothing)]
+            rivals = [h for h in rivals if h.score > enough and self.worth(h, self.nothing)]
         pairs = []
         for h in rivals[: POLICY.beam]:
             self.progress(f"looking for what would complete {h.suspect.term}")

@@ -10,6 +10,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis, is_met
 from symid.discrepancy.name.jump import with_jumps_of
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
+from symid.discrepancy.prove.between import otherwise, widened
 from symid.discrepancy.prove.certain import beyond_chance, honest
 from symid.discrepancy.prove.elsewhere import elsewhere
 from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
@@ -38,12 +39,14 @@ class Tested:
     ----------
     found : what the tests left of it. left : tests for something left over, the least probable first.
     white : whether what is left is random. chance : probability that chance makes as much, None where unknown.
+    otherwise : about as likely, with inputs that do something else between their samples and other values.
     """
 
     found: Hypothesis
     left: Sequence[Test]
     white: bool
     chance: float | None
+    otherwise: Hypothesis | None
 
     @property
     def nameless(self) -> bool:
@@ -81,7 +84,8 @@ def tested(found: Hypothesis, search: Search) -> Tested:
     found, chance = beyond_chance(found, null_maxima(search.projection, found.fit), best, white)
     if found.suspects != before:
         left = search.remainder(found)
-    return Tested(found, left, white, chance)
+    other = otherwise(found, search.unstated)
+    return Tested(found if other is None else widened(found, other), left, white, chance, other)
 
 
 def evidence_of(by: Tested, search: Search, ranking: Sequence[Hypothesis], task: Task, plain: Data) -> Evidence:

@@ -17,7 +17,7 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.evidence import Evidence, near_noise
 from symid.discrepancy.say.diagnosis import Effect
-from symid.discrepancy.say.names import sentence
+from symid.discrepancy.say.names import sentence, values_of
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.signals.data import Data
 
@@ -101,11 +101,7 @@ def _moment(fit: Fit, data: Data, name: str, error: float) -> tuple[float, float
 
 def _effect(suspect: Suspect, found: Hypothesis) -> Effect:
     fit, term = found.fit, suspect.term
-    parameters = {
-        q.key: (fit.values[term.parameter_name(q.key)], fit.errors[term.parameter_name(q.key)])
-        for q in suspect.law.parameters
-        if term.parameter_name(q.key) in fit.errors
-    }
+    parameters = values_of(suspect, fit)
     window, start, moment = None, suspect.clock("start"), suspect.clock("moment")
     if start in parameters:
         begin = parameters[start][0]

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
+from symid.estimation.fitting.fit import Fit
 from symid.mechanics.missing.laws import coordinate_unit
 from symid.model import Model
 from symid.units import quantity
@@ -60,6 +61,12 @@ def sentence(suspect: Suspect, parameters: Mapping[str, tuple[float, float]], mo
     if model is not None and any(p.at == at and coordinate_unit(model, at) != "rad" for p in model.ports.values()):
         template = re.sub(r"\b(torque|angle|turns|inertia)\b", lambda word: _STRAIGHT[word[0]], template)
     return template.format(place=place.removeprefix("the "), **filled)
+
+
+def values_of(suspect: Suspect, fit: Fit) -> dict[str, tuple[float, float]]:
+    """By key the value and standard error of each of its parameters that was fitted."""
+    names = {q.key: suspect.term.parameter_name(q.key) for q in suspect.law.parameters}
+    return {key: (fit.values[k], fit.errors[k]) for key, k in names.items() if k in fit.errors}
 
 
 def _sure_clauses(suspect: Suspect, parameters: Mapping[str, tuple[float, float]]) -> list[str]:

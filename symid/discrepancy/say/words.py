@@ -8,7 +8,8 @@ import numpy as np
 
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.families import LOSSES
-from symid.discrepancy.say.names import law_name, place_name
+from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.say.names import law_name, place_name, sentence, values_of
 from symid.discrepancy.say.proof import halves_words, proof_words, unproved, verdicts_of_halves
 from symid.discrepancy.say.rest import nameless_words
 from symid.discrepancy.say.story import Story, listed
@@ -151,6 +152,19 @@ def _are(names: Sequence[str]) -> str:
     return "is" if len(names) == 1 else "are"
 
 
+def _otherwise(s: Story, other: Hypothesis) -> str:
+    """What would be found with inputs that do something else between their samples."""
+    model, inputs = other.fit.model, s.evidence.found.fit.model.inputs
+    changed = [u for k, u in model.inputs.items() if u.hold != inputs[k].hold]
+    does = "held" if changed[0].hold == "zero" else "straight"
+    names = [u.channel for u in changed]
+    found = " ".join(f"{sentence(k, values_of(k, other.fit), model)}." for k in other.suspects)
+    return (
+        f"Whether {listed(names)} {_are(names)} {does} between samples the recording hardly tells, and standard errors "
+        f"allow for that. If so: {found}"
+    )
+
+
 def _caveats(s: Story) -> list[str]:
     out = []
     if s.input_noise:
@@ -171,6 +185,8 @@ def _caveats(s: Story) -> list[str]:
             f"Between samples {listed(held)} {_are(held)} taken to be held, as a computer's output is; straight lines "
             "would look like a delay of half a sample."
         )
+    if s.evidence.otherwise is not None:
+        out.append(_otherwise(s, s.evidence.otherwise))
     if s.pieces:
         out.append(
             "The model as given cannot follow this motion from one state for long, since small differences soon become "

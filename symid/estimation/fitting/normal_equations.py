@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from symid.estimation.fitting.memory import Memory
 from symid.estimation.fitting.secant import is_convex
 from symid.estimation.predicting.growth import growth_normal
 from symid.estimation.predicting.predictor import Predictor
@@ -70,30 +71,27 @@ def _gauss_newton(
     size = q + w + len(runs) * n
     H, g = np.zeros((size, size)), np.zeros(size)
     own = [predictor.tuned.index(j) for j in predictor.tuned_gain]
-    memory = predictor.data.memory
     # Segments know nothing of each other's initial states: these stay apart where there are several.
-    shared = slice(0, size if len(runs) == 1 else q + w)
-    past, told = 0.0, 0.0
+    apart = len(runs) > 1
+    shared, memory = slice(0, q + w if apart else size), Memory(predictor.data.memory)
     with np.errstate(over="ignore", invalid="ignore"):
-        for i, (t, s, size) in enumerate(zip(runs, innovations, whitening.sizes, strict=True)):
+        for i, (t, s, spread) in enumerate(zip(runs, innovations, whitening.sizes, strict=True)):
             tuned = np.zeros((*s.shape, w))
             if t.dy.shape[2] > q + n:
                 tuned[:, :, own] = t.dy[:, :, q + n :]
             if sharpness:
                 tuned[:, :, predictor.tuned.index(predictor.sharpness_at)] = -sharpness[i]
-            J = whitening(np.concatenate([t.dy[:, :, :q], tuned, t.dy[:, :, q : q + n]], axis=2), size)
-            r = whitening(s[:, :, None], size)[:, 0]
+            J = whitening(np.concatenate([t.dy[:, :, :q], tuned, t.dy[:, :, q : q + n]], axis=2), spread)
+            r = whitening(s[:, :, None], spread)[:, 0]
             where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
             H[np.ix_(where, where)] += J.T @ J
             g[where] += J.T @ r
-            if memory:
-                before = past_of(s / size, memory)
-                past = past + before.T @ before
-                told = told + np.tensordot(before, J.reshape(*s.shape, -1)[memory:, :, shared], (0, 0))
-        if memory and shared.stop:
-            # The autoregression that whitens follows the parameters, and takes up a part of what they change.
-            taken = np.linalg.lstsq(past, told.reshape(len(past), -1), rcond=1e-12)[0]
-            H[shared, shared] -= told.reshape(-1, shared.stop).T @ taken.reshape(-1, shared.stop)
+            if memory.memory and shared.stop:
+                slopes = J.reshape(*s.shape, -1)
+                begins = slopes[:, :, shared.stop :]
+                memory.add(past_of(s / spread, memory.memory), slopes[:, :, shared], begins)
+        if memory.memory and shared.stop and np.isfinite(H).all():
+            H[shared, shared] -= memory.taken()
     return H, g
 
 

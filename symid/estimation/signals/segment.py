@@ -42,6 +42,11 @@ class Segment:
     def step(self) -> float:
         return float(np.median(np.diff(self.time)))
 
+    @property
+    def input_step(self) -> float:
+        """Seconds between samples of the inputs."""
+        return self.step / self.ratio
+
     def head(self, n: int) -> Segment:
         """The first `n` samples."""
         return self.part(slice(n))
