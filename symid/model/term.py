@@ -63,6 +63,8 @@ class Law:
     source : author and year of the formula.
     place : name of its one place, for a law that acts on all parts with that role at once
         (``"global"``); "" for a law that acts at one part's place.
+    applies : ``applies(model, place)`` says whether the law can act at a place that has such parts; at each if left
+        out.
 
     Examples
     --------
@@ -80,12 +82,14 @@ class Law:
     sentence: str = ""
     source: str = ""
     place: str = ""
+    applies: Callable[[Model, str], bool] | None = None
 
     def places(self, model: Model) -> list[str]:
         """Where in `model` this law could act, each place once, in order of declaration."""
         first, *others = (self.acts_on,) if isinstance(self.acts_on, str) else self.acts_on
         everywhere = dict.fromkeys(c.at for c in model.find(role=first))
-        return list(dict.fromkeys(self.place or at for at in everywhere if all(model.find(r, at) for r in others)))
+        found = dict.fromkeys(self.place or at for at in everywhere if all(model.find(r, at) for r in others))
+        return [at for at in found if self.applies is None or self.applies(model, at)]
 
     def at(self, place: str) -> Term:
         """This law at one place."""

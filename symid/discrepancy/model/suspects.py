@@ -222,7 +222,7 @@ PLAIN = (
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
 _NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *SENSOR_LAWS, *FLOW_LAWS)
-ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN}
+ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN, "late_feedback"}
 """Names that are answers: of the answer files, of what may be stated wrongly, lags, zeros, drifts, flows, plain
 forces."""
 

@@ -31,11 +31,6 @@ def _clearance(m, port, p):
     return -p.k_Nm_rad * (port.position - free)
 
 
-def _late_damping(m, port, p):
-    late = {s: m.delayed(s, p.delay_s) for s in (x.symbol for x in m.states.values()) if port.rate.has(s)}
-    return -p.coefficient_Nms_rad * port.rate.xreplace(late)
-
-
 def _push(m, port, p):
     since = (m.time - p.start_s) / p.duration_s
     inside = (1 + sm.tanh(_GATE * since)) * (1 - sm.tanh(_GATE * (since - 1))) / 4
@@ -209,17 +204,6 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         lambda m, port, p: -p.coefficient_Nm_s2_rad2 * port.rate * sm.Abs(port.rate),
         "The {place} is damped with the square of its speed, {coefficient_Nm_s2_rad2}",
         "Newton 1687",
-    ),
-    effort_law(
-        "late_damping",
-        "joint",
-        (
-            LawParameter("coefficient_Nms_rad", "N*m*s/rad", _BOTH_SIGNS),
-            LawParameter("delay_s", "s", (0.01, 0.3), None, (0.04, 0.1), 0.05),
-        ),
-        _late_damping,
-        "The {place} feels the speed that it had {delay_s} earlier, {coefficient_Nms_rad}, as by a stretch reflex",
-        "Liddell & Sherrington 1924",
     ),
     effort_law(
         "cubic_damping",

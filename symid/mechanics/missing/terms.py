@@ -11,6 +11,7 @@ from symid.mechanics.missing.drive_laws import DRIVE_LAWS, LAG_LAWS, OFFSET_LAWS
 from symid.mechanics.missing.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
 from symid.mechanics.missing.flow_laws import FLOW_LAWS
 from symid.mechanics.missing.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
+from symid.mechanics.missing.late_laws import LATE_LAWS
 from symid.mechanics.missing.pair_laws import PAIR_LAWS
 from symid.mechanics.missing.sensor_laws import SENSOR_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
@@ -30,6 +31,7 @@ LIBRARY: dict[str, Law] = {
         *GEOMETRY_LAWS,
         *FURTHER_FEEDBACK_LAWS,
         *FURTHER_JOINT_LAWS,
+        *LATE_LAWS,
         *FURTHER_LINK_LAWS,
         *FURTHER_WORLD_LAWS,
         *DRIVE_LAWS,

@@ -1,0 +1,80 @@
+"""What comes late in a machine whose controller is written into its equations: nobody told apart what feeds back."""
+
+from __future__ import annotations
+
+from math import inf
+from types import SimpleNamespace
+
+import sympy as sm
+
+from symid.errors import ModelError
+from symid.mechanics.missing.laws import effort_law, port_at
+from symid.model import Law, LawParameter, Model, Port
+
+
+def _late_damping(model: Model, port: Port, p: SimpleNamespace) -> sm.Expr:
+    felt = {x.symbol: model.delayed(x.symbol, p.delay_s) for x in model.states.values() if port.rate.has(x.symbol)}
+    return -p.coefficient_Nms_rad * port.rate.xreplace(felt)
+
+
+def _late_loop(model: Model, place: str, p: SimpleNamespace) -> None:
+    port = port_at(model, "joint", place)
+    now = loop_force(model, port)
+    model.add_effort(port.name, model.delayed(now, p.delay_s) - now)
+
+
+def loop_force(model: Model, port: Port) -> sm.Expr:
+    """The force at a port that unknown parameters make of states and inputs, as the gains of a controller do; 0 if none.
+
+    Those count that stand beside a state, beside no rate and in no power, and act as a force there does: in the same
+    equations. Parameters of passive springs and dampers are among them; a delay is next to nothing to these.
+    """
+    written = {name: model.inline(e.expr) for name, e in model.equations.items()}
+    now = {x.symbol for x in model.states.values()}
+    rates = {x.dot for x in model.states.values()}
+    gains = [q.symbol for q in model.parameters.values() if _is_gain(q.symbol, written, port, now, rates)]
+    name, sign = next(iter(port.into.items()))
+    return (written[name] - written[name].xreplace(dict.fromkeys(gains, sm.S.Zero))) / sign
+
+
+def _is_gain(q: sm.Symbol, written: dict[str, sm.Expr], port: Port, now: set, rates: set) -> bool:
+    entered = {name: sm.diff(e, q) for name, e in written.items() if e.has(q)}
+    if not entered or entered.keys() != port.into.keys():
+        return False
+    forces = [sm.expand(slope / port.into[name]) for name, slope in entered.items()]
+    symbols = forces[0].free_symbols
+    return bool(symbols & now) and not (symbols & rates) and q not in symbols and all(f == forces[0] for f in forces)
+
+
+def _has_loop(model: Model, place: str) -> bool:
+    """Whether anything moves the machine that a controller could answer to, and it is none whose parts are told."""
+    if model.find("feedback_torque") or not (model.inputs or model.noises):
+        return False
+    try:
+        return loop_force(model, port_at(model, "joint", place)) != 0
+    except ModelError:
+        return False
+
+
+LATE_LAWS: tuple[Law, ...] = (
+    effort_law(
+        "late_damping",
+        "joint",
+        (
+            LawParameter("coefficient_Nms_rad", "N*m*s/rad", (-inf, inf)),
+            LawParameter("delay_s", "s", (0.01, 0.3), None, (0.04, 0.1), 0.05),
+        ),
+        _late_damping,
+        "The {place} feels the speed that it had {delay_s} earlier, {coefficient_Nms_rad}, as by a stretch reflex",
+        "Liddell & Sherrington 1924",
+    ),
+    Law(
+        "late_feedback",
+        "joint",
+        (LawParameter("delay_s", "s", (0.0, 0.5), 0.0, (0.03, 0.08, 0.15), 0.1),),
+        _late_loop,
+        "What holds the {place} comes {delay_s} late, as from nerves or from a computer",
+        "Peterka 2002",
+        applies=_has_loop,
+    ),
+)
