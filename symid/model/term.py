@@ -28,7 +28,8 @@ class LawParameter:
     plausible : departure from `null` that surprises nobody, such as 0.002 for the gain of an encoder; a
         diagnosis believes in larger ones less (a Cauchy prior of this width). 0 where any size is as likely.
     clock : how the parameter follows a clock instead of the state: "frequency", "phase", "start", "duration"
-        or "moment"; "turn" of how often something comes back in each turn; "" for all others.
+        or "moment"; "turn" of how often something comes back in each turn; "range" of a position whose bounds and
+        starts are parts of the recorded range, from -1 to 1 about its middle; "" for all others.
 
     Examples
     --------

@@ -19,6 +19,7 @@ FAMILIES = (
     {"torsional_spring", "bouc_wen_hysteresis", "bent_hysteresis"},
     {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "constant_torque"},
     {"cubic_stiffness", "end_range_stiffness", "clearance", "bouc_wen_hysteresis", "bent_hysteresis"},
+    {"cubic_stiffness", "quadratic_stiffness", "end_range_stiffness", "clearance", "upper_stop", "lower_stop"},
     {"constant_torque", "quadratic_stiffness", "asymmetric_damping"},
     {"extra_mass", "center_of_mass_error", "link_inertia_error"},
     {"feedback_delay", "muscle_lag", "second_order_muscle_lag", "joint_feedback_delay", "joint_muscle_lag"},

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any, cast
@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 
 from symid import checked
-from symid.discrepancy.model.sizes import Sizes
+from symid.discrepancy.model.sizes import STOPS, Sizes
 from symid.errors import ModelError
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
@@ -188,17 +188,32 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
             continue
         if term.location not in sizes.only.get(term.name, (term.location,)):
             continue
-        term = replace(term, law=_sized(term.law, sizes.at(term.location)))
+        term = replace(term, law=_sized(term.law, sizes, term.location))
         equations = _equations(model, term)
         if equations is not None:
             found.setdefault(equations, Suspect(term, term.name in ESTABLISHED))
     return list(found.values())
 
 
-def _sized(law: Law, sizes: Mapping[str, float]) -> Law:
+def _sized(law: Law, sizes: Sizes, place: str) -> Law:
     """The law with bounds and starts of parameters with these units so many times larger."""
-    factors = [1.0 if q.clock == "phase" else sizes.get(q.unit, 1.0) for q in law.parameters]
-    return replace(law, parameters=tuple(_scaled(q, f) for q, f in zip(law.parameters, factors, strict=True)))
+    factors = sizes.at(place)
+    return replace(
+        law,
+        parameters=tuple(
+            _within(q, *sizes.ranges[place])
+            if q.clock == "range"
+            else _scaled(q, 1.0 if q.clock == "phase" else factors.get(q.unit, 1.0))
+            for q in law.parameters
+        ),
+    )
+
+
+def _within(q: LawParameter, middle: float, half: float) -> LawParameter:
+    """The parameter in a range of which its sizes are parts."""
+    low, high = (middle + half * v for v in q.bounds)
+    starts = tuple(middle + half * v for v in q.starts)
+    return replace(q, bounds=(low, high), starts=starts, typical=middle + half * q.typical)
 
 
 def _scaled(q: LawParameter, by: float) -> LawParameter:
@@ -222,9 +237,9 @@ PLAIN = (
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
 _NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *SENSOR_LAWS, *FLOW_LAWS)
-ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN, "late_feedback"}
+ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN, "clearance", *STOPS, "late_feedback"}
 """Names that are answers: of the answer files, of what may be stated wrongly, lags, zeros, drifts, flows, plain
-forces."""
+forces, springs that are met somewhere, a controller that is late."""
 
 
 def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:

@@ -24,7 +24,7 @@ def _late_loop(model: Model, place: str, p: SimpleNamespace) -> None:
 
 
 def loop_force(model: Model, port: Port) -> sm.Expr:
-    """The force at a port that unknown parameters make of states and inputs, as the gains of a controller do; 0 if none.
+    """The force at a port that unknown parameters make of states and inputs, as gains of a controller do; 0 if none.
 
     Those count that stand beside a state, beside no rate and in no power, and act as a force there does: in the same
     equations. Parameters of passive springs and dampers are among them; a delay is next to nothing to these.
