@@ -100,8 +100,9 @@ class Holds:
             return most_believed(found, other, self.value)
         if fit.loglik2 <= found.fit.loglik2 + STRONG or not _follows(other):
             return found  # of a motion that is not met half a sample more or less may be better by chance
-        if delays:
-            return other
+        if delays:  # lines lose some of a smooth signal, and held inputs only half as much of it: curves are compared
+            free = with_likeliest_holds(found.fit, self.data)
+            return other if fit.loglik2 > free.loglik2 + STRONG else found
         half = dict(v for s in late for v in s.named({LATE[s.term.name]: step / 2}).items())
         delayed = hypothesis([*rest, *late], found.fit, found.base, self.data, half)
         if delayed is None:

@@ -15,6 +15,7 @@ import numpy as np
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.name.held import STRONG, delays_of, later, promise
 from symid.errors import SymidError
+from symid.estimation.between_samples import with_likeliest_holds
 from symid.estimation.fitting.fitter import Fitter
 
 
@@ -35,7 +36,7 @@ def otherwise(found: Hypothesis, unstated: Sequence[str]) -> Hypothesis | None:
     if promise(begin, (), model, data) < fit.loglik2 - STRONG:
         return None
     try:
-        other = Fitter(model, data, near=begin).again(begin)
+        other = with_likeliest_holds(Fitter(model, data, near=begin).again(begin), data)
     except SymidError:
         return None  # what cannot be followed is not as likely
     own = [s.term.parameter_name(q.key) for s in found.suspects for q in s.law.parameters]
