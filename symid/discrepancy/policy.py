@@ -31,7 +31,7 @@ class Policy:
         overlooked (50 to 1); a sensor that drifts is rarer than one that is off (7 to 1). One lag of all
         drives is the same in the data as that of an only sensor, which is one fault and not several (150 to 1). Of
         what holds a machine all comes late only where a controller is written into its equations; a kink at a place
-        that the data choose imitates whatever bends (150 to 1).
+        that the data choose imitates whatever bends; who builds a machine knows what turns with it (150 to 1).
     braking : likewise of a constant force that takes energy from the motion all the time. A disc that runs down does
         not tell it from dry friction, which is in every bearing (7 to 1, its own odds above taken off).
     never : the price of what is never named: a clock whose frequency is a multiple of the one at which a motion
@@ -77,6 +77,7 @@ class Policy:
             "gyroscopic_force": 8.0,
             "sensor_drift": 4.0,
             "inputs_lag": 10.0,
+            "rotor_inertia": 10.0,
             "late_feedback": 10.0,
             "clearance": 10.0,
             "upper_stop": 10.0,

@@ -234,8 +234,10 @@ PLAIN = (
     "body_friction",
     "gyroscopic_force",
     "cogging_torque",
+    "rotor_inertia",
 )
-"""Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
+"""Forces with one coefficient of a power of position or speed, or of the acceleration: the first terms of whatever
+acts."""
 _NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *SENSOR_LAWS, *FLOW_LAWS)
 ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN, "clearance", *STOPS, "late_feedback"}
 """Names that are answers: of the answer files, of what may be stated wrongly, lags, zeros, drifts, flows, plain
