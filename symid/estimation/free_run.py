@@ -155,9 +155,11 @@ def _grown(fit: Fit, data: Data) -> np.ndarray | None:
 
 def _by_and_by(fit: Fit, data: Data, initial: np.ndarray, counts: Sequence[int]) -> np.ndarray | None:
     """States fitted to heads of so many samples, one after the other; None where one of them diverges."""
+    fitted = data.sharpened(Fitter.of(fit, data).sharpness(fit.process)).remembering(0)  # its cutoff keeps its value
     try:
         for count in counts:
-            head = Data(tuple(e.head(count) for e in data.segments), data.sensor_noise, driven=False, pace=data.pace)
+            heads = tuple(e.head(count) for e in fitted.segments)
+            head = Data(heads, data.sensor_noise, driven=False, pace=data.pace)
             initial = Fitter.of(fit, head, fixed=tuple(fit.values)).fit(fit.values, initial, fit.process).initial
     except SymidError:
         return None

@@ -6,13 +6,15 @@ import numpy as np
 import pytest
 from driven_cart import TRUE, cart, data_of, recorded
 from scipy.linalg import expm
+from scipy.signal import butter, sosfiltfilt
 from scipy.stats import norm
 
 from symid.discrepancy.prove.held_out import Proof, compare_predictions
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.measurement import of_window
+from symid.estimation.measurement import fits_of, of_window
 from symid.estimation.prediction import FORGOTTEN, Predictions, predictions
+from symid.estimation.sensors.zero_phase import ZeroPhase
 
 
 @pytest.mark.parametrize("share", [1.0, 0.3])
@@ -53,6 +55,18 @@ def test_other_data_prefer_the_true_stiffness_to_a_wrong_one(seed):
     proof = compare_predictions(predictions(wrong, held), predictions(fit, held), None)
     assert proof.confirmed and proof.margin > 0
     assert not compare_predictions(predictions(fit, held), predictions(wrong, held), None).confirmed
+
+
+def test_the_cutoff_of_a_filter_that_was_estimated_keeps_its_value_in_other_data():
+    """States with which other data begin are sought in ever longer heads of them, as they were before the filter."""
+    recording = recorded(seed=5)
+    (channel,), rate = [y.channel for y in cart().outputs.values()], 1 / float(np.median(np.diff(recording.time)))
+    smooth = sosfiltfilt(butter(2, 6.0, fs=rate, output="sos"), recording[channel])
+    recording, filter = recording.with_channel(channel, smooth, unit="m"), ZeroPhase(2, 6.0, rate)
+    (data, fit), *_ = fits_of(cart(), recording, (0.0, 40.0), None, data_of(recording), filter, False, TRUE)
+    assert data.cutoff_free
+    held = of_window(cart(), recording, (40.0, 60.0), None, data)
+    assert held.cutoff_free and np.isfinite(predictions(fit, held).density).all()
 
 
 def test_free_runs_that_become_worse_contradict_forecasts():
