@@ -30,8 +30,8 @@ class Policy:
         the speed (7 to 1), which is the first term of every smooth loss. What spins or rotates is seldom
         overlooked (50 to 1); a sensor that drifts is rarer than one that is off (7 to 1). One lag of all
         drives is the same in the data as that of an only sensor, which is one fault and not several (150 to 1). Of
-        what holds a machine all comes late only where a controller is written into its equations; a kink at a place
-        that the data choose imitates whatever bends; who builds a machine knows what turns with it (150 to 1).
+        what holds a machine all comes late only where a controller is written into its equations, and an inertia that
+        nobody knows of is mostly one that was stated wrongly (150 to 1).
     braking : likewise of a constant force that takes energy from the motion all the time. A disc that runs down does
         not tell it from dry friction, which is in every bearing (7 to 1, its own odds above taken off).
     never : the price of what is never named: a clock whose frequency is a multiple of the one at which a motion
@@ -79,9 +79,6 @@ class Policy:
             "inputs_lag": 10.0,
             "rotor_inertia": 10.0,
             "late_feedback": 10.0,
-            "clearance": 10.0,
-            "upper_stop": 10.0,
-            "lower_stop": 10.0,
         }
     )
     braking: float = 8.0

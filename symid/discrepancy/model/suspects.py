@@ -10,7 +10,7 @@ from typing import Any, cast
 import numpy as np
 
 from symid import checked
-from symid.discrepancy.model.sizes import STOPS, Sizes
+from symid.discrepancy.model.sizes import Sizes
 from symid.errors import ModelError
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
@@ -234,14 +234,12 @@ PLAIN = (
     "body_friction",
     "gyroscopic_force",
     "cogging_torque",
-    "rotor_inertia",
 )
-"""Forces with one coefficient of a power of position or speed, or of the acceleration: the first terms of whatever
-acts."""
+"""Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
 _NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *SENSOR_LAWS, *FLOW_LAWS)
-ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN, "clearance", *STOPS, "late_feedback"}
+ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN, "late_feedback"}
 """Names that are answers: of the answer files, of what may be stated wrongly, lags, zeros, drifts, flows, plain
-forces, springs that are met somewhere, a controller that is late."""
+forces, a controller that is late."""
 
 
 def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:

@@ -87,13 +87,13 @@ def diagnosed(model: si.Model, recording: si.Recording) -> si.Diagnosis:
         (lambda: table(1.5e3, 0.004, 0, 2), (1.5e3, 6), (0.004, 2e-5)),
     ],
 )
-def test_a_play_and_stops_are_named(made, spring, gap):
+def test_a_play_and_stops_are_described(made, spring, gap):
     """The shaft's own spring, which is there within the play only, is fitted to next to nothing.
 
     Of small motion whose speeds alone are recorded, too: gaps are as large as the fit moves.
     """
     found = diagnosed(*made())
-    assert found.verdict == "missing_physics" and "as behind a play or at stops" in found.words, str(found)
+    assert found.verdict == "unexplained" and "as behind a play or at stops" in found.words, str(found)
     (law,) = [e for e in found.effects if e.name == "clearance"]
     for key, (true, within) in (("k_Nm_rad", spring), ("gap_rad", gap)):
         value, error = law.parameters[key]

@@ -65,11 +65,12 @@ def test_stops_are_looked_for_in_the_recorded_range_only():
 @pytest.mark.parametrize(
     ("name", "side", "angle", "stiffness"), [("upper_stop", 1, 0.6, 60.0), ("lower_stop", -1, -0.4, 20.0)]
 )
-def test_a_stop_is_named(name, side, angle, stiffness):
+def test_a_stop_is_described(name, side, angle, stiffness):
     """Its force was told as a push in each of the swings."""
     made, end = swings(side, angle, stiffness, 1), SECONDS * len(BEGINS)
     windows = {"fit_window": (0, end - SECONDS - 0.01), "held_out": (end - SECONDS, end - 0.01)}
     found = si.diagnose(leg(), made, **windows, segment_length=SECONDS, threads=1)
+    assert found.verdict == "unexplained" and "meets a stop, or a band" in found.words, str(found)
     assert [e.name for e in found.effects] == [name] and found.confirmed, str(found)
     for key, true in (("angle_rad", angle), ("k_Nm_rad", stiffness)):
         value, error = found.effects[0].parameters[key]
