@@ -93,13 +93,14 @@ class Judge:
         """Whether nothing systematic is left."""
         return self.remainder(found)[0].minus_log10_p <= POLICY.remainder
 
-    def beaten(self, found: Hypothesis) -> bool:
-        """Whether a flexible law at one place explains more than all that has a name: what acts there is in no list."""
+    def beaten(self, found: Hypothesis, by: float = POLICY.doubt) -> bool:
+        """Whether a flexible law at one place explains more, `by` so much, than all that has a name: what acts there is
+        in no list."""
         flexible = self.flexible()
         if not self._enough(flexible):
             return False
         share = max(flexible, found, key=lambda h: h.log_ratio).share
-        return flexible.evidence(share) > max(found.evidence(share), 0.0) + POLICY.doubt
+        return flexible.evidence(share) > max(found.evidence(share), 0.0) + by
 
     def _enough(self, found: Hypothesis) -> bool:
         """Whether what it leaves of a free motion is near the sensors' noise: else more than one thing is missing."""

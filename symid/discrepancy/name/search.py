@@ -84,7 +84,9 @@ class Search(Judge):
         """The best hypothesis, and each suspect alone, best first.
 
         It ends early where with what was found, or instead of it, the inputs are likelier to do something else between
-        their samples, as they then do in the model of its fit: all else hangs on that; or where it repeats itself.
+        their samples, as they then do in the model of its fit: all else hangs on that; where it repeats itself; or
+        where several laws explain no more than a flexible one at one place does: more of them need not help then, and
+        of a standing person rounding decided whether three more were looked for.
 
         to_end : whether it goes on where the cutoff of a filter moves with what was found. All else hangs on that, too.
         """
@@ -105,7 +107,7 @@ class Search(Judge):
                 best = replace(best, base=with_holds_of(curved, self.base, self.data))
             self._goes_on_from(best)
             self.progress(f"found {', '.join(str(s.term) for s in best.suspects)}")
-            if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best):
+            if self.quiet(best) or len(best.suspects) > 1 and self.beaten(best, -POLICY.equivalent):
                 break
             if not to_end and not has_settled(best.fit, self.data):
                 return best, single
