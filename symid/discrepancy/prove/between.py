@@ -1,8 +1,8 @@
 """How far values hang on what inputs do between their samples, where neither a user nor the recording says it.
 
 An input that is held comes half a sample later than straight lines through its samples. Where the recording hardly
-tells, as of a slow input, delays and losses that were found hang on it: the standard errors that the fit alone gives
-take for known what is not (Buckland, Burnham & Augustin 1997, equation 9; here with the whole difference of the two).
+tells, as of a slow input, delays and losses that were found hang on it, and the standard errors that the fit alone
+gives take for known what is not: the difference of the two answers is added to them, as independent errors are.
 """
 
 from __future__ import annotations

@@ -55,7 +55,7 @@ def _stop_law(name: str, side: int) -> Law:
         (LawParameter("k_Nm_rad", "N*m/rad", _POSITIVE), angle),
         _stop(side),
         f"The {{place}} meets a stop, or a band, of {{k_Nm_rad}} {where} an angle of {{angle_rad}}",
-        "Hunt & Crossley 1975",
+        "Den Hartog & Heiles 1936",
     )
 
 
