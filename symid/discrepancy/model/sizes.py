@@ -20,8 +20,6 @@ REACHES, REACH = (0.003, 3.0), 0.1
 """Motions of so many radians or metres, rms, are what laws are stated for, and one that is typical of them."""
 TORQUES, TORQUE = (1.0, 1000.0), 30.0
 """Likewise of feedback torques [N m or N]."""
-STOPS = "upper_stop", "lower_stop"
-"""Laws that hang on where the range of a position begins and ends."""
 
 
 @dataclass(frozen=True)
@@ -31,19 +29,17 @@ class Sizes:
     Attributes
     ----------
     pace : seconds. reach, torque : by place, where they are not as usual. ranges : by place, the middle of recorded
-        positions and half of how far these reach.
+        positions and half of how far these reach, where outputs show them.
     only : places, by name, of laws that need more than their port: a torque that comes back in each turn a joint that
         turns by more than one, a loss that follows a level's sign a level that changes it, a speed that is felt late a
-        machine without a controller, which has laws of its own for that, a stop a joint whose position outputs show.
+        machine without a controller, which has laws of its own for that.
     """
 
     pace: float = 1.0
     reach: Mapping[str, float] = field(default_factory=dict)
     torque: Mapping[str, float] = field(default_factory=dict)
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    only: Mapping[str, Collection[str]] = field(
-        default_factory=lambda: dict.fromkeys(("cogging_torque", "constant_loss", *STOPS), ())
-    )
+    only: Mapping[str, Collection[str]] = field(default_factory=lambda: {"cogging_torque": (), "constant_loss": ()})
 
     def at(self, place: str) -> dict[str, float]:
         """By unit."""
@@ -59,15 +55,13 @@ class Sizes:
 
 def sizes_of(fit: Fit, data: Data) -> Sizes:
     """Of a fitted model and the motion to which it was fitted."""
-    ranges = _ranges(fit.model, data)
     only = {
-        **dict.fromkeys(STOPS, ranges),
         "cogging_torque": _turning(fit, data),
         "constant_loss": signed(fit.model, data.segments),
         "late_damping": _joints_without_controller(fit.model),
     }
     path = fitted_path(fit, data)
-    return Sizes(data.pace, _reaches(fit, data, path), _torques(fit, data, path), ranges, only)
+    return Sizes(data.pace, _reaches(fit, data, path), _torques(fit, data, path), _ranges(fit.model, data), only)
 
 
 def _ranges(model: Model, data: Data) -> dict[str, tuple[float, float]]:

@@ -188,6 +188,8 @@ def suspects(model: Model, sizes: Sizes | None = None) -> list[Suspect]:
             continue
         if term.location not in sizes.only.get(term.name, (term.location,)):
             continue
+        if any(q.clock == "range" for q in term.law.parameters) and term.location not in sizes.ranges:
+            continue
         term = replace(term, law=_sized(term.law, sizes, term.location))
         equations = _equations(model, term)
         if equations is not None:

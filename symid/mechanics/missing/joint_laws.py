@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from math import inf
-from types import SimpleNamespace
 
 import sympy as sm
 
 from symid.mechanics.missing.laws import dry, effort_law, fit_units, parameter_name, port_at, time_derivative
-from symid.model import Equation, Law, LawParameter, Model, Port, State
+from symid.model import Equation, Law, LawParameter, State
 
 _POSITIVE = (0.0, inf)
 _BOTH_SIGNS = (-inf, inf)
 _FAR_STRAIN = 20.0
 """Yield strains that no loop is expected to reach; one that stiffens has no end of its own."""
-_STOP = 0.7
-"""Of the way from the middle of a motion to its end, where a stop is looked for first: it is met in a quarter of a
-swing."""
 _GATE = 40
 """A push begins and ends within this part of its duration, where sin^2 is below 1 %."""
 
@@ -29,34 +24,6 @@ def _torque(key: str = "torque_Nm", typical: float = 1.0) -> LawParameter:
 def _stribeck(m, port, p):
     size = p.torque_Nm + p.excess_Nm * sm.exp(-((port.rate / p.speed_rad_s) ** 2))
     return -size * dry(m, port, "stribeck_friction")
-
-
-def _clearance(m, port, p):
-    free = (sm.Abs(port.position + p.gap_rad) - sm.Abs(port.position - p.gap_rad)) / 2
-    return -p.k_Nm_rad * (port.position - free)
-
-
-def _stop(side: int) -> Callable[[Model, Port, SimpleNamespace], sm.Expr]:
-    """The force of a spring that is met beyond an angle, above (1) or below (-1) it."""
-
-    def force(m, port, p):
-        beyond = side * (port.position - p.angle_rad)
-        return -side * p.k_Nm_rad * (beyond + sm.Abs(beyond)) / 2
-
-    return force
-
-
-def _stop_law(name: str, side: int) -> Law:
-    where = "above" if side > 0 else "below"
-    angle = LawParameter("angle_rad", "rad", (-1.0, 1.0), None, (_STOP * side,), _STOP * side, clock="range")
-    return effort_law(
-        name,
-        "joint",
-        (LawParameter("k_Nm_rad", "N*m/rad", _POSITIVE), angle),
-        _stop(side),
-        f"The {{place}} meets a stop, or a band, of {{k_Nm_rad}} {where} an angle of {{angle_rad}}",
-        "Den Hartog & Heiles 1936",
-    )
 
 
 def _push(m, port, p):
@@ -206,19 +173,6 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         "The {place} meets a resistance that grows exponentially, e-fold every {width_rad}",
         "Audu & Davy 1985",
     ),
-    effort_law(
-        "clearance",
-        "joint",
-        (
-            LawParameter("k_Nm_rad", "N*m/rad", _POSITIVE),
-            LawParameter("gap_rad", "rad", (1e-4, 1.0), None, (0.01, 0.05, 0.15), 0.05),
-        ),
-        _clearance,
-        "A further spring of {k_Nm_rad} acts at the {place} beyond {gap_rad} either way, as behind a play or at stops",
-        "Den Hartog & Heiles 1936",
-    ),
-    _stop_law("upper_stop", 1),
-    _stop_law("lower_stop", -1),
     effort_law(
         "quadratic_stiffness",
         "joint",

@@ -15,6 +15,7 @@ from symid.mechanics.missing.late_laws import LATE_LAWS
 from symid.mechanics.missing.pair_laws import PAIR_LAWS
 from symid.mechanics.missing.sensor_laws import SENSOR_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
+from symid.mechanics.missing.stop_laws import STOP_LAWS
 from symid.mechanics.missing.world_laws import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
 from symid.model import Law, Model, Term
 
@@ -31,6 +32,7 @@ LIBRARY: dict[str, Law] = {
         *GEOMETRY_LAWS,
         *FURTHER_FEEDBACK_LAWS,
         *FURTHER_JOINT_LAWS,
+        *STOP_LAWS,
         *LATE_LAWS,
         *FURTHER_LINK_LAWS,
         *FURTHER_WORLD_LAWS,

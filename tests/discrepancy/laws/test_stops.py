@@ -5,13 +5,14 @@ import pytest
 import sympy as sm
 
 import symid as si
-from symid.discrepancy.model.sizes import STOPS, sizes_of
+from symid.discrepancy.model.sizes import sizes_of
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
 from symid.mechanics.places import with_places
 
 RATE_HZ, SECONDS, FINE = 100, 6, 10
+STOPS = "upper_stop", "lower_stop"
 BEGINS = 1.2, 0.9, -0.8, 1.1
 
 
