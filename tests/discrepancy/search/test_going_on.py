@@ -1,10 +1,13 @@
-"""A search under noise with a memory goes on from a suspect that is known, where that is worth anything there."""
+"""Where a search goes on: from what is known, where that is worth anything; and where it ends."""
 
 from dataclasses import dataclass, field
+from types import SimpleNamespace
 
 import pytest
 
 from symid.discrepancy.name import error_model
+from symid.discrepancy.name.judge import Judge
+from symid.discrepancy.policy import POLICY
 
 
 @dataclass
@@ -38,3 +41,17 @@ def test_a_search_begins_anew_where_the_model_as_given_explains_as_much_beside_t
     first = Known()
     again = error_model._going_on(Stub(worthwhile), [first], None, lambda base, data: Stub(worthwhile))
     assert again.known == ([first] if worthwhile else [])
+
+
+@pytest.mark.parametrize(
+    ("flexible", "more", "nearly"), [(283.0, False, True), (295.0, True, True), (260.0, False, False)]
+)
+def test_a_flexible_law_that_explains_about_as_much_as_several_laws_ends_the_search(
+    monkeypatch, flexible, more, nearly
+):
+    """A standing person: 277.5 for a lag and a mount that gives, 283.0 for a flexible law at one sensor."""
+    several, one = (SimpleNamespace(log_ratio=e, share=1.0, evidence=lambda share, e=e: e) for e in (277.5, flexible))
+    monkeypatch.setattr(Judge, "_enough", lambda judge, found: True)
+    judge = Judge(None, None, [], lambda: one)
+    assert judge.beaten(several) is more
+    assert judge.beaten(several, -POLICY.equivalent) is nearly
