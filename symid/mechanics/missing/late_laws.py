@@ -30,20 +30,21 @@ def loop_force(model: Model, port: Port) -> sm.Expr:
     equations. Parameters of passive springs and dampers are among them; a delay is next to nothing to these.
     """
     written = {name: model.inline(e.expr) for name, e in model.equations.items()}
-    now = {x.symbol for x in model.states.values()}
+    states = {x.symbol for x in model.states.values()}
     rates = {x.dot for x in model.states.values()}
-    gains = [q.symbol for q in model.parameters.values() if _is_gain(q.symbol, written, port, now, rates)]
+    gains = [q.symbol for q in model.parameters.values() if _is_gain(q.symbol, written, port, states, rates)]
     name, sign = next(iter(port.into.items()))
     return (written[name] - written[name].xreplace(dict.fromkeys(gains, sm.S.Zero))) / sign
 
 
-def _is_gain(q: sm.Symbol, written: dict[str, sm.Expr], port: Port, now: set, rates: set) -> bool:
+def _is_gain(q: sm.Symbol, written: dict[str, sm.Expr], port: Port, states: set, rates: set) -> bool:
+    """Whether the parameter q enters the `written` equations as a force at the port that follows `states` does."""
     entered = {name: sm.diff(e, q) for name, e in written.items() if e.has(q)}
     if not entered or entered.keys() != port.into.keys():
         return False
     forces = [sm.expand(slope / port.into[name]) for name, slope in entered.items()]
     symbols = forces[0].free_symbols
-    return bool(symbols & now) and not (symbols & rates) and q not in symbols and all(f == forces[0] for f in forces)
+    return bool(symbols & states) and not (symbols & rates) and q not in symbols and all(f == forces[0] for f in forces)
 
 
 def _has_loop(model: Model, place: str) -> bool:
