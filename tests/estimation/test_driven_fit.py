@@ -91,3 +91,17 @@ def test_a_cutoff_that_is_not_tuned_keeps_its_value():
     kept = Fitter(cart(), data, near=fit, tune="noise").fit(fit.values, fit.initial, np.ones_like(fit.process))
     assert kept.process[at] == 1.0 and kept.process[0] != 1.0 and abs(fit.process[at] - 1.0) > 0.1
     assert kept.loglik2 < fit.loglik2
+
+
+def test_slopes_that_grow_without_end_beside_noise_that_remembers_are_no_equations():
+    """In the steps of a search far away: a singular value decomposition may refuse what is no number."""
+    made = data_of(recorded())
+    halves = made.with_segments(part for half in made.halves() for part in half.segments).remembering(2)
+    fit = fit_model(cart(), halves)
+    fitter = Fitter.of(fit, halves)
+    p, path = np.array([fit.values[k] for k in fitter.sim.parameters]), fitted_path(fit, halves)
+    at = (fitter, p, fit.initial, fit.kalman_gain, fit.process, path)
+    runs = fitter.sensitive(*at[1:])
+    assert normal_equations(*at, runs) is not None
+    runs[1].dy[-1] = np.inf
+    assert normal_equations(*at, runs) is None

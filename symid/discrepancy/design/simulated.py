@@ -31,7 +31,7 @@ SUBSTEPS = 8
 
 def course(data: Data, design: Design) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """Times from zero [s] and inputs of an experiment, those that were recorded scaled and played anew."""
-    step = data.segments[0].step / data.segments[0].ratio
+    step = data.segments[0].input_step
     length = sum(s.time[-1] - s.time[0] for s in data.segments) * design.longer
     time = np.arange(int(length / step) + 1) * step
     inputs = {}
@@ -130,7 +130,7 @@ def as_recording(segments: Sequence[Segment], model: Model, sensor_noise: np.nda
     noise = dict(zip([y.channel for y in model.outputs.values()], map(float, sensor_noise), strict=True))
     time = np.concatenate([s.time for s in segments])
     # Pieces that follow each other without a pause are one run.
-    starts = [b.time[0] - a.time[-1] > PAUSE / 2 * a.step / a.ratio for a, b in pairwise(segments)]
+    starts = [b.time[0] - a.time[-1] > PAUSE / 2 * a.input_step for a, b in pairwise(segments)]
     run = np.repeat(np.cumsum([False, *starts]), [len(s.time) for s in segments])
     history = (f"simulated: {words}",)
     return Recording(words, time, channels, units, noise=noise, history=history, segment=run if run[-1] else None)

@@ -152,7 +152,7 @@ class Hypothesis:
         q = suspect.strength
         if q is None or q.unit != "s" or suspect.law.acts_on not in ("sensor", "excitation"):
             return False
-        step = self.data.segments[0].step / self.data.segments[0].ratio
+        step = self.data.segments[0].input_step
         return abs(self.fit.values[suspect.term.parameter_name(q.key)]) < POLICY.skew * step
 
     def _is_harmonic(self, suspect: Suspect) -> bool:

@@ -156,9 +156,9 @@ def _otherwise(s: Story, other: Hypothesis) -> str:
     """What would be found with inputs that do something else between their samples."""
     model, inputs = other.fit.model, s.evidence.found.fit.model.inputs
     changed = [u for k, u in model.inputs.items() if u.hold != inputs[k].hold]
-    does = "held" if changed[0].hold == "zero" else "straight"
+    does = "held" if changed[0].hold == "zero" else "curved" if changed[0].hold in CURVES else "straight"
     names = [u.channel for u in changed]
-    found = " ".join(f"{sentence(k, values_of(k, other.fit), model)}." for k in other.suspects)
+    found = " ".join(f"{sentence(law, values_of(law, other.fit), model)}." for law in other.suspects)
     return (
         f"Whether {listed(names)} {_are(names)} {does} between samples the recording hardly tells, and standard errors "
         f"allow for that. If so: {found}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-TINY = 1e-7
+UNMOVED = 1e-7
 """Directions in which an initial state moves the outputs by this part of the largest are none: half the digits."""
 
 
@@ -13,10 +13,14 @@ class Memory:
 
     An initial state of a segment's own takes up a part of either: in short pieces much of what a sample foretells of
     the next is a motion that begins otherwise.
+
+    Attributes
+    ----------
+    samples : k, how many the noise remembers. own : (k m m, k m m). others : (k m m, s) with what segments share.
     """
 
-    def __init__(self, memory: int):
-        self.memory, self.own, self.others = memory, 0.0, 0.0
+    def __init__(self, samples: int):
+        self.samples, self.own, self.others = samples, 0.0, 0.0
 
     def add(self, before: np.ndarray, slopes: np.ndarray, begins: np.ndarray) -> None:
         """One segment.
@@ -24,13 +28,13 @@ class Memory:
         before : (N - k, k m) the k samples before each. slopes : (N, m, s) whitened, by what segments share. begins :
             (N, m, n) by the segment's own initial state; n may be 0.
         """
-        k, m = self.memory, slopes.shape[1]
+        k, m = self.samples, slopes.shape[1]
         own = np.kron(before.T @ before, np.eye(m))
         others = np.tensordot(before, slopes[k:], (0, 0)).reshape(len(own), -1)
         flat = begins.reshape(slopes.shape[0] * m, -1)
         if flat.size:
             directions, sizes, _ = np.linalg.svd(flat, full_matrices=False)
-            directions = directions[:, sizes > TINY * sizes[0]]
+            directions = directions[:, sizes > UNMOVED * sizes[0]]
             moved = directions.reshape(*slopes.shape[:2], -1)[k:]
             seen = np.tensordot(before, moved, (0, 0)).reshape(len(own), -1)
             own = own - seen @ seen.T

@@ -72,8 +72,8 @@ def _gauss_newton(
     H, g = np.zeros((size, size)), np.zeros(size)
     own = [predictor.tuned.index(j) for j in predictor.tuned_gain]
     # Segments know nothing of each other's initial states: these stay apart where there are several.
-    apart = len(runs) > 1
-    shared, memory = slice(0, q + w if apart else size), Memory(predictor.data.memory)
+    shared, memory = slice(0, size if len(runs) == 1 else q + w), Memory(predictor.data.memory)
+    remembers = bool(memory.samples and shared.stop)
     with np.errstate(over="ignore", invalid="ignore"):
         for i, (t, s, spread) in enumerate(zip(runs, innovations, whitening.sizes, strict=True)):
             tuned = np.zeros((*s.shape, w))
@@ -86,11 +86,11 @@ def _gauss_newton(
             where = np.r_[0 : q + w, q + w + i * n : q + w + (i + 1) * n]
             H[np.ix_(where, where)] += J.T @ J
             g[where] += J.T @ r
-            if memory.memory and shared.stop:
+            if remembers and np.isfinite(J).all():
                 slopes = J.reshape(*s.shape, -1)
-                begins = slopes[:, :, shared.stop :]
-                memory.add(past_of(s / spread, memory.memory), slopes[:, :, shared], begins)
-        if memory.memory and shared.stop and np.isfinite(H).all():
+                before = past_of(s / spread, memory.samples)
+                memory.add(before, slopes[:, :, shared], slopes[:, :, shared.stop :])
+        if remembers and np.isfinite(H).all():
             H[shared, shared] -= memory.taken()
     return H, g
 

@@ -40,11 +40,11 @@ def loop_force(model: Model, port: Port) -> sm.Expr:
 def _is_gain(q: sm.Symbol, written: dict[str, sm.Expr], port: Port, states: set, rates: set) -> bool:
     """Whether the parameter q enters the `written` equations as a force at the port that follows `states` does."""
     entered = {name: sm.diff(e, q) for name, e in written.items() if e.has(q)}
-    if not entered or entered.keys() != port.into.keys():
+    symbols = set().union(*(slope.free_symbols for slope in entered.values()))
+    if entered.keys() != port.into.keys() or not symbols & states or symbols & rates or q in symbols:
         return False
-    forces = [sm.expand(slope / port.into[name]) for name, slope in entered.items()]
-    symbols = forces[0].free_symbols
-    return bool(symbols & states) and not (symbols & rates) and q not in symbols and all(f == forces[0] for f in forces)
+    first, *others = (sm.expand(slope / port.into[name]) for name, slope in entered.items())
+    return all(force == first for force in others)
 
 
 def _has_loop(model: Model, place: str) -> bool:
