@@ -19,6 +19,7 @@ from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
 from symid.discrepancy.name.scan import promising
 from symid.discrepancy.name.starts import Start
+from symid.discrepancy.name.stated_together import stated_together
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_holds
 from symid.estimation.measurement import has_settled
@@ -127,7 +128,11 @@ class Search(Judge):
         if more is None:
             return None
         if len(more.suspects) == 2 and not self.quiet(more) and (more.is_free or not self.beaten(more)):
-            more = self._preferred(best, [more, *self._other_pairs(best, single, above=more.log_ratio)])
+            stated = stated_together(more, self.pool, self.together, self.better)
+            self.tried += stated
+            done = any(map(self.quiet, stated))
+            others = [] if done else self._other_pairs(best, single, above=more.log_ratio)
+            more = self._preferred(best, [more, *stated, *others])
         if len(more.suspects) > 1:
             again = self._reexamined(more, single)
             more = more if again is more else self._with_jumps([again], best)[0]
