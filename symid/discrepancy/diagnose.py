@@ -7,9 +7,10 @@ from collections.abc import Callable, Mapping, Sequence
 from symid.discrepancy.judged import judged
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.say.diagnosis import Diagnosis, finding
-from symid.discrepancy.say.story import Story, input_noise
+from symid.discrepancy.say.story import Story
 from symid.discrepancy.say.words import words
 from symid.discrepancy.task import Part, check_options, listed_suspects, task_of
+from symid.estimation.fitting.noise_sizes import input_noise
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.identification import Solution
 from symid.model import Model

@@ -17,6 +17,7 @@ from symid.discrepancy.task import Task
 from symid.errors import SymidError
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fitter import Fitter
+from symid.estimation.fitting.noise_sizes import input_noise
 from symid.estimation.fitting.sensitive import MOST_GROWTH, largest_growth
 from symid.estimation.measurement import of_window
 from symid.estimation.sensors.zero_phase import ZeroPhase
@@ -89,7 +90,8 @@ def judged(
 def _with_input_noise(
     found: _Found, astray: bool, task: Task, found_in: Callable[[Task], _Found], progress: Callable[[str], None]
 ) -> _Found | None:
-    """What is found as if the inputs had noise; None where that is less likely, or something is left beside it.
+    """What is found as if the inputs had noise; None where that is less likely, where something is left beside it, or
+    where an input would have more noise than it ever moved.
 
     astray : whether what was found holds in pieces alone, so that the whole recording refutes it.
     """
@@ -103,7 +105,19 @@ def _with_input_noise(
         return None  # what was found already is not lost by what was tried beside it
     if noisy is None or astray:
         return noisy
-    return noisy if not noisy.tested.nameless and noisy.loglik2 > found.loglik2 else None
+    likelier = not noisy.tested.nameless and noisy.loglik2 > found.loglik2
+    return noisy if likelier and _may_be_noise(noisy) else None
+
+
+def _may_be_noise(noisy: _Found) -> bool:
+    """Whether each input that changes has less noise than that: what hides an input altogether is no noise of it."""
+    data = noisy.by.search.data
+    sizes = input_noise(noisy.tested.found.fit, data)
+    inputs = {
+        u.channel: np.std(np.concatenate([e.inputs[name] for e in data.segments]))
+        for name, u in noisy.by.task.model.inputs.items()
+    }
+    return all(sizes[channel] <= changes or changes == 0 for channel, changes in inputs.items())
 
 
 def _holds_in_pieces_alone(found: _Found, task: Task) -> bool:

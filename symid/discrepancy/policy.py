@@ -79,6 +79,8 @@ class Policy:
             "inputs_lag": 10.0,
             "rotor_inertia": 10.0,
             "late_feedback": 10.0,
+            "late_sensing": 10.0,
+            "feedback_lag": 10.0,
         }
     )
     braking: float = 8.0

@@ -9,6 +9,7 @@ balance's own rate, wherever the body is.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import combinations
 from math import inf
 from types import SimpleNamespace
 
@@ -52,7 +53,9 @@ def bodies(model: Model, ports: Mapping[str, Port]) -> dict[str, Expression]:
     for name, at, parts in _parts(model, mass):
         half = (rates.T * parts * rates)[0] / 2
         known = [p.rate**2 for p in ports.values() if p.rate != 0] + [other.expr for other in found.values()]
-        if half == 0 or not _has(unit_of(model, half, model.time), "m^2/s^2") or _are_several(half, joints, balances):
+        if half == 0 or not _has(unit_of(model, half, model.time), "m^2/s^2"):
+            continue
+        if _are_several(model, half, joints, balances):
             continue
         if not any(_in_proportion(model, half, other) for other in known):
             found[f"{name}half_squared_speed"] = Expression(half, unit="m^2/s^2", role=ROLE, at=at)
@@ -73,16 +76,29 @@ def _parts(model: Model, mass: sm.Matrix) -> Iterator[tuple[str, str, sm.Matrix]
         yield "", f"{ROLE}:{model.name}", mass
 
 
-def _are_several(half: sm.Expr, joints: Mapping[str, Port], balances: Mapping[str, sm.Expr]) -> bool:
+def _are_several(model: Model, half: sm.Expr, joints: Mapping[str, Port], balances: Mapping[str, sm.Expr]) -> bool:
     """Whether these are several bodies on one line, as masses between springs: forces join their coordinates.
 
-    Each moves for itself, and so do the coordinates of one body in the plane; but these no force joins.
+    Each moves for itself, and so do the coordinates of one body in the plane; but these no force joins, or one that
+    points to a centre, as of a planet.
     """
     own = {e: p for e, p in joints.items() if half.has(p.rate)}
     moving = {s for p in joints.values() for s in p.rate.free_symbols | p.position.free_symbols}
     apart = all(sm.diff(half, p.rate).free_symbols & moving == {p.rate} for p in own.values())
     joined = any(balances[e].free_symbols & q.position.free_symbols for e in own for f, q in own.items() if f != e)
-    return apart and joined
+    return apart and joined and not _is_central(model, own, balances)
+
+
+def _is_central(model: Model, own: Mapping[str, Port], balances: Mapping[str, sm.Expr]) -> bool:
+    """Whether the force on what is at rest has no moment about the origin, wherever that is."""
+    still = [s.dot for s in model.states.values()] + [p.rate for p in own.values()]
+    still += [part.symbol for part in [*model.inputs.values(), *model.noises.values()]]
+    force = {e: balances[e].subs(dict.fromkeys(still, 0)) for e in own}
+    for (e, p), (f, q) in combinations(own.items(), 2):
+        one, other = _drawn(model, p.position * q.into[f] * force[f], q.position * p.into[e] * force[e])
+        if not np.allclose(one, other, rtol=EQUAL, atol=0.0):
+            return False
+    return True
 
 
 def _has(unit: str, like: str) -> bool:

@@ -26,7 +26,7 @@ from symid.plots.style import (
     size_of,
     swing,
 )
-from symid.units import time_unit, unit_for, unit_symbol
+from symid.units import prefix_for, time_unit, unit_for, unit_symbol
 
 if TYPE_CHECKING:
     from symid.discrepancy import Diagnosis
@@ -232,7 +232,7 @@ def plot_latent(before: Sequence[Latent], after: Sequence[Latent] = ()) -> Pictu
     scale, near = time_unit(float(np.ptp(time)))[1], time_unit(float(np.ptp(time[stretch])))[1]
     for i, (row, latent) in enumerate(zip(panels, before, strict=True)):
         top = max(t for t, b in zip(tops, before, strict=True) if b.unit == latent.unit)
-        prefix, factor = next((p, f) for p, f in (("", 1.0), ("m", 1e3), ("µ", 1e6)) if top * f > 0.5 or p == "µ")
+        prefix, factor = prefix_for(2 * top)
         if parted:
             centres, sizes = _sizes(latent.time * scale, latent.error)
             row[0].fill_between(centres, 0, 2 * sizes * factor, color=QUIET, alpha=0.6, lw=0, step="mid", label=UNTOLD)

@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 from symid.discrepancy.say.rest import noun, power_unit, signal_name
 from symid.mechanics.places import signal_unit
 from symid.plots.style import INK, MODEL, QUIET, WARN, Picture, opened
-from symid.units import shown_unit, time_unit, unit_symbol
+from symid.units import prefix_for, shown_unit, time_unit, unit_symbol
 
 if TYPE_CHECKING:
     from symid.discrepancy.locate.rest import Rest, Stretch
@@ -37,7 +37,7 @@ def plot_rest(rest: Rest) -> Picture:
     figure = Picture(figsize=(9.5, 2.9 * rows + 2.5), layout="constrained")
     grid = figure.add_gridspec(rows + 1, columns, height_ratios=[*[1.2] * rows, 1])
     panels = [figure.add_subplot(grid[i // columns, i % columns]) for i in range(len(rest.signals))]
-    factor, prefix = _prefixed(float(np.abs(rest.force).max()))
+    prefix, factor = prefix_for(2 * float(np.abs(rest.force).max()))
     every = max(1, len(rest.force) // MOST_POINTS)
     clock, per = time_unit(float(np.ptp(rest.time)))
     for axes, (signal, values) in zip(panels, rest.signals.items(), strict=True):
@@ -62,7 +62,7 @@ def _bars(axes, rest: Rest) -> None:
     clock, per = time_unit(float(np.ptp(rest.time)))
     parts += [(f"{s.span[0] * per:.3g} to {s.span[1] * per:.3g} {clock}", s) for s in rest.stretches]
     parts += [("small motion", rest.small), ("large motion", rest.large)]
-    factor, prefix = _prefixed(max(abs(s.power) for _, s in parts))
+    prefix, factor = prefix_for(2 * max(abs(s.power) for _, s in parts))
     values = np.array([[s.power, s.error] for _, s in parts]) * factor
     places = np.arange(len(parts))
     colors = [MODEL if p < -2 * e else WARN if p > 2 * e else QUIET for p, e in values]
@@ -74,8 +74,3 @@ def _bars(axes, rest: Rest) -> None:
     what = "mean flow" if rest.first_order else "mean power into the motion"
     axes.set_xlabel(f"{what} [{prefix}{unit_symbol(unit)}]", fontsize=9)
     opened(axes)
-
-
-def _prefixed(largest: float) -> tuple[float, str]:
-    """Factor and prefix with which numbers up to `largest` are read."""
-    return next((f, p) for p, f in (("", 1.0), ("m", 1e3), ("µ", 1e6)) if largest * f > 0.5 or p == "µ")

@@ -18,7 +18,17 @@ u     known input                              p     parameter
 """
 
 from symid.units.columns import HOW_NAMED, column_name, known_suffixes, split_column_name, without_unit
-from symid.units.show import quantity, rough, shown_unit, time_unit, typeset, unit_for, unit_symbol, with_error
+from symid.units.show import (
+    prefix_for,
+    quantity,
+    rough,
+    shown_unit,
+    time_unit,
+    typeset,
+    unit_for,
+    unit_symbol,
+    with_error,
+)
 from symid.units.si import (
     STANDARD_GRAVITY,
     FloatArray,
@@ -45,6 +55,7 @@ __all__ = [
     "known_suffixes",
     "known_unit",
     "nearest",
+    "prefix_for",
     "quantity",
     "reduced",
     "rough",

@@ -8,6 +8,8 @@ from symid.units.si import known_unit
 _RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 _PREFIX_BELOW = {"s": 1.0, "m": 0.1}
 """Size below which a unit is read with a prefix; 0.01 for those that are not listed."""
+_PREFIXES = {"": 1.0, "m": 1e3, "µ": 1e6, "n": 1e9, "p": 1e12}
+"""Of the SI, each with the factor to numbers in the unit that it makes."""
 _PREFIXED = ("N", "m", "s", "V", "A", "W", "J")
 """What the first unit of a text may be to take a prefix: N m/rad becomes mN m/rad."""
 UNSURE = 100.0
@@ -112,8 +114,13 @@ def _suitable(size: float, unit: str) -> tuple[float, str]:
     first = symbol.replace("/", " ").split(" ")[0]
     if first not in _PREFIXED or not 0 < size < _PREFIX_BELOW.get(unit, 0.01):
         return 1.0, symbol
-    scale, prefix = (1e-3, "m") if size >= 1e-3 else (1e-6, "µ")
-    return 1 / scale, prefix + symbol
+    prefix, factor = prefix_for(min(size, 1e-3))
+    return factor, prefix + symbol
+
+
+def prefix_for(size: float) -> tuple[str, float]:
+    """The prefix with which numbers of this size are read, and the factor to them."""
+    return next(((p, f) for p, f in _PREFIXES.items() if size * f >= 1), ("p", _PREFIXES["p"]))
 
 
 def _rounded(x: float, place: int) -> float:

@@ -71,6 +71,9 @@ def test_a_printed_value_is_right_to_the_second_digit_of_its_error(value, error)
         (0.2, 0.01, "kg*m^2", "0.200 ± 0.010 kg m²"),
         (843.0, float("nan"), "m", "843 m"),
         (12.3, 0.4, "N*s/m", "12.30 ± 0.40 N s/m"),
+        (1.97e-10, float("nan"), "m", "197 pm"),
+        (7.3e-8, 1e-9, "m", "73.0 ± 1.0 nm"),
+        (2e-14, 1e-15, "N*m", "0.0200 ± 0.0010 pN m"),
     ],
 )
 def test_a_quantity_takes_the_unit_that_suits_it(value, error, unit, text):

@@ -196,7 +196,7 @@ def test_figures_suit_the_pace_and_the_size_of_any_system(pace, tmp_path):
     unit, factor = {1e-5: ("ms", 1e3), 1.0: ("s", 1.0), 1e5: ("d", 1 / 86400)}[pace]
     assert below.get_xlabel() == f"time [{unit}]" and below.get_xlim()[1] == pytest.approx(60 * pace * factor)
     assert above.get_ylabel() == ("µm" if size < 1 else "m") and np.abs(above.lines[1].get_ydata()).max() < 1.5
-    assert below.get_ylabel().endswith("µm" if size < 1 else "mm")
+    assert below.get_ylabel().endswith("nm" if size < 1 else "mm")
     t0, t1 = plots.typical_stretch(solution)
     assert 5 < (t1 - t0) / (2 * np.pi / 3 * pace) < 11
     assert "</html>" in report_html(solution)

@@ -23,7 +23,7 @@ FAMILIES = (
     {"constant_torque", "quadratic_stiffness", "asymmetric_damping"},
     {"extra_mass", "center_of_mass_error", "link_inertia_error"},
     {"feedback_delay", "muscle_lag", "second_order_muscle_lag", "joint_feedback_delay", "joint_muscle_lag"},
-    {"late_damping", "late_feedback"},
+    {"late_damping", "late_feedback", "late_sensing", "feedback_lag"},
     {"input_delay", "input_lag", "inputs_delay", "inputs_lag"},
     {"sensor_delay", "sensor_lag"},
     {"sensor_offset", "sensor_drift"},

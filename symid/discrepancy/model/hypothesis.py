@@ -12,7 +12,7 @@ import numpy as np
 from symid.discrepancy.model.families import LATE_ANYWHERE
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
-from symid.errors import SymidError
+from symid.errors import ModelError, SymidError
 from symid.estimation.fitting.fit import Fit, rms_of
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.path import along, fitted_path
@@ -221,11 +221,14 @@ def refit(
 ) -> Fit | None:
     """The model of `base` with exactly these suspects, from the values and states of a fit nearby (else of `more`).
 
-    None where it cannot be fitted.
+    None where it cannot be fitted, or one leaves another no place.
     """
     model = base.model
-    for s in suspects:
-        model = model.with_term(s.term)
+    try:
+        for s in suspects:
+            model = model.with_term(s.term)
+    except ModelError:
+        return None
     fitter, values = Fitter(model, data, near=near), (more or {}) | near.values
     columns = {k: i for i, k in enumerate(near.simulator.states)}
     start = np.column_stack(

@@ -17,6 +17,7 @@ from symid.estimation.signals.segment import Segment
 from symid.mechanics import CANONICAL, suspects as terms_of
 from symid.mechanics.missing.drive_laws import LAG_LAWS, OFFSET_LAWS, has_own_zero
 from symid.mechanics.missing.flow_laws import FLOW_LAWS
+from symid.mechanics.missing.late_laws import LOOP_LAWS
 from symid.mechanics.missing.sensor_laws import SENSOR_LAWS
 from symid.mechanics.missing.stated import STATED_LAWS
 from symid.mechanics.missing.world_laws import GEOMETRY_LAWS
@@ -239,9 +240,9 @@ PLAIN = (
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
 _NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *SENSOR_LAWS, *FLOW_LAWS)
-ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN, "late_feedback"}
+ESTABLISHED = {*CANONICAL, *(law.name for law in _NAMED), *PLAIN, *(law.name for law in LOOP_LAWS)}
 """Names that are answers: of the answer files, of what may be stated wrongly, lags, zeros, drifts, flows, plain
-forces, a controller that is late."""
+forces, a controller that is late or what it senses."""
 
 
 def _equations(model: Model, term: Term) -> tuple[Any, ...] | None:

@@ -10,7 +10,7 @@ from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.hypothesis import Hypothesis, extended
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.scan import scan
-from symid.errors import SymidError
+from symid.errors import ModelError, SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
@@ -40,8 +40,12 @@ class Start:
 
 
 def starts_of(fit: Fit, data: Data, projection: Projection, suspect: Suspect) -> list[Start]:
-    """Start values of one suspect, best forecast first; none where it cannot be simulated."""
-    model = fit.model.with_term(suspect.term)
+    """Start values of one suspect, best forecast first; none where it cannot be simulated, or what was found leaves it
+    no place: a lag of all that a controller does, and then that of what it senses."""
+    try:
+        model = fit.model.with_term(suspect.term)
+    except ModelError:
+        return []
     if suspect.scanned is not None:
         found = scan(projection, suspect, model)
         return [Start(g, suspect, v) for g, v in found[:1] + [f for f in found[1:] if f[0] > 0.7 * found[0][0]][:2]]

@@ -69,8 +69,12 @@ def _as_survived(effect: Effect, evidence: Evidence, surprise: float) -> Effect:
 
 
 def _may_be_the_sensors(evidence: Evidence, audit: Audit, search: Search) -> bool:
-    """Whether a rest beside a finding that helps is less than the noise of sensors that nobody stated."""
-    return _helps(evidence) and not audit.stated.all() and near_noise(evidence.found, search.data)
+    """Whether a rest beside a finding that helps is less than the noise of sensors that nobody stated.
+
+    What the halves of the recording contradict imitates something, and the rest is what it leaves of that.
+    """
+    stands = not any(v.reason for v in evidence.survived)
+    return _helps(evidence) and stands and not audit.stated.all() and near_noise(evidence.found, search.data)
 
 
 def _helps(evidence: Evidence) -> bool:

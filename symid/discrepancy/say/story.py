@@ -15,9 +15,7 @@ from symid.discrepancy.prove.halves import HalfVerdict, Survival
 from symid.discrepancy.prove.held_out import Proof
 from symid.discrepancy.say.diagnosis import Effect
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.noise_sizes import noise_sizes
 from symid.estimation.free_run import FreeRun
-from symid.estimation.predicting.kalman import HOLD
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.data import Data
 from symid.identification.fit import common_unit, rms_text
@@ -33,21 +31,12 @@ def capital(text: str) -> str:
     return text[:1].upper() + text[1:]
 
 
-def input_noise(fit: Fit, data: Data) -> dict[str, str]:
-    """Channel -> standard deviation of each sample, with its unit, of the noise of `Model.with_input_noise`."""
-    changes = np.sqrt(HOLD / data.segments[0].step)
-    return {
-        u.channel: quantity(float(changes * s), unit=u.unit)
-        for u, s in zip(fit.model.inputs.values(), noise_sizes(fit, data)[0], strict=False)
-    }
-
-
 @dataclass(frozen=True, eq=False)
 class Story:
     """What there is to tell.
 
     pieces : seconds of those in which a motion is compared that cannot be followed from one state for longer.
-    input_noise : channel -> standard deviation with its unit, where recorded inputs are taken to have noise.
+    input_noise : channel -> standard deviation [SI], where recorded inputs are taken to have noise.
     """
 
     verdict: str
@@ -59,7 +48,7 @@ class Story:
     base: Fit
     data: Data
     pieces: float | None = None
-    input_noise: Mapping[str, str] = field(default_factory=dict)
+    input_noise: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def left(self) -> Sequence[Test]:

@@ -16,7 +16,7 @@ from symid.discrepancy.say.story import Story, listed
 from symid.estimation.fitting.correlated import is_correlated
 from symid.model.variants import CORRELATION_TIME
 from symid.recording.signals.between import CURVES
-from symid.units import rough, unit_symbol
+from symid.units import quantity, rough, unit_symbol
 
 UNRECORDED = "Random forces that nobody recorded, of wind or waves, count where the model declares a Noise for them"
 ABOVE = 2.0
@@ -168,7 +168,8 @@ def _otherwise(s: Story, other: Hypothesis) -> str:
 def _caveats(s: Story) -> list[str]:
     out = []
     if s.input_noise:
-        noise = listed([f"{channel} ({size})" for channel, size in s.input_noise.items()])
+        units = {u.channel: u.unit for u in s.model.inputs.values()}
+        noise = listed([f"{name} ({quantity(size, unit=units[name])})" for name, size in s.input_noise.items()])
         out.append(
             f"What else would be left is taken for noise in the recorded {noise}, or for random forces that do as "
             "much: that explains it better than any law that was tried."

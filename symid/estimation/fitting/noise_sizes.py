@@ -6,10 +6,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from symid.estimation.fitting.correlated import is_correlated
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.path import fitted_path
+from symid.estimation.predicting.kalman import HOLD
 from symid.estimation.signals.data import Data
+from symid.model.variants import CORRELATION_TIME
 
 
 def noise_sizes(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
@@ -28,6 +31,16 @@ def noise_sizes(fit: Fit, data: Data) -> tuple[np.ndarray, np.ndarray]:
     size = float(np.sqrt(np.mean((fit.rms_errors / filter.expected) ** 2)))
     size = size if np.isfinite(size) else 1.0
     return size * fit.process[: predictor.noises], size * filter.sensor
+
+
+def input_noise(fit: Fit, data: Data) -> dict[str, float]:
+    """Channel -> standard deviation [SI] of each sample of the noise of `Model.with_input_noise`.
+
+    Of noise that is correlated over T it is that of the stationary process, the root of S / (2 T) for a density of S.
+    """
+    over = 2 * fit.values[CORRELATION_TIME] if is_correlated(fit) else data.segments[0].step
+    sizes = np.sqrt(HOLD / over) * noise_sizes(fit, data)[0]
+    return {u.channel: float(size) for u, size in zip(fit.model.inputs.values(), sizes, strict=True)}
 
 
 def likeliest_sizes(fitter: Fitter, fit: Fit, factors: Iterable[np.ndarray]) -> tuple[float, np.ndarray]:

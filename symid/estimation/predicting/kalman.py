@@ -220,8 +220,8 @@ def _moved(A, G, step: float, process: np.ndarray, white: bool) -> tuple[np.ndar
     block[..., :n, :n], block[..., :n, n:] = A * step / holds, G * step / holds
     with np.errstate(over="ignore", invalid="ignore"):  # of a trial that grows without end
         exact = expm(block)
-    F, B = exact[..., :n, :n], exact[..., :n, n:] * process[..., None, :] * size
-    one, Q = B @ B.swapaxes(-1, -2), np.zeros(A.shape)
-    for _ in range(holds):
-        Q = F @ Q @ F.swapaxes(-1, -2) + one
-    return np.linalg.matrix_power(F, holds), Q
+        F, B = exact[..., :n, :n], exact[..., :n, n:] * process[..., None, :] * size
+        one, Q = B @ B.swapaxes(-1, -2), np.zeros(A.shape)
+        for _ in range(holds):
+            Q = F @ Q @ F.swapaxes(-1, -2) + one
+        return np.linalg.matrix_power(F, holds), Q

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import sympy as sm
 
 from symid.mechanics.missing.laws import LAG, give_unit, late_symbols
-from symid.model import Equation, Input, Law, LawParameter, Model, Output, State
+from symid.model import Equation, Input, Law, LawParameter, Model, Output, Port, State
 from symid.units import dimension
 
 INPUT_DELAY = LawParameter("delay_s", "s", (-0.3, 0.3), 0.0, (-0.1, -0.04, 0.04, 0.1), 0.05)
@@ -66,15 +66,15 @@ def _let_follow(model: Model, inputs: Sequence[Input], time_constant: sm.Expr, l
     """Let each of these inputs follow what was recorded of it with a lag [s]; its new state is called after the law."""
     for u in inputs:
         late = {s: model.delays[s].lag for s in late_symbols(model, u.symbol)}
-        x = _lagging(model, u, f"{law}_{u.name}")
+        x = lagging(model, u, f"{law}_{u.name}")
         model.substitute({u.symbol: x} | {s: model.delayed(x, lag) for s, lag in late.items()})
-        _follow(model, x, time_constant, u.symbol)
+        follow(model, x, time_constant, u.symbol)
 
 
 def _sensor_lag(model: Model, place: str, p: SimpleNamespace) -> None:
     for y in model.find("sensor", place):
-        x = _lagging(model, y, f"sensor_lag_{y.name}")
-        _follow(model, x, p.time_constant_s, y.expr)
+        x = lagging(model, y, f"sensor_lag_{y.name}")
+        follow(model, x, p.time_constant_s, y.expr)
         model.redefine(y.name, x)
 
 
@@ -89,13 +89,13 @@ def _inputs_delay(model: Model, place: str, p: SimpleNamespace) -> None:
     make_late(model, model.find("excitation"), p.delay_s)
 
 
-def _lagging(model: Model, part: Input | Output, name: str) -> sm.Symbol:
+def lagging(model: Model, part: Input | Output | Port, name: str) -> sm.Symbol:
     """A new state that stands for what `part` was so far."""
     setattr(model, name, State(unit=part.unit, role="memory", at=part.at, meaning="a signal with its lag"))
     return model[name].symbol
 
 
-def _follow(model: Model, state: sm.Symbol, time_constant: sm.Expr, signal: sm.Expr) -> None:
+def follow(model: Model, state: sm.Symbol, time_constant: sm.Expr, signal: sm.Expr) -> None:
     """Let a state follow a signal with a first-order lag [s]."""
     equation = Equation(time_constant * model[str(state)].dot + state - signal)
     setattr(model, f"{state}_equation", equation)

@@ -8,7 +8,8 @@ from types import SimpleNamespace
 import sympy as sm
 
 from symid.errors import ModelError
-from symid.mechanics.missing.laws import effort_law, port_at
+from symid.mechanics.missing.drive_laws import follow, lagging
+from symid.mechanics.missing.laws import LAG, effort_law, port_at
 from symid.model import Law, LawParameter, Model, Port
 
 
@@ -23,6 +24,22 @@ def _late_loop(model: Model, place: str, p: SimpleNamespace) -> None:
     model.add_effort(port.name, model.delayed(now, p.delay_s) - now)
 
 
+def _late_sensors(model: Model, place: str, p: SimpleNamespace) -> None:
+    port = port_at(model, "joint", place)
+    now = loop_force(model, port)
+    prompt = {s: sm.Dummy(str(s)) for s in _told(model, now)}
+    late = model.delayed(now.xreplace(prompt), p.delay_s).xreplace({kept: s for s, kept in prompt.items()})
+    model.add_effort(port.name, late - now)
+
+
+def _lagging_drive(model: Model, place: str, p: SimpleNamespace) -> None:
+    port = port_at(model, "joint", place)
+    now = loop_force(model, port)
+    felt = lagging(model, port, f"feedback_lag_{port.name}")
+    follow(model, felt, p.time_constant_s, now)
+    model.add_effort(port.name, felt - now)
+
+
 def loop_force(model: Model, port: Port) -> sm.Expr:
     """The force at a port that unknown parameters make of states and inputs, as gains of a controller do; 0 if none.
 
@@ -31,6 +48,7 @@ def loop_force(model: Model, port: Port) -> sm.Expr:
     """
     written = {name: model.inline(e.expr) for name, e in model.equations.items()}
     states = {x.symbol for x in model.states.values()}
+    states |= {late for late, d in model.delays.items() if d.of in states}
     rates = {x.dot for x in model.states.values()}
     gains = [q.symbol for q in model.parameters.values() if _is_gain(q.symbol, written, port, states, rates)]
     name, sign = next(iter(port.into.items()))
@@ -57,6 +75,53 @@ def _has_loop(model: Model, place: str) -> bool:
         return False
 
 
+def _has_reference(model: Model, place: str) -> bool:
+    """Whether a controller compares what it senses with what it is told, which need not be as late."""
+    return _has_loop(model, place) and bool(_told(model, loop_force(model, port_at(model, "joint", place))))
+
+
+def _told(model: Model, force: sm.Expr) -> set[sm.Symbol]:
+    """What of a force is no motion of a joint: inputs, late ones, and states through which they pass."""
+    ports = [p for p in model.ports.values() if p.role == "joint"]
+    moving = set().union(*(p.position.free_symbols | p.rate.free_symbols for p in ports))
+    signals = {part.symbol for part in [*model.states.values(), *model.inputs.values()]}
+    sources = {s: s for s in signals} | {late: d.of for late, d in model.delays.items()}
+    return {s for s in force.free_symbols if s in sources and sources[s] not in moving}
+
+
+_LATE = LawParameter("delay_s", "s", (0.0, 0.5), 0.0, (0.03, 0.08, 0.15), 0.1)
+
+LOOP_LAWS: tuple[Law, ...] = (
+    Law(
+        "late_feedback",
+        "joint",
+        (_LATE,),
+        _late_loop,
+        "What holds the {place} comes {delay_s} late, as from nerves or from a computer",
+        "Peterka 2002",
+        applies=_has_loop,
+    ),
+    Law(
+        "late_sensing",
+        "joint",
+        (_LATE,),
+        _late_sensors,
+        "What the controller of the {place} senses comes {delay_s} late, and what it is told does not",
+        "Peterka 2002",
+        applies=_has_reference,
+    ),
+    Law(
+        "feedback_lag",
+        "joint",
+        (LAG,),
+        _lagging_drive,
+        "What holds the {place} follows its controller with a lag of {time_constant_s}, as of a motor or a muscle",
+        "Ljung 1999",
+        applies=_has_loop,
+    ),
+)
+"""Of a controller that is written into the equations: all of it, what it senses, or what it drives."""
+
 LATE_LAWS: tuple[Law, ...] = (
     effort_law(
         "late_damping",
@@ -69,13 +134,5 @@ LATE_LAWS: tuple[Law, ...] = (
         "The {place} feels the speed that it had {delay_s} earlier, {coefficient_Nms_rad}, as by a stretch reflex",
         "Liddell & Sherrington 1924",
     ),
-    Law(
-        "late_feedback",
-        "joint",
-        (LawParameter("delay_s", "s", (0.0, 0.5), 0.0, (0.03, 0.08, 0.15), 0.1),),
-        _late_loop,
-        "What holds the {place} comes {delay_s} late, as from nerves or from a computer",
-        "Peterka 2002",
-        applies=_has_loop,
-    ),
+    *LOOP_LAWS,
 )

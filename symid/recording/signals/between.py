@@ -17,6 +17,21 @@ the degree's own polynomials the first interval of a sine sampled three times a 
 (root mean square), so it does by a third of it, as with a cubic spline."""
 
 
+STAYS, JUMPS = 0.5, 0.1
+"""A signal that stays as it is over more than such a part of its samples, and else mostly jumps by more than such a
+part of its range, is one of steps. A slow signal with few digits stays, too, and moves by its last digit."""
+
+
+def is_stepped(u: np.ndarray) -> bool:
+    """Whether a signal (N,) goes by steps, as the commands of a computer or a switch do; what is NaN does not count."""
+    u = u[np.isfinite(u)]
+    jumps = np.abs(np.diff(u))
+    jumps = jumps[jumps > 0]
+    if not jumps.size or len(jumps) > (1 - STAYS) * (len(u) - 1):
+        return False
+    return bool(np.median(jumps) > JUMPS * np.ptp(u))
+
+
 def derivatives(time: np.ndarray, u: np.ndarray, holds: Sequence[str]) -> tuple[np.ndarray, np.ndarray | None]:
     """(N, k) slopes and second derivatives at the samples of (N, k) inputs, N >= 2, of the splines through them.
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import sympy as sm
 from scipy.integrate import solve_ivp
 
 import symid as si
@@ -9,6 +10,8 @@ from symid.mechanics.places import with_places
 from symid.recording import Recording
 
 MASS, NOISE = 0.25, 5e-4
+ATTRACTION, RADIUS = 3.986e14, 7.0e6
+"""Of the Earth [m^3/s^2], and of an orbit around it [m]."""
 
 
 def puck(weighed: bool = True, joined: float = 0) -> si.Model:
@@ -28,6 +31,30 @@ def puck(weighed: bool = True, joined: float = 0) -> si.Model:
     m.across = si.Equation(mass * m.vy.dot + m.spring * m.y + joined * (m.y - m.x))
     m.seen1, m.seen2 = si.Output(m.x, channel="x"), si.Output(m.y, channel="y")
     return m
+
+
+def satellite() -> si.Model:
+    m = si.Model("satellite")
+    m.x, m.y, m.vx, m.vy = (si.State(unit=u) for u in ("m", "m", "m/s", "m/s"))
+    m.attraction = si.Constant(ATTRACTION, unit="m^3/s^2")
+    pull = m.attraction / sm.sqrt(m.x**2 + m.y**2) ** 3
+    m.kin1, m.kin2 = si.Equation(m.x.dot - m.vx), si.Equation(m.y.dot - m.vy)
+    m.along, m.across = si.Equation(m.vx.dot + pull * m.x), si.Equation(m.vy.dot + pull * m.y)
+    m.seen1, m.seen2 = si.Output(m.x, channel="x"), si.Output(m.y, channel="y")
+    return m
+
+
+def tracked(drag: float) -> Recording:
+    """Seven turns, seen every 20 s with a noise of 30 m."""
+    time = np.arange(0, 40000, 20.0)
+
+    def rates(_, s):
+        return [*s[2:], *(-ATTRACTION / np.hypot(*s[:2]) ** 3 * s[:2] - drag * np.hypot(*s[2:]) * s[2:])]
+
+    begin = [RADIUS, 0, 0, 1.02 * np.sqrt(ATTRACTION / RADIUS)]
+    s = solve_ivp(rates, (0, 40000), begin, "DOP853", t_eval=time, rtol=1e-11, atol=1e-6).y
+    x, y = s[:2] + 30 * np.random.default_rng(0).standard_normal((2, len(time)))
+    return Recording("satellite", time, {"x": x, "y": y}, {"x": "m", "y": "m"})
 
 
 def recorded(law: str, size: float, seed: int = 0) -> Recording:
@@ -67,6 +94,15 @@ def test_where_nothing_is_missing_in_the_plane_nothing_is_found():
     assert found.verdict == "adequate"
 
 
+@pytest.mark.slow
+def test_air_holds_a_satellite_back_along_its_own_motion():
+    """It was told as two drags, along x and along y, of equal size."""
+    found = si.diagnose(satellite(), tracked(3e-10), fit_window=(0, 24000), held_out=(24000, 40000))
+    assert (found.verdict, [e.name for e in found.effects]) == ("missing_physics", ["body_drag"]), str(found)
+    ((value, error),) = found.effects[0].parameters.values()
+    assert value == pytest.approx(3e-10, abs=4 * error) and error < 1e-14
+
+
 def test_a_body_of_which_no_mass_is_known_is_the_one_by_which_its_equations_were_divided():
     model = puck(weighed=False)
     (body,) = with_places(model).find("body")
@@ -88,6 +124,11 @@ def test_a_body_of_which_no_mass_is_known_is_the_one_by_which_its_equations_were
 def test_what_springs_join_are_several_bodies_on_one_line(weighed):
     """Friction of two carts with one mass in the model was taken for a drag on both and friction of one."""
     assert with_places(puck(weighed)).find("body") and not with_places(puck(weighed, joined=3)).find("body")
+
+
+def test_what_a_centre_attracts_is_one_body():
+    (body,) = with_places(satellite()).find("body")
+    assert body.at == "body:satellite"
 
 
 def test_one_coordinate_has_no_body_beside_its_joint_and_no_pair():

@@ -5,6 +5,13 @@ import pytest
 import sympy as sm
 
 import symid as si
+from symid.discrepancy.locate.projection import Projection
+from symid.discrepancy.model.hypothesis import hypothesis
+from symid.discrepancy.name.starts import starts_of
+from symid.errors import ModelError
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_of
 from symid.mechanics import LIBRARY
 from symid.mechanics.missing.late_laws import loop_force
 from symid.mechanics.missing.laws import port_at
@@ -38,14 +45,14 @@ def servo(driven: bool = True, twist: bool = False) -> si.Model:
     return m
 
 
-def recorded(delay_s: float, seed: int) -> si.Recording:
+def recorded(late_s: float, seed: int, law: str = "late_feedback") -> si.Recording:
     rng, time = np.random.default_rng(seed), np.arange(RATE_HZ * DURATION_S * FINE) / (RATE_HZ * FINE)
     reference = rng.uniform(-0.5, 0.5, 1000).repeat(60)[: RATE_HZ * DURATION_S].repeat(FINE)
     model, values = with_places(servo()), dict(TRUE)
-    if delay_s:
-        term = LIBRARY["late_feedback"].at("angle")
-        model, values = model.with_term(term), values | {term.parameter_name("delay_s"): delay_s}
-    run = simulator(model).simulate(values, np.zeros(2), time, {"reference": reference})
+    if late_s:
+        term = LIBRARY[law].at("angle")
+        model, values = model.with_term(term), values | {term.parameter_name(term.law.parameters[0].key): late_s}
+    run = simulator(model).simulate(values, np.zeros(len(model.states)), time, {"reference": reference})
     y = run.y[::FINE, 0] + 3e-4 * rng.standard_normal(RATE_HZ * DURATION_S)
     channels = {"angle": y, "reference": reference[::FINE]}
     return si.Recording("servo", time[::FINE], channels, units=dict.fromkeys(channels, "rad"))
@@ -74,16 +81,62 @@ def test_a_spring_that_acts_on_another_body_too_or_an_inertia_is_no_part_of_it()
     assert late(m) == {"angle", "load-angle"}  # the spring is what acts between the two
 
 
+def test_what_is_sensed_is_late_and_what_a_controller_is_told_is_not():
+    m = with_places(servo())
+    late_one = m.with_term(LIBRARY["late_sensing"].at("angle"))
+    of = {d.of for d in late_one.delays.values()}
+    assert of == {m.angle.symbol, m.speed.symbol}
+    lagging = m.with_term(LIBRARY["input_lag"].at("input:reference")).with_term(LIBRARY["late_sensing"].at("angle"))
+    assert {d.of for d in lagging.delays.values()} == of
+    assert not any(s.term.name == "late_sensing" for s in si.suspects(servo(driven=False)))
+
+
+def test_a_drive_that_lags_does_all_that_its_controller_asks_for_later():
+    m = with_places(servo())
+    lagging = m.with_term(LIBRARY["feedback_lag"].at("angle"))
+    (felt,) = (x for name, x in lagging.states.items() if name not in m.states)
+    torque = m.kp.symbol * (m.reference.symbol - m.angle.symbol) - m.kd.symbol * m.speed.symbol
+    (constant,) = (p.symbol for name, p in lagging.parameters.items() if name not in m.parameters)
+    assert (lagging["arm"].expr - m["arm"].expr - (torque - felt.symbol)).expand() == 0
+    (follows,) = (e.expr for name, e in lagging.equations.items() if name not in m.equations)
+    assert (follows - (constant * felt.dot + felt.symbol - torque)).expand() == 0
+
+
+def test_a_law_that_another_leaves_no_place_is_not_tried():
+    m = with_places(servo())
+    lag, late_one = (si.Suspect(LIBRARY[name].at("angle")) for name in ("feedback_lag", "late_feedback"))
+    with pytest.raises(ModelError, match="no place"):
+        m.with_term(lag.term).with_term(late_one.term)
+    data = Data(segments_of(m, recorded(0.0, 1), (0, 3), None), np.array([3e-4]), False)
+    base = fit_model(m, data, TRUE)
+    assert hypothesis([lag, late_one], base, base, data) is None
+    beside = hypothesis([lag], base, base, data, lag.named({"time_constant_s": 0.03}))
+    assert starts_of(beside.fit, data, Projection(beside.fit, data), late_one) == []
+
+
 def test_what_nothing_moves_has_no_controller_that_could_be_late():
     assert late(servo(driven=False)) == set()
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("delay_s", "seed"), [(0.04, 1), (0.015, 2), (0.0, 3)])
-def test_a_late_servo_is_named(delay_s, seed):
-    """It was told as damping that is late, and as late damping with an early reference."""
-    found = si.diagnose(servo(), recorded(delay_s, seed), fit_window=(0, 12), held_out=(12, 20), threads=1)
-    assert [e.name for e in found.effects] == ["late_feedback"] * bool(delay_s), str(found)
+@pytest.mark.parametrize(
+    ("law", "late_s", "seed"),
+    [
+        ("late_feedback", 0.04, 1),
+        ("late_feedback", 0.015, 2),
+        ("late_feedback", 0.0, 3),
+        ("late_sensing", 0.03, 4),
+        ("late_sensing", 0.015, 5),
+        ("feedback_lag", 0.03, 6),
+    ],
+)
+def test_a_late_servo_is_named(law, late_s, seed):
+    """It was told as damping that is late, as late damping with an early reference, and as a reference that lags."""
+    found = si.diagnose(servo(), recorded(late_s, seed, law), fit_window=(0, 12), held_out=(12, 20), threads=1)
+    alike = [(*h.suspects, h.fit) for h in found.equivalent]
+    told = [e.name for e in found.effects] + [s.term.name for s, _ in (a for a in alike if len(a) == 2)]
+    assert law in told if late_s else not found.effects, str(found)
     for effect in found.effects:
-        value, error = effect.parameters["delay_s"]
-        assert value == pytest.approx(delay_s, abs=4 * error + 1e-5)
+        if effect.name == law:
+            value, error = next(iter(effect.parameters.values()))
+            assert value == pytest.approx(late_s, abs=4 * error + 1e-5)

@@ -10,9 +10,11 @@ from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name import held as held_or_late
 from symid.discrepancy.name.search import Search
+from symid.discrepancy.task import task_of
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
+from symid.recording.signals.between import is_stepped
 
 STEP, FINE = 0.1, 20
 
@@ -195,3 +197,23 @@ def test_a_delay_of_a_held_input_is_half_a_sample_less(made):
     value, error = effect.parameters["delay_s"]
     assert "taken to be held" in said.words and value == pytest.approx(0.3, abs=3 * error)
     assert error < 0.1 * STEP
+
+
+def test_an_input_that_goes_by_steps_is_held():
+    rng, time = np.random.default_rng(0), np.arange(0, 20, 0.02)
+    levels, slow = rng.uniform(-1, 1, 50).repeat(20), np.sin(time)
+    stepped = {"levels": levels, "switch": np.sign(levels), "once": (time > 5) * 1.0, "gaps": levels.copy()}
+    stepped["gaps"][5:15] = np.nan
+    others = {"slow": slow, "coarse": np.round(slow, 1), "noisy": levels + 1e-3 * rng.standard_normal(len(time))}
+    others |= {"constant": np.ones(len(time)), "random": rng.standard_normal(len(time)), "missing": np.nan * time}
+    assert all(is_stepped(u) for u in stepped.values())
+    assert not any(is_stepped(u) for u in others.values())
+
+
+def test_steps_are_held_in_a_diagnosis_unless_the_user_says_otherwise():
+    recording = recorded(0, hold=True, delay_s=0.0)
+    steps = np.random.default_rng(1).uniform(-1, 1, 24).repeat(10)
+    recording = replace(recording, channels=dict(recording.channels) | {"u": steps})
+    stated = lag().with_holds(u="linear")
+    for model, hold in ((lag(), "zero"), (stated, "linear")):
+        assert task_of(model, recording, (0, 16), None, held_out=None).model.inputs["u"].hold == hold

@@ -5,11 +5,13 @@ from unittest import mock
 import numpy as np
 import pytest
 import sympy as sm
-from scipy.signal import butter, filtfilt
+from scipy.signal import butter, filtfilt, lfilter
 
 import symid as si
 from symid.discrepancy.task import Task
 from symid.errors import ModelError
+from symid.estimation.fitting import noise_sizes as sizes
+from symid.model.variants import CORRELATION_TIME
 from symid.simulation import Simulator
 
 VALUES = {"length": 0.3, "damping": 0.15}
@@ -95,6 +97,33 @@ def test_what_was_found_is_kept_where_noise_cannot_be_tried(monkeypatch):
     monkeypatch.setattr(Task, "with_input_noise", property(refuse))
     task = Task(pendulum(), recorded(pendulum(), 0, 0), (0.0, 30.0), None)
     assert module.judged(task, None, None, None, lambda text: None).verdict == "unexplained"
+
+
+@pytest.mark.parametrize(("size", "believed"), [(0.9, True), (1.1, False)])
+def test_what_hides_an_input_altogether_is_no_noise_of_it(size, believed, monkeypatch):
+    """The sun that warms a house through its windows was told as noise of 1400 K in the temperature outside."""
+    from symid.discrepancy import judged as module
+
+    pieces = [mock.Mock(inputs={"cart": np.array(u)}) for u in ([1.0, -1.0], [1.0, -1.0, -1.0, 1.0])]
+    noisy = mock.MagicMock(**{"by.search.data.segments": pieces, "by.task.model": pendulum()})
+    monkeypatch.setattr(module, "input_noise", lambda *_: {"cart_acceleration": size})
+    assert module._may_be_noise(noisy) is believed
+    for piece in pieces:
+        piece.inputs["cart"] = 0 * piece.inputs["cart"]
+    assert module._may_be_noise(noisy)  # noise of an input that stood still is all that is known of it
+
+
+@pytest.mark.parametrize(("correlated_s", "step"), [(None, 0.01), (0.5, 0.01), (0.08, 0.02)])
+def test_its_size_is_that_of_a_sample(correlated_s, step, monkeypatch):
+    """Of noise that a first-order process makes of what is held over 0.01 s, simulated."""
+    monkeypatch.setattr(sizes, "noise_sizes", lambda *_: (np.array([3.0]), None))
+    values = VALUES if correlated_s is None else VALUES | {CORRELATION_TIME: correlated_s}
+    told = sizes.input_noise(mock.Mock(model=pendulum(), values=values), mock.Mock(segments=[mock.Mock(step=step)]))
+    w = 3.0 * np.random.default_rng(0).standard_normal(400_000)
+    if correlated_s is not None:
+        keep = np.exp(-0.01 / correlated_s)
+        w = lfilter([0, 1 - keep], [1, -keep], w)
+    assert told == {"cart_acceleration": pytest.approx(w.std(), rel=0.07)}
 
 
 def test_the_noise_acts_as_the_input_does():

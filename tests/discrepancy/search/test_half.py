@@ -3,6 +3,7 @@
 from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from driven_cart import cart, data_of, recorded
 
@@ -10,6 +11,7 @@ from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import Hypothesis, refit
 from symid.discrepancy.name.instead import simpler_than_best, without_halves
 from symid.discrepancy.policy import POLICY
+from symid.discrepancy.say import judge as judge_module
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.judge import _as_survived
 from symid.estimation.fitting.cold_start import fit_model
@@ -85,6 +87,15 @@ def test_a_name_beside_a_rest_that_the_held_out_data_contradict_is_what_it_looks
     evidence = SimpleNamespace(survived=(), proof=SimpleNamespace(margin=margin))
     effect = Effect("cubic_stiffness", "motor", {}, None, 1.0, "")
     assert _as_survived(effect, evidence, surprise=0.0).established is stays
+
+
+@pytest.mark.parametrize(("reason", "sensors"), [("", True), ("its k2 differs between the halves", False)])
+def test_what_the_halves_contradict_leaves_a_rest_that_is_not_the_noise_of_sensors(reason, sensors, monkeypatch):
+    """A flattened planet's field: five laws left 1.2 times the noise of sensors that nobody stated."""
+    monkeypatch.setattr(judge_module, "near_noise", lambda *_: True)
+    evidence = SimpleNamespace(survived=(SimpleNamespace(reason=reason),), proof=None, found=None)
+    audit = SimpleNamespace(stated=np.array([False, False]))
+    assert judge_module._may_be_the_sensors(evidence, audit, SimpleNamespace(data=None)) is sensors
 
 
 def test_a_law_that_became_half_beside_another_loses_its_name_but_does_not_forbid_the_other():
