@@ -28,6 +28,7 @@ WHITENESS_LAGS = 25
 
 _WHAT = {
     "unknown_force": "a force that depends on position, speed, the past or time",
+    "unknown_coupling": "a force that depends on other states",
     "unknown_sensor_error": "a distortion of what the sensor shows",
     "unknown_input_error": "an excitation other than the recorded one",
 }

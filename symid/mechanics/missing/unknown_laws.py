@@ -11,7 +11,7 @@ from collections.abc import Mapping
 import sympy as sm
 
 from symid.mechanics.missing.laws import effort_law, port_at, time_derivative
-from symid.model import Equation, Law, LawParameter, Model, State
+from symid.model import Equation, Law, LawParameter, Model, Port, State
 
 WAVE = 1.0
 """A distortion of a sensor is built of waves of this many radians per rms of what it shows, and its multiples."""
@@ -101,6 +101,28 @@ def unknown_force(
         _parameters(16 + len(MEMORY_TIMES)),
         build,
         "Something acts on the {place} that no known law describes",
+    )
+
+
+def unknown_coupling(port: Port, rate: float, others: Mapping[sm.Symbol, float]) -> Law:
+    """A force at a port that follows the other states: alone, or with the port's own speed.
+
+    Parameters
+    ----------
+    rate : rms of the port's own. others : state -> its rms.
+    """
+
+    def build(model: Model, place: str, p) -> None:
+        v = port.rate / rate
+        shapes = [shape for s, size in others.items() for shape in ((s / size) ** 2, (s / size) ** 3, v * s / size)]
+        model.add_effort(port.name, sum(getattr(p, f"c{i}") * s for i, s in enumerate(shapes)))
+
+    return Law(
+        "unknown_coupling",
+        port.role,
+        _parameters(3 * len(others)),
+        build,
+        "Something acts on the {place} that other states do",
     )
 
 

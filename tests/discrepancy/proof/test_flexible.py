@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 import sympy as sm
 from driven_cart import cart, data_of, few, finding, recorded
+from scipy.ndimage import gaussian_filter1d
 
+import symid as si
 from symid.conceal import conceal, draw_case, rig_facts, setup_from_facts
 from symid.discrepancy import suspects
 from symid.discrepancy.locate import flexible_law
@@ -17,9 +19,11 @@ from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
-from symid.estimation.signals.windows import segments_between
+from symid.estimation.signals.windows import segments_between, segments_of
 from symid.mechanics import LIBRARY
+from symid.mechanics.places import with_places
 from symid.model import Law, LawParameter
+from symid.simulation import simulator
 
 
 def _ripple(model, place, p):
@@ -77,7 +81,7 @@ def integral():
 
 def test_a_joint_and_the_link_that_moves_alike_are_one_place():
     data, base, *_ = integral()
-    assert [t.location for t in flexible_terms(base, data)] == [
+    assert list(dict.fromkeys(t.location for t in flexible_terms(base, data))) == [
         "ankle",
         "hip",
         "trunk",
@@ -144,3 +148,48 @@ def test_a_law_that_no_part_would_replace_is_kept(monkeypatch):
     law = SimpleNamespace(fit=None, base=None, port=None, term=None, force=None, blocks=(object(),), evidence=1.0)
     monkeypatch.setattr(flexible_law, "FINER", ())
     assert flexible_law._refined(law, None) is law
+
+
+def aircraft(stalls: bool) -> si.Model:
+    """Incidence and pitch rate after an elevator; `stalls` where lift and moment bend with the incidence."""
+    m = si.Model("aircraft")
+    m.incidence, m.pitching = si.State(unit="rad"), si.State(unit="rad/s")
+    m.elevator = si.Input(unit="rad", hold="linear")
+    m.lift, m.damping = si.Parameter(unit="1/s", bounds=(0, 10)), si.Parameter(unit="1/s", bounds=(0, 20))
+    m.stiffness, m.power = si.Parameter(unit="1/s^2", bounds=(0, 50)), si.Parameter(unit="1/s^2", bounds=(0, 50))
+    bent = m.incidence**3 if stalls else 0
+    m.heave = si.Equation(m.incidence.dot - m.pitching + m.lift * m.incidence - 6 * bent)
+    m.moment = si.Equation(
+        m.pitching.dot + m.stiffness * m.incidence + m.damping * m.pitching + m.power * m.elevator - 30 * bent
+    )
+    m.seen1, m.seen2 = si.Output(m.incidence, channel="incidence"), si.Output(m.pitching, channel="rate")
+    return m
+
+
+def flown(stalls: bool) -> si.Recording:
+    rng, time = np.random.default_rng(1), np.arange(0, 40, 0.02)
+    elevator = gaussian_filter1d(rng.standard_normal(time.size), 15)
+    elevator *= 0.05 / elevator.std()
+    values = {"lift": 1.2, "damping": 1.8, "stiffness": 6.0, "power": 9.0}
+    run = simulator(aircraft(stalls).check(units=False)).simulate(values, np.zeros(2), time, {"elevator": elevator})
+    incidence, rate = (y + size * rng.standard_normal(time.size) for y, size in zip(run.y.T, (1e-3, 3e-3), strict=True))
+    channels = {"incidence": incidence, "rate": rate, "elevator": elevator}
+    return si.Recording("flight", time, channels, {"incidence": "rad", "rate": "rad/s", "elevator": "rad"})
+
+
+@pytest.mark.parametrize("stalls", [True, False])
+def test_a_moment_that_follows_another_state_is_found_where_it_acts(stalls):
+    model = with_places(aircraft(False))
+    data = Data(segments_of(model, flown(stalls), (0, 24), None), np.array([1e-3, 3e-3]), driven=True)
+    base = fit_model(model, data)
+    best = max(flexible_fits(base, data, flexible_terms(base, data)), key=lambda h: h.score)
+    assert (best.score > 100) is stalls
+    assert not stalls or str(best.suspect.term) == "unknown_coupling@rate"
+
+
+@pytest.mark.slow
+def test_what_bends_a_moment_with_another_state_is_not_noise_that_remembers():
+    """It was told as adequate with noise that remembers 6 samples."""
+    found = si.diagnose(aircraft(False), flown(True), fit_window=(0, 24), held_out=(24, 40), threads=1)
+    assert found.verdict == "unexplained" and found.effects[0].location == "rate", str(found)
+    assert si.diagnose(aircraft(False), flown(False), fit_window=(0, 24), threads=1).verdict == "adequate"
