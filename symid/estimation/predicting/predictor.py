@@ -135,10 +135,11 @@ class Predictor:
         if not self.driven:
             # Even a motion that has come to rest, and is met exactly, has a finite likelihood.
             whitening = whitening.apart((1e-6 * self.data.sensor_noise) ** 2)
-        logdet = np.linalg.slogdet(whitening.covariance)[1]
+        value = whitening.loglik2(innovations)
         if self.data.filter is not None:
-            logdet -= 2 * len(whitening.covariance) * self.data.filter.log_volume(self.step, self.sharpness(process))[0]
-        return (-self.data.samples * logdet if whitening.is_possible else -np.inf), whitening
+            volume = self.data.filter.log_volume(self.step, self.sharpness(process))[0]
+            value += 2 * self.data.samples * len(whitening.covariance) * volume
+        return value, whitening
 
     def evaluate(self, p, x0, gain, process=()) -> float:
         return self._followed(p, x0, gain, process, keep="outputs")[0]

@@ -4,7 +4,10 @@ A model of the motion need not be one of the sensors. Where their noise remember
 filter made it, the innovations follow from earlier ones although the motion is right; a likelihood that
 takes them for white finds physics in that. They are whitened by e(t) - A_1 e(t-1) - ... - A_k e(t-k),
 the matrices fitted by least squares at each trial of the parameters (concentrated out, as their
-covariance is): the noise model of Box & Jenkins (Ljung 1999, 4.2 and 10.3).
+covariance is): the noise model of Box & Jenkins (Ljung 1999, 4.2 and 10.3). The first k samples of a
+segment have fewer before them: each is foretold from those, with the errors that are then to be
+expected, by the innovations' own correlations. Where noise remembers hundreds of
+samples, what stood before a segment taken for zero makes its first sample look like an offset.
 """
 
 from __future__ import annotations
@@ -35,27 +38,34 @@ class Whitening:
     ----------
     lags : (k, m, m) matrices of the autoregression. covariance : (m, m) of what it leaves, in parts of `sizes`.
     sizes : (E,) how large the innovations of each segment are beside those of others.
+    starts : the same matrices (t, m, m) and covariance of sample t = 0 ... k - 1 of a segment.
     """
 
     lags: np.ndarray
     covariance: np.ndarray
     sizes: np.ndarray
+    starts: tuple[tuple[np.ndarray, np.ndarray], ...] = ()
 
     @cached_property
     def root(self) -> np.ndarray:
         """(m, m) that gives what is left unit covariance."""
-        return np.linalg.inv(np.linalg.cholesky(self.covariance))
+        return _root(self.covariance)
+
+    @cached_property
+    def first_roots(self) -> list[np.ndarray]:
+        """The same for each of the first samples."""
+        return [_root(covariance) for _, covariance in self.starts]
 
     @property
     def is_possible(self) -> bool:
         """Whether anything is left in each direction, as far as numbers tell."""
         try:
-            return bool(np.all(np.isfinite(self.root)))
+            return all(bool(np.all(np.isfinite(root))) for root in (self.root, *self.first_roots))
         except np.linalg.LinAlgError:
             return False
 
     def __call__(self, a: np.ndarray, size: float = 1.0) -> np.ndarray:
-        """(N, m, q) columns of one segment as (N m, q) whitened ones; before the segment they were zero.
+        """(N, m, q) columns of one segment as (N m, q) whitened ones.
 
         size : the segment's of `sizes`.
         """
@@ -63,11 +73,34 @@ class Whitening:
         out = np.empty(left.shape)
         for i, row in enumerate(self.root / size):
             out[:, i] = sum(f * left[:, j] for j, f in enumerate(row) if f != 0)
+        for t, first in enumerate(self._first(a, size)):
+            out[t] = first
         return out.reshape(-1, a.shape[2])
+
+    def _first(self, a: np.ndarray, size: float) -> list[np.ndarray]:
+        """The first samples of `__call__`, (k, m, q)."""
+        left = [a[t] - sum(A @ a[t - j] for j, A in enumerate(lags, 1)) for t, (lags, _) in enumerate(self.starts)]
+        return [root / size @ rest for root, rest in zip(self.first_roots, left, strict=True)]
+
+    def loglik2(self, innovations: Sequence[np.ndarray]) -> float:
+        """Twice the log-likelihood of the (N, m) innovations of each segment; -inf where nothing is left of them.
+
+        With the size of errors concentrated out, and without what is the same for any memory.
+        """
+        if not self.is_possible:
+            return -np.inf
+        segments, first = len(innovations), len(self.starts) * len(innovations)
+        value = -(sum(map(len, innovations)) - first) * _log_det(self.covariance)
+        for _, covariance in self.starts:
+            value -= segments * _log_det(covariance)
+        for s, size in zip(innovations, self.sizes, strict=True):
+            value -= sum(float(np.sum(w**2)) for w in self._first(s[:, :, None], size))
+        return value + first * len(self.covariance)
 
     def apart(self, least: np.ndarray) -> Whitening:
         """Each channel by itself, with no smaller variance than (m,) `least`."""
-        return replace(self, covariance=np.diag(np.diag(self.covariance) + least))
+        starts = tuple((lags, _apart(covariance, least)) for lags, covariance in self.starts)
+        return replace(self, covariance=_apart(self.covariance, least), starts=starts)
 
 
 def whitening_of(innovations: Sequence[np.ndarray], memory: int, possible: np.ndarray | None = None) -> Whitening:
@@ -78,13 +111,39 @@ def whitening_of(innovations: Sequence[np.ndarray], memory: int, possible: np.nd
     sizes = np.ones(len(innovations)) if possible is None else _likeliest(possible, innovations)
     innovations = [s / size for s, size in zip(innovations, sizes, strict=True)] if np.ptp(sizes) else innovations
     m = innovations[0].shape[1]
-    lags = np.zeros((memory, m, m))
+    lags, left = np.zeros((memory, m, m)), np.vstack([s[memory:] for s in innovations])
     if memory:
         past = np.vstack([past_of(s, memory) for s in innovations])
-        now = np.vstack([s[memory:] for s in innovations])
-        lags = np.linalg.lstsq(past, now, rcond=1e-12)[0].reshape(memory, m, m).transpose(0, 2, 1)
-    left = np.vstack([_less_memory(lags, s[:, :, None])[:, :, 0] for s in innovations])
-    return Whitening(lags, left.T @ left / len(left), sizes)
+        found = np.linalg.lstsq(past, left, rcond=1e-12)[0]
+        lags, left = found.reshape(memory, m, m).transpose(0, 2, 1), left - past @ found
+    return Whitening(lags, left.T @ left / len(left), sizes, _starts(innovations, memory))
+
+
+def _starts(innovations: Sequence[np.ndarray], memory: int) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
+    """`Whitening.starts` of innovations as correlated as these, by the Yule-Walker equations of each order."""
+    m, samples = innovations[0].shape[1], sum(map(len, innovations))
+    later = [sum(s[lag:].T @ s[: len(s) - lag] for s in innovations) / samples for lag in range(memory)]
+    found = []
+    for order in range(memory):
+        lags = np.zeros((order, m, m))
+        if order:
+            blocks = [[later[j - i] if j >= i else later[i - j].T for j in range(order)] for i in range(order)]
+            solved = np.linalg.lstsq(np.block(blocks).T, np.vstack([c.T for c in later[1 : order + 1]]), rcond=1e-12)[0]
+            lags = solved.reshape(order, m, m).transpose(0, 2, 1)
+        found.append((lags, later[0] - sum(A @ c.T for A, c in zip(lags, later[1:], strict=False))))
+    return tuple(found)
+
+
+def _root(covariance: np.ndarray) -> np.ndarray:
+    return np.linalg.inv(np.linalg.cholesky(covariance))
+
+
+def _log_det(covariance: np.ndarray) -> float:
+    return float(np.linalg.slogdet(covariance)[1])
+
+
+def _apart(covariance: np.ndarray, least: np.ndarray) -> np.ndarray:
+    return np.diag(np.diag(covariance) + least)
 
 
 def _likeliest(possible: np.ndarray, innovations: Sequence[np.ndarray]) -> np.ndarray:
