@@ -62,6 +62,11 @@ class Hypothesis:
         return self.fit.kalman_gain is None and not self.data.inputs_change
 
     @property
+    def is_harmonic(self) -> bool:
+        """Whether a clock strikes where a motion that nothing drives has its own harmonics."""
+        return any(map(self._is_harmonic, self.suspects))
+
+    @property
     def log_ratio(self) -> float:
         """Twice the log-likelihood ratio to `base`, as if what is left were white."""
         return self.fit.loglik2 - self.base.loglik2
@@ -156,7 +161,7 @@ class Hypothesis:
         return abs(self.fit.values[suspect.term.parameter_name(q.key)]) < POLICY.skew * step
 
     def _is_harmonic(self, suspect: Suspect) -> bool:
-        """Whether a clock strikes where a motion that nothing drives has its own harmonics."""
+        """Whether this one is a clock that does: see `is_harmonic`."""
         key = suspect.clock("frequency")
         if key is None or not self.is_free:
             return False

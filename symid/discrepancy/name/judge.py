@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from math import log
+from math import inf, log
 from weakref import WeakKeyDictionary
 
 from symid.discrepancy.locate.remainder import Test, remainder
@@ -58,7 +58,8 @@ class Judge:
     def _preferred(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
         """The one that is believed most, of those that are worth their price on top of `less`.
 
-        A clock imitates what follows the state of a motion that nothing drives: it comes after what explains as much.
+        A clock imitates what follows the state of a motion that nothing drives: it comes after what explains as much,
+        and so does every clock where one explains clearly more that strikes with the motion's own harmonics.
         """
         worth = [h for h in found if self.worth(h, less)]
         if not worth:
@@ -68,8 +69,10 @@ class Judge:
         if best.suspect.kind != "clock" or not best.is_free:
             return best
         least = self.value(best, share) - POLICY.equivalent
+        imitated = max((h.log_ratio for h in found if h.is_harmonic), default=-inf) > best.log_ratio + POLICY.equivalent
         states = [h for h in worth if h.established and h.suspect.kind == "state" and self.value(h, share) > least]
-        return max(states, key=lambda h: self.value(h, share), default=best)
+        others = [h for h in worth if h.suspect.kind != "clock"] if imitated else [best]
+        return max(states or others, key=lambda h: self.value(h, share), default=None)
 
     def _steady(self, less: Hypothesis, found: Sequence[Hypothesis]) -> Hypothesis | None:
         """Likewise, but for an oscillation that a half of the data contradicts."""

@@ -62,6 +62,22 @@ def test_of_a_free_motion_what_follows_the_state_comes_before_a_clock_that_expla
     assert search._preferred(nothing, [sine, dry]).suspect is chosen
 
 
+@pytest.mark.parametrize(("more", "chosen"), [(500.0, None), (5.0, PERIODIC)])
+def test_no_clock_is_taken_where_one_explains_more_that_strikes_with_the_harmonics(more, chosen, monkeypatch):
+    """A shake of the base was named where a torque shook a joint as fast as its rig swings (draw 541 of `three`)."""
+    data = data_of(recorded(4, PERIODIC.term, TORQUE))
+    still = data.with_segments(replace(s, inputs={k: 0 * u for k, u in s.inputs.items()}) for s in data.segments)
+    sine = alone(PERIODIC, data, TORQUE)
+    sine = replace(sine, data=still, fit=replace(sine.fit, kalman_gain=None))
+    own = replace(sine, fit=replace(sine.fit, loglik2=sine.fit.loglik2 + more))
+    monkeypatch.setattr(Hypothesis, "_is_harmonic", lambda self, suspect: self is own)
+    nothing = Hypothesis((), sine.base, sine.base, data)
+    search = Search(sine.base, data, [PERIODIC, FRICTION], lambda: nothing)
+    search.explained = lambda found: True
+    best = search._preferred(nothing, [own, sine])
+    assert (best and best.suspect) is chosen and best is not own
+
+
 def test_a_search_ends_where_it_comes_back_to_what_it_had(monkeypatch):
     monkeypatch.setattr(module, "with_likeliest_holds", lambda fit, data: fit)
     data = data_of(recorded(4, FRICTION.term, {"torque_Nm": 0.35}))
