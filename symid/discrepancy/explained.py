@@ -35,6 +35,7 @@ from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.swings import pace_of
 from symid.estimation.signals.windows import segments_of
 from symid.model import Model
+from symid.recording.signals.between import is_stepped
 
 CLEARER = 0.7
 """No filter was there where a free run of what explains the recording without one leaves less than this part of the
@@ -132,7 +133,9 @@ def _under(
 ) -> Explained:
     """The laws that explain a recording of which the audit is right."""
     sized = with_level_widths(with_friction_speeds(given.model, pieces, checked.noise), pieces)
-    task = replace(given, model=sized)
+    unstated = [k for k, u in sized.inputs.items() if u.hold == "either"]
+    stepped = [k for k in unstated if is_stepped(np.concatenate([e.inputs[k] for e in pieces]))]
+    task = replace(given, model=sized.with_holds(**dict.fromkeys(stepped, "zero")))
     plain = Data(pieces, checked.noise, task.random, checked.rounding)
     plain = plain.thinned() if checked.filter is None else plain  # undoing one needs all samples that it made
 
@@ -148,7 +151,6 @@ def _under(
             yield inputs_too(task.recording, *window, plain, checked.filter, *found)
 
     task, plain, possible = fitted_as_given(task, plain, fits)
-    unstated = [k for k, u in task.model.inputs.items() if u.hold == "either"]
     possible = [
         (data, with_likeliest_jumps(given.model, held_as_given(fit, data, unstated), data)) for data, fit in possible
     ]

@@ -17,7 +17,6 @@ from symid.mechanics.accelerations import with_accelerations
 from symid.mechanics.places import with_places
 from symid.model import Model
 from symid.recording import Recording
-from symid.recording.signals.between import is_stepped
 
 Part = tuple[float, float] | str
 MOST_THREADS = 1024
@@ -93,16 +92,9 @@ def task_of(subject: Model | Solution, recording: Recording | None, fit_window: 
         name: checked.number(v, f"diagnose: start of '{name}'", DiagnosisError) for name, v in (start or {}).items()
     }
     model = with_accelerations(with_places(model.simulated("diagnose").with_unstated_holds("either")))
-    model = model.with_holds(**dict.fromkeys(_stepped(model, recording), "zero"))
     task = Task(model, recording, fit_window, start={**values, **start}, values=values, **others)
     _check_parts(task)
     return replace(task, recording=without_missing(recording, model, task.moved))
-
-
-def _stepped(model: Model, recording: Recording) -> list[str]:
-    """Inputs that go by steps, of which nobody stated what they do between their samples: they stay as they are."""
-    unstated = {k: recording.channels.get(u.channel) for k, u in model.inputs.items() if u.hold == "either"}
-    return [k for k, signal in unstated.items() if signal is not None and is_stepped(signal)]
 
 
 def _check_parts(task: Task) -> None:

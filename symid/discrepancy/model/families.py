@@ -34,6 +34,8 @@ FAMILIES = (
 """Laws that take up what one another do: each is at one amplitude, or while it is small, nearly another."""
 LATE_ANYWHERE = ({"input_delay", "inputs_delay", "sensor_delay"}, {"input_lag", "inputs_lag", "sensor_lag"})
 """Laws that look alike wherever they act: of a linear machine the drive may be late, or the sensor."""
+STATED = {"stated_value_error"}
+"""A constant that is wrong may take up what another is, wherever it stands."""
 LOSSES = (
     "viscous_friction",
     "coulomb_friction",
@@ -65,5 +67,6 @@ def is_alike(suspect: Suspect, other: Suspect) -> bool:
 
 
 def may_be(suspect: Suspect, other: Suspect) -> bool:
-    """Whether `other` may be what acts in the place of `suspect`: one of its family there, or late elsewhere."""
-    return is_alike(suspect, other) or any({suspect.term.name, other.term.name} <= late for late in LATE_ANYWHERE)
+    """Whether `other` may be what acts in the place of `suspect`: of its family there, or late or stated elsewhere."""
+    names = {suspect.term.name, other.term.name}
+    return is_alike(suspect, other) or any(names <= family for family in (*LATE_ANYWHERE, STATED))

@@ -113,7 +113,9 @@ class Holds:
 
 
 def held_as_given(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
-    """The fit of a model as given, or that with inputs held where this is likelier."""
+    """The fit of a model as given, or that with inputs held where this is likelier; or free that were taken for held
+    since they go by steps, where that is much likelier."""
+    fit = unheld(fit, data, unstated, STRONG)
     nothing = Hypothesis((), fit, fit, data)
     if unstated and not _follows(nothing):
         return _held_as_predicted(fit, data, unstated)
@@ -140,11 +142,13 @@ def _held_as_predicted(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
         return fit  # what cannot be followed tells nothing
 
 
-def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
+def unheld(fit: Fit, data: Data, unstated: Sequence[str], least: float = -STRONG) -> Fit:
     """The fit, or that with inputs on straight lines or curves where held ones are not much likelier after all.
 
     Noise with a memory that was taken for white makes half a sample more or less look likely, and so does a lag that
     the model as given leaves out.
+
+    least : by so much of twice the log-likelihood free ones must be likelier.
     """
     for names in input_groups(fit.model, unstated):
         if any(fit.model.inputs[k].hold != "zero" for k in names):
@@ -154,7 +158,7 @@ def unheld(fit: Fit, data: Data, unstated: Sequence[str]) -> Fit:
         except SymidError:
             continue  # what cannot be followed is not likelier
         free = with_likeliest_holds(free, data)
-        fit = free if free.loglik2 > fit.loglik2 - STRONG else fit
+        fit = free if free.loglik2 > fit.loglik2 + least else fit
     return fit
 
 

@@ -129,10 +129,11 @@ class Search(Judge):
             return None
         if len(more.suspects) == 2 and not self.quiet(more) and (more.is_free or not self.beaten(more)):
             stated = stated_together(more, self.pool, self.together, self.better)
-            self.tried += stated
-            done = any(map(self.quiet, stated))
-            others = [] if done else self._other_pairs(best, single, above=more.log_ratio)
-            more = self._preferred(best, [more, *stated, *others])
+            rivals = [stated] if stated else []
+            if not (stated and self.quiet(stated)):
+                rivals += self._other_pairs(best, single, above=more.log_ratio)
+            self.tried += rivals
+            more = self._preferred(best, [more, *rivals])
         if len(more.suspects) > 1:
             again = self._reexamined(more, single)
             more = more if again is more else self._with_jumps([again], best)[0]

@@ -25,27 +25,33 @@ def stated_together(
     pool: Sequence[Suspect],
     together: Together,
     better: Callable[[Hypothesis, Hypothesis], Hypothesis],
-) -> list[Hypothesis]:
-    """All stated values at once, less one after the other what is not worth its price; nothing where `found` holds more
-    than stated values, or where no more are left.
+) -> Hypothesis | None:
+    """All stated values at once, and nothing else, less one after the other what is not worth its price; None where
+    `found` holds none, or all of them.
 
     Parameters
     ----------
     together : refits sets of suspects. better : the one of two hypotheses that is believed more.
     """
-    others = [s for s in pool if is_stated(s) and s not in found.suspects]
-    if not others or not all(map(is_stated, found.suspects)):
-        return []
-    off = {k: v for s in others for k, v in s.off.items()}
-    for best in together([([*others, *found.suspects], off)], found):
-        while len(best.suspects) > 1:
-            kept = sorted(best.suspects, key=lambda s: -_errors_away(s, best))
-            less = together([(kept[:-1], None)], best)
-            if not less or len(kept) <= POLICY.most_effects and better(less[0], best) is best:
-                break
-            best = less[0]
-        return [best] if len(best.suspects) <= POLICY.most_effects else []
-    return []
+    stated = [s for s in pool if is_stated(s)]
+    if not any(map(is_stated, found.suspects)) or set(stated) <= set(found.suspects):
+        return None
+    tried = together([(stated, {k: v for s in stated for k, v in s.off.items()})], found)
+    best = _as_few_as_do(tried[0], together, better) if tried else None
+    return best if best is not None and len(best.suspects) <= POLICY.most_effects else None
+
+
+def _as_few_as_do(
+    best: Hypothesis, together: Together, better: Callable[[Hypothesis, Hypothesis], Hypothesis]
+) -> Hypothesis:
+    """Less, one after the other, what differs by the fewest standard errors from what was stated."""
+    while len(best.suspects) > 1:
+        kept = sorted(best.suspects, key=lambda s: -_errors_away(s, best))[:-1]
+        less = together([(kept, None)], best)
+        if not less or len(best.suspects) <= POLICY.most_effects and better(less[0], best) is best:
+            break
+        best = less[0]
+    return best
 
 
 def _errors_away(suspect: Suspect, found: Hypothesis) -> float:

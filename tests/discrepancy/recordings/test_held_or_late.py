@@ -10,11 +10,11 @@ from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name import held as held_or_late
 from symid.discrepancy.name.search import Search
-from symid.discrepancy.task import task_of
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
 from symid.recording.signals.between import is_stepped
+from symid.simulation import simulator
 
 STEP, FINE = 0.1, 20
 
@@ -210,10 +210,13 @@ def test_an_input_that_goes_by_steps_is_held():
     assert not any(is_stepped(u) for u in others.values())
 
 
-def test_steps_are_held_in_a_diagnosis_unless_the_user_says_otherwise():
-    recording = recorded(0, hold=True, delay_s=0.0)
-    steps = np.random.default_rng(1).uniform(-1, 1, 24).repeat(10)
-    recording = replace(recording, channels=dict(recording.channels) | {"u": steps})
-    stated = lag().with_holds(u="linear")
-    for model, hold in ((lag(), "zero"), (stated, "linear")):
-        assert task_of(model, recording, (0, 16), None, held_out=None).model.inputs["u"].hold == hold
+@pytest.mark.parametrize("hold", ["zero", "linear"])
+def test_steps_are_held_where_the_recording_does_not_speak_against_it(hold):
+    """Nobody stated what they do; what draws lines through its steps comes half a sample early."""
+    rng, time = np.random.default_rng(1), np.arange(0, 24, STEP)
+    steps = rng.uniform(-1, 1, 24).repeat(10)
+    run = simulator(lag().with_holds(u=hold)).simulate({"a": 1.5, "k": 2.0}, np.zeros(1), time, {"u": steps})
+    shown = run.y[:, 0] + 0.005 * rng.standard_normal(time.size)
+    said = found(si.Recording("lag", time, {"u": steps, "y": shown}, {"u": "1", "y": "1"}))
+    assert ("taken to be held" in str(said)) is (hold == "zero")
+    assert said.verdict == "adequate" or hold == "linear", str(said)

@@ -99,15 +99,17 @@ def test_what_may_be_as_stated_is_left_out_again():
     assert {s.term.location for s in pool} == STATED.keys() - {"g"}
     sums = Sums({"m2": 500.0, "c2": 300.0, "I2": 40.0, "m1": 4.0})
     first = sums.made([s for s in pool if s.term.location in ("m2", "c1")])
-    (found,) = stated_together(first, pool, sums.together, sums.better)
+    found = stated_together(first, pool, sums.together, sums.better)
     assert {s.term.location for s in found.suspects} == {"m2", "c2", "I2"}
     assert sums.sets[1] == STATED.keys() - {"g"}
 
 
-def test_nothing_is_freed_beside_other_physics():
+def test_what_was_found_beside_a_stated_value_is_weighed_against_all_of_these():
     pool = si.suspects(arm())
     friction = next(s for s in pool if s.term.name == "coulomb_friction")
     mass = next(s for s in pool if is_stated(s))
     sums = Sums({})
-    assert stated_together(sums.made([mass, friction]), pool, sums.together, sums.better) == []
-    assert stated_together(sums.made([mass]), [mass], sums.together, sums.better) == []
+    assert stated_together(sums.made([mass, friction]), pool, sums.together, sums.better) is not None
+    assert sums.sets[1] == STATED.keys() - {"g"}
+    assert stated_together(sums.made([friction]), pool, sums.together, sums.better) is None
+    assert stated_together(sums.made([mass]), [mass], sums.together, sums.better) is None
