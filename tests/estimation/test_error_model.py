@@ -55,6 +55,18 @@ def test_the_likelihood_is_that_of_a_stationary_process_from_the_first_sample_on
         assert sum(np.sum(found(s[:, :, None]) ** 2) for s in shifted) == pytest.approx(inner, rel=0.3)
 
 
+def test_of_several_channels_the_first_samples_are_foretold_as_later_ones_are():
+    rng, memory = np.random.default_rng(0), np.array([[0.7, 0.3], [-0.2, 0.5]])
+    series = rng.standard_normal((60_000, 2)) @ np.array([[1.0, 0.5], [0.0, 0.8]])
+    for t in range(1, len(series)):
+        series[t] += memory @ series[t - 1]
+    found = whitening_of([series], 2)
+    (none, whole), ((lag,), left) = found.starts
+    assert len(none) == 0 and lag == pytest.approx(memory, abs=0.02)
+    assert left == pytest.approx(found.covariance, abs=0.02)
+    assert whole == pytest.approx(series.T @ series / len(series), rel=1e-12)
+
+
 def test_without_memory_whitening_is_the_root_of_the_covariance_alone():
     rng = np.random.default_rng(0)
     series = rng.standard_normal((500, 2)) @ np.array([[1.0, 0.7], [0.0, 0.3]])
