@@ -125,16 +125,19 @@ class Search(Judge):
         more = self._steady(best, self._added(best) if best.suspects else single)
         if more is None and len(best.suspects) < 2 and not self.explained(best):
             more = self._preferred(best, self._other_pairs(best, single, alone=False))
-        if more is None:
-            return None
-        if len(more.suspects) == 2 and not self.quiet(more) and (more.is_free or not self.beaten(more)):
+        if (
+            more is not None
+            and len(more.suspects) == 2
+            and not self.quiet(more)
+            and (more.is_free or not self.beaten(more))
+        ):
             stated = stated_together(more, self.pool, self.together, self.better)
             rivals = [stated] if stated else []
             if not (stated and self.quiet(stated)):
                 rivals += self._other_pairs(best, single, above=more.log_ratio)
             self.tried += rivals
             more = self._preferred(best, [more, *rivals])
-        if len(more.suspects) > 1:
+        if more is not None and len(more.suspects) > 1:
             again = self._reexamined(more, single)
             more = more if again is more else self._with_jumps([again], best)[0]
             return more if self.worth(more, best) else None

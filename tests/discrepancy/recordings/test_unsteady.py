@@ -78,6 +78,19 @@ def test_no_clock_is_taken_where_one_explains_more_that_strikes_with_the_harmoni
     assert (best and best.suspect) is chosen and best is not own
 
 
+def test_a_search_ends_where_the_best_of_several_pairs_is_a_clock_that_imitates(monkeypatch):
+    data = data_of(recorded(4, PERIODIC.term, TORQUE))
+    sine = alone(PERIODIC, data, TORQUE)
+    pair = replace(sine, suspects=(FRICTION, PERIODIC))
+    search = Search(sine.base, data, [PERIODIC, FRICTION], lambda: Hypothesis((), sine.base, sine.base, data))
+    search.quiet = search.beaten = lambda found: False
+    monkeypatch.setattr(search, "_added", lambda best: [pair])
+    monkeypatch.setattr(search, "_steady", lambda less, found: pair)
+    monkeypatch.setattr(search, "_other_pairs", lambda *_, **__: [])
+    monkeypatch.setattr(search, "_preferred", lambda less, found: None)
+    assert search._more(sine, [sine]) is None
+
+
 def test_a_search_ends_where_it_comes_back_to_what_it_had(monkeypatch):
     monkeypatch.setattr(module, "with_likeliest_holds", lambda fit, data: fit)
     data = data_of(recorded(4, FRICTION.term, {"torque_Nm": 0.35}))
