@@ -122,7 +122,7 @@ def unknown_coupling(port: Port, rate: float, others: Mapping[sm.Symbol, float])
         port.role,
         _parameters(3 * len(others)),
         build,
-        "Something acts on the {place} that other states do",
+        "Something acts on the {place} that follows other states",
     )
 
 
