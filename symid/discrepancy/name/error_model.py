@@ -12,8 +12,7 @@ memory, under which it keeps its value.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import reduce
 from math import inf, log
@@ -104,19 +103,11 @@ def _with_colour(search: Search, searched: Callable[[Fit, Data], Search], progre
 
 def _beside_colour(search: Search) -> dict[Hypothesis, float]:
     """The likeliest suspects alone with the noise that each leaves, and the value of both together."""
-
-    def coloured(h: Hypothesis) -> Hypothesis | None:
-        try:
-            data, fit = _coloured(h.fit, search.data)
-        except SymidError:
-            return None
-        return replace(h, fit=fit, data=data)
-
     few = search.single[:FEW]
+    coloured = _each_coloured([h.fit for h in few], search.data)
     return {
-        k: search.value(h, 1.0) + _gain(k.data, k.fit, search.data, h.fit)
-        for h, k in zip(few, in_threads(coloured, few), strict=True)
-        if k is not None
+        replace(h, fit=fit, data=data): search.value(h, 1.0) + _gain(data, fit, search.data, h.fit)
+        for h, (data, fit) in zip(few, coloured, strict=True)
     }
 
 
@@ -173,14 +164,30 @@ def _coloured(fit: Fit, data: Data) -> tuple[Data, Fit]:
 
     The same data and fit where the innovations are white already, or nothing makes them so.
     """
-    if remembered(fit.innovations) <= data.memory and not is_coloured(fit.innovations, data.memory):
-        return data, fit
+    return _each_coloured([fit], data)[0]
+
+
+def _each_coloured(fits: Sequence[Fit], data: Data) -> list[tuple[Data, Fit]]:
+    """`_coloured` of each of several fits to the same data."""
+    left = [f for f in fits if remembered(f.innovations) > data.memory or is_coloured(f.innovations, data.memory)]
+    ways = [(make, fit) for fit in left for make in (_with_forces, _with_memory)]
+    made = in_threads(lambda way: way[0](way[1], data), ways)
+    possible = {f: [p for (_, of), found in zip(ways, made, strict=True) if of is f for p in found] for f in left}
+    return [max(possible.get(f, []), key=lambda p: _gain(*p, data, f), default=(data, f)) for f in fits]
+
+
+def _with_forces(fit: Fit, data: Data) -> list[tuple[Data, Fit]]:
+    """A fit with correlated random forces, and the same with sensors that have a memory, too."""
     forces = with_correlated_forces(fit, data)
-    possible = [] if forces is None else [(data, forces)]
-    for begin in (fit, forces):
-        with suppress(SymidError):  # what cannot be followed is not likelier
-            possible += [] if begin is None else [with_memory(begin, data)]
-    return max(possible, key=lambda p: _gain(*p, data, fit), default=(data, fit))
+    return [] if forces is None else [(data, forces), *_with_memory(forces, data)]
+
+
+def _with_memory(fit: Fit, data: Data) -> list[tuple[Data, Fit]]:
+    """A fit with sensors that have a memory; none where that cannot be followed: it is not likelier."""
+    try:
+        return [with_memory(fit, data)]
+    except SymidError:
+        return []
 
 
 def _colour(fit: Fit, data: Data) -> str:

@@ -96,8 +96,9 @@ class Holds:
             return found
         fit = _met(near, self.jumps).fit
         other = Hypothesis(rest, fit, found.base, self.data)  # against one base: that held inputs are likelier counts
-        if not same:
-            return most_believed(found, other, self.value)
+        if not same:  # what is held loses nothing of a lag that was none
+            likely = fit.loglik2 > found.fit.loglik2 - STRONG
+            return most_believed(found, other, self.value) if likely else found
         if fit.loglik2 <= found.fit.loglik2 + STRONG or not _follows(other):
             return found  # of a motion that is not met half a sample more or less may be better by chance
         if delays:  # lines lose some of a smooth signal, and held inputs only half as much of it: curves are compared
