@@ -12,7 +12,7 @@ from symid.identification.fit import common_unit, fit_text, rms_text
 from symid.identification.likelihood.weighting import by_noise
 from symid.identification.noise import UNFIT
 from symid.model.show import MEANING_EM
-from symid.units import rough, unit_symbol, with_error
+from symid.units import in_unit, rough, unit_symbol, with_error
 
 if TYPE_CHECKING:
     from symid.identification.problem import Identification
@@ -102,7 +102,7 @@ def _at_bounds(solution: Solution) -> list[str]:
     """A sentence for each parameter at a bound, if it was solved."""
     table = solution.parameters[solution.parameters["at_bound"]] if solution.solved else solution.parameters[:0]
     return [
-        f"{name} lies at its bound ({p.value:.5g} {unit_symbol(p.unit)}): the data ask for a value beyond it, and "
+        f"{name} lies at its bound ({in_unit(p.value, p.unit)}): the data ask for a value beyond it, and "
         "the other parameters depend on where it stands"
         for name, p in table.iterrows()
         if p.lower < p.upper

@@ -19,6 +19,7 @@ u     known input                              p     parameter
 
 from symid.units.columns import HOW_NAMED, column_name, known_suffixes, split_column_name, without_unit
 from symid.units.show import (
+    in_unit,
     prefix_for,
     quantity,
     rough,
@@ -58,6 +59,7 @@ __all__ = [
     "prefix_for",
     "quantity",
     "reduced",
+    "in_unit",
     "rough",
     "same_dimension",
     "shown_unit",

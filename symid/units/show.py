@@ -63,6 +63,11 @@ def with_error(value: float, error: float, digits: int = 3) -> str:
     return f"{_rounded(value, place):.{decimals}f} ± {_rounded(error, place):.{decimals}f}"
 
 
+def in_unit(value: float, unit: str) -> str:
+    """A value in the very unit in which a model states it: ``"0.3 kg m²"``."""
+    return f"{value:.5g} {unit_symbol(unit)}".rstrip()
+
+
 def rough(value: float, digits: int = 2) -> str:
     """A number in a sentence, to a few digits: ``120``, where Python's ``:.2g`` writes ``1.2e+02``."""
     return with_error(value, float("nan"), digits)

@@ -39,6 +39,9 @@ Settle = Callable[[Fit, Data], Iterator[tuple[Data, Fit]]]
 FEW = 3
 """So many suspects tell which of two ways to undo a filter is right: these differ by far less than models do. So many
 may be likeliest beside noise with a memory, which differs from suspect to suspect by far less than it explains."""
+MOST_ROUNDS = 3
+"""So often a search begins anew since inputs are likelier to do something else between their samples: each may end in
+what the one before began from."""
 
 
 def with_error_model(
@@ -58,8 +61,11 @@ def with_error_model(
     search = _likeliest(_of_settled([searched(base, data) for data, base in possible], searched, settle, progress))
     search = _with_colour(search, searched, progress)
     found, ranking = search.run()
-    if holds_of(found.fit, search.base) != holds_of(search.base, search.base):
+    for _ in range(MOST_ROUNDS):
+        if holds_of(found.fit, search.base) == holds_of(search.base, search.base):
+            break
         progress("inputs are likelier to do something else between their samples; looking again")
+        search.known = search.known or search.single
         search, found, ranking = _again(search, found, search.data, found.fit, searched)
     if not has_settled(found.fit, search.data):
         progress("with what was found the cutoff of the filter moves; looking again")

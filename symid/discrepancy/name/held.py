@@ -206,7 +206,7 @@ def promise(fit: Fit, rest: tuple[Suspect, ...], model: Model, data: Data) -> fl
     begin = fitter.run(values, fit.initial, fit.kalman_gain, False, process=fit.process)
     if begin is None or not is_near(fitter.innovations(begin, fit.process), data):
         return inf
-    return fitter.promise(values, fit.initial, fit.process)
+    return fitter.promise(values, fit.initial, fit.process, taken=True)
 
 
 def _seconds(found: Hypothesis, suspect: Suspect) -> float:

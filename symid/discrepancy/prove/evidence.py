@@ -74,6 +74,12 @@ class Evidence(Tested):
     final: Fit
     elsewhere: Test | None = None
 
+    @property
+    def by_chance(self) -> bool:
+        """Whether chance may have made what was found, and the held-out data speak against it."""
+        likely = self.chance is not None and self.chance > POLICY.refuted
+        return likely and self.proof is not None and self.proof.margin <= 0 and not self.nameless
+
 
 def tested(found: Hypothesis, search: Search) -> Tested:
     """Put a finding to the tests in the fitted window; effects that do not stand them are left out."""

@@ -16,7 +16,7 @@ from symid.discrepancy.say.story import Story, listed
 from symid.estimation.fitting.correlated import is_correlated
 from symid.model.variants import CORRELATION_TIME
 from symid.recording.signals.between import CURVES
-from symid.units import quantity, rough, unit_symbol
+from symid.units import in_unit, quantity, rough
 
 UNRECORDED = "Random forces that nobody recorded, of wind or waves, count where the model declares a Noise for them"
 ABOVE = 2.0
@@ -74,7 +74,7 @@ def _at_bounds(s: Story) -> list[str]:
     """
     but = ", and what is found may make up for no more than that" if s.effects else ""
     return [
-        f"In the model as given {k} lies at its bound ({value:.5g} {unit_symbol(p.unit)}): the recording asks for a "
+        f"In the model as given {k} lies at its bound ({in_unit(value, p.unit)}): the recording asks for a "
         f"value beyond it{but}. Widen it with model.with_bounds({k}=(lower, upper))."
         for k, p in s.model.parameters.items()
         if (value := s.base.values[k]) != 0 and p.bounds[0] < p.bounds[1] and value in p.bounds

@@ -172,11 +172,14 @@ class Fitter(Refining):
         bounds, place = np.vstack([self.bounds[self.index], within]), np.append(at.p[self.index], here)
         return damped_step(system, damping, bounds, place, at.x0.shape)
 
-    def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray) -> float:
+    def promise(self, start: dict[str, float], initial: np.ndarray, process: np.ndarray, taken: bool = False) -> float:
         """Twice the log-likelihood that one step from `start` promises, -inf where it diverges (Rao's score; 1948).
 
         As everywhere the size of the errors is concentrated out, so that the part R^2 of them that the step explains
         is worth -log(1 - R^2) a sample.
+
+        taken : whether the step is taken, too, and counts where it gains more: it tells one output from another, of
+            which one may be explained and the rest not.
         """
         self.gain_moves = True
         try:
@@ -186,9 +189,11 @@ class Fitter(Refining):
             return -np.inf
         if system is None:
             return -np.inf
-        samples = self.data.samples * len(self.data.sensor_noise)
-        explained = self._step(system, at, 0.0) @ system[1] / samples
-        return at.value - samples * np.log1p(-min(float(explained), 0.999))
+        samples, step = self.data.samples * len(self.data.sensor_noise), self._step(system, at, 0.0)
+        promised = at.value - samples * np.log1p(-min(float(step @ system[1] / samples), 0.999))
+        if not taken:
+            return promised
+        return max(promised, self._tried(*self._moved(at.p, at.x0, at.process, step), at.path, False).value)
 
     @classmethod
     def of(cls, fit: Fit, data: Data, fixed: Sequence[str] = ()) -> Fitter:

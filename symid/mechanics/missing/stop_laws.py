@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import inf
 from types import SimpleNamespace
 
 import sympy as sm
 
-from symid.mechanics.missing.laws import effort_law
+from symid.mechanics.missing.laws import effort_law, port_at
 from symid.model import Law, LawParameter, Model, Port
 
 _STOP = 0.7
@@ -16,9 +17,38 @@ _STOP = 0.7
 swing."""
 
 
+def _free(port: Port, gap: sm.Symbol) -> sm.Expr:
+    """The part of a position within a gap either way."""
+    return (sm.Abs(port.position + gap) - sm.Abs(port.position - gap)) / 2
+
+
 def _clearance(m: Model, port: Port, p: SimpleNamespace) -> sm.Expr:
-    free = (sm.Abs(port.position + p.gap_rad) - sm.Abs(port.position - p.gap_rad)) / 2
-    return -p.k_Nm_rad * (port.position - free)
+    return -p.k_Nm_rad * (port.position - _free(port, p.gap_rad))
+
+
+def _play(m: Model, port: Port, p: SimpleNamespace) -> sm.Expr:
+    return stiffness(m, port) * _free(port, p.gap_rad)
+
+
+def stiffness(model: Model, port: Port) -> sm.Expr:
+    """Of the linear spring between the two states of a port's position; 0 if there is none.
+
+    It is what a balance changes by the state of the other side; by its own other springs may change it, too.
+    """
+    states = [x.symbol for x in model.states.values() if port.position.has(x.symbol)]
+    if len(states) != 2 or len(port.into) != 2:
+        return sm.S.Zero
+    found = []
+    for name, sign in port.into.items():
+        balance = model.inline(model.equations[name].expr)
+        found += [sm.expand(-sm.diff(balance, x) / sm.diff(port.position, x) / sign) for x in states]
+    between = max(found, key=found.count)
+    told = between.free_symbols <= {s.symbol for s in [*model.parameters.values(), *model.constants.values()]}
+    return between if told and found.count(between) > 1 else sm.S.Zero
+
+
+def _has_spring(model: Model, place: str) -> bool:
+    return stiffness(model, port_at(model, "joint", place)) != 0
 
 
 def _stop(side: int) -> Callable[[Model, Port, SimpleNamespace], sm.Expr]:
@@ -55,6 +85,17 @@ STOP_LAWS: tuple[Law, ...] = (
         _clearance,
         "A further spring of {k_Nm_rad} acts at the {place} beyond {gap_rad} either way, as behind a play or at stops",
         "Den Hartog & Heiles 1936",
+    ),
+    replace(
+        effort_law(
+            "play",
+            "joint",
+            (LawParameter("gap_rad", "rad", (0.0, 1.0), 0.0, (0.01, 0.05), 0.05),),
+            _play,
+            "The spring of the {place} has a play of {gap_rad} either way",
+            "Den Hartog & Heiles 1936",
+        ),
+        applies=_has_spring,
     ),
     _stop_law("upper_stop", 1),
     _stop_law("lower_stop", -1),

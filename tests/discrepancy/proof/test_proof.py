@@ -11,6 +11,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import suspects
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove import certain
+from symid.discrepancy.prove.evidence import Evidence
 from symid.discrepancy.prove.held_out import compare
 from symid.discrepancy.prove.nulls import _signs, false_alarm_probability
 from symid.discrepancy.prove.opponents import refuted
@@ -156,3 +157,18 @@ def test_a_push_within_a_short_segment_is_no_constant():
 
 def test_errors_without_any_correlation_all_count():
     assert independent_share([np.eye(20)[:, :1]]) == 1
+
+
+@pytest.mark.parametrize(
+    ("chance", "margin", "nameless", "by_chance"),
+    [
+        (0.4, -0.01, False, True),
+        (0.4, 0.01, False, False),  # the held-out data do not speak against it
+        (1e-3, -0.01, False, False),  # a short window may err
+        (None, -0.01, False, False),
+        (0.4, -0.01, True, False),  # something acts, whatever it is called
+    ],
+)
+def test_what_chance_may_make_and_the_window_refutes_is_nothing(chance, margin, nameless, by_chance):
+    seen = SimpleNamespace(chance=chance, proof=SimpleNamespace(margin=margin), nameless=nameless)
+    assert Evidence.by_chance.fget(seen) is by_chance

@@ -92,7 +92,7 @@ def test_what_was_found_is_kept_where_noise_cannot_be_tried(monkeypatch):
 
     monkeypatch.setattr(module, "explained", lambda task, *others: mock.MagicMock(task=task))
     monkeypatch.setattr(module, "tested", lambda *arguments: mock.MagicMock(nameless=True))
-    monkeypatch.setattr(module, "evidence_of", lambda *arguments: None)
+    monkeypatch.setattr(module, "evidence_of", lambda *arguments: mock.MagicMock(by_chance=False))
     monkeypatch.setattr(module, "judge", lambda *arguments: ("unexplained", (), ()))
     monkeypatch.setattr(Task, "with_input_noise", property(refuse))
     task = Task(pendulum(), recorded(pendulum(), 0, 0), (0.0, 30.0), None)

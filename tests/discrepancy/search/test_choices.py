@@ -11,6 +11,7 @@ import symid.discrepancy.name.explore as exploring
 import symid.discrepancy.name.scan as scanning
 from symid.discrepancy import Suspect
 from symid.discrepancy.name.error_model import _likeliest, _of_settled
+from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
 from symid.errors import DiagnosisError
 from symid.mechanics import LIBRARY
@@ -139,3 +140,12 @@ def test_what_was_measured_is_asked_with_the_cutoff_that_the_best_suspect_likes(
     assert found == (searches if fails else anew)
     first.data = "settled"
     assert _of_settled(searches, None, settle, lambda text: None) is searches and len(asked) == 1
+
+
+def test_the_same_laws_are_believed_anew_only_with_values_that_are_far_likelier():
+    """A play began from two sizes of gap: one ended where a tenth of the spring was left."""
+    law = object()
+    more = SimpleNamespace(suspects=(law,), fit=SimpleNamespace(loglik2=100.0))
+    assert Search._is_new(more, {})
+    assert Search._is_new(more, {frozenset([law]): 50.0})
+    assert not Search._is_new(more, {frozenset([law]): 99.0})
