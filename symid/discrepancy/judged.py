@@ -40,8 +40,9 @@ class _Found:
     def may_be_noise(self) -> bool:
         """Whether what has no name may be noise of inputs: where one law leaves nothing but white noise it is none."""
         search, found = self.by.search, self.tested.found
-        one = len(found.suspects) == 1 and found.suspects != search.flexible().suspects
-        return self.tested.nameless and not (one and not search.data.memory and search.quiet(found))
+        if not self.tested.nameless or search.data.memory or len(found.suspects) != 1:
+            return self.tested.nameless
+        return found.suspects == search.flexible().suspects or not search.quiet(found)
 
 
 @dataclass(frozen=True, eq=False)

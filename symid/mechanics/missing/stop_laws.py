@@ -38,13 +38,14 @@ def stiffness(model: Model, port: Port) -> sm.Expr:
     states = [x.symbol for x in model.states.values() if port.position.has(x.symbol)]
     if len(states) != 2 or len(port.into) != 2:
         return sm.S.Zero
+    known = {s.symbol for s in [*model.parameters.values(), *model.constants.values()]}
     found = []
     for name, sign in port.into.items():
         balance = model.inline(model.equations[name].expr)
-        found += [sm.expand(-sm.diff(balance, x) / sm.diff(port.position, x) / sign) for x in states]
-    between = max(found, key=found.count)
-    told = between.free_symbols <= {s.symbol for s in [*model.parameters.values(), *model.constants.values()]}
-    return between if told and found.count(between) > 1 else sm.S.Zero
+        slopes = [sm.diff(balance, x) / sm.diff(port.position, x) / sign for x in states]
+        found += [sm.expand(-slope) for slope in slopes if slope.free_symbols <= known]
+    between = max(found, key=found.count, default=sm.S.Zero)
+    return between if found.count(between) > 1 else sm.S.Zero
 
 
 def _has_spring(model: Model, place: str) -> bool:
