@@ -10,7 +10,7 @@ from scipy.ndimage import gaussian_filter1d
 
 import symid as si
 from symid.discrepancy import Suspect
-from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, refit
 from symid.discrepancy.name import equivalents as equals
 from symid.discrepancy.name.equivalents import equivalents
 from symid.estimation.fitting.cold_start import fit_model
@@ -70,6 +70,18 @@ def test_neither_of_them_is_told_without_the_other(late):
 def test_what_explains_less_of_all_samples_is_no_equal(late):
     assert late["joint_drag"].log_ratio < 0.9 * late["sensor_delay"].log_ratio
     assert equivalents(late["sensor_delay"], [late["joint_drag"]]) == []
+
+
+def test_what_promised_as_much_is_fitted_to_its_end_before_it_is_compared(late):
+    """A drum's radius was left at a tenth of what the gain of its encoder explained, beside a stiff rope."""
+    found = replace(late["input_delay"], forecast=100.0)
+    begun = SENSOR.named({"delay_s": LATE_s / 3})
+    fit = refit([SENSOR], found.base, found.base, found.data, begun, iterations=1)
+    left = Hypothesis((SENSOR,), fit, found.base, found.data, forecast=99.5)
+    assert not fit.converged and left.log_ratio < found.log_ratio - 100
+    (like,) = equivalents(found, [found, left])
+    assert like.suspects == (SENSOR,) and like.log_ratio == pytest.approx(late["sensor_delay"].log_ratio, abs=0.1)
+    assert equivalents(found, [found, replace(left, forecast=90.0)]) == []
 
 
 def improved(h: Hypothesis, base) -> Hypothesis:
