@@ -59,7 +59,7 @@ def _to_the_end(h: Hypothesis, found: Hypothesis, tried: Sequence[Hypothesis]) -
     is not near there. A search follows those to the end that gain most in a few steps."""
     own = {s.term for s in found.suspects}
     promised = max((k.forecast for k in tried if {s.term for s in k.suspects} == own), default=inf)
-    if h.fit.converged or h.base is not found.base or h.forecast < PROMISED * promised:
+    if h.fit.converged or h.base is not found.base or not 0 < PROMISED * promised <= h.forecast:
         return None
     longer: Hypothesis | None = h
     for _ in range(MOST_FITS):

@@ -65,7 +65,7 @@ def with_error_model(
         if holds_of(found.fit, search.base) == holds_of(search.base, search.base):
             break
         progress("inputs are likelier to do something else between their samples; looking again")
-        search.known = search.known or search.single
+        search.known = search.known or search.single  # other inputs between samples change little of what else is known
         search, found, ranking = _again(search, found, search.data, found.fit, searched)
     if not has_settled(found.fit, search.data):
         progress("with what was found the cutoff of the filter moves; looking again")
@@ -118,15 +118,20 @@ def _beside_colour(search: Search) -> dict[Hypothesis, float]:
 
 
 def _going_on(search: Search, known: list[Hypothesis], data: Data, searched: Callable[[Fit, Data], Search]) -> Search:
-    """A search under the error model of `data` that goes on from what is known, best first; anew from nothing where the
-    best is not worth its price there: the model as given may have found a likelier fit from the values of that."""
+    """A search under the error model of `data` that goes on from what is known, most believed first.
+
+    Anew from nothing where the best is not worth its price there: the model as given may have found a likelier fit from
+    the values of that.
+    """
     first, *others = known
     again = searched(_refitted(search.base, first.fit, data), data)
     best = replace(first, base=again.base, data=data)
     if not again.worth(best, again.nothing):
         return again
     found = in_threads(lambda h: hypothesis(h.suspects, h.fit, again.base, data, again.base.values), others)
-    again.known = [best, *by_score([h for h in found if h is not None])]
+    known = [best, *by_score([h for h in found if h is not None])]
+    lead = reduce(again.better, known)
+    again.known = [lead, *(h for h in known if h is not lead)]
     again.tried, again.clocks = list(again.known), search.clocks
     return again
 

@@ -51,6 +51,15 @@ class Judge:
             return True
         return self.value(more, share) > self.value(less, share)
 
+    @staticmethod
+    def is_new(more: Hypothesis, had: dict[frozenset[Suspect], float]) -> bool:
+        """Whether these suspects were not believed yet, or with values that are far less likely.
+
+        had : twice the log-likelihood by suspects. The same ones may be believed more beside friction of another
+            abruptness, and a little likelier each time.
+        """
+        return more.fit.loglik2 > had.get(frozenset(more.suspects), -inf) + POLICY.equivalent
+
     def better(self, one: Hypothesis, other: Hypothesis) -> Hypothesis:
         """The one of two sets of suspects that is believed more."""
         return most_believed(one, other, self.value)

@@ -95,7 +95,7 @@ class Search(Judge):
         holds = Holds(self.data, self.unstated, self.value, self.jumps)
         more = self.known[0] if self.known else self._more(best, single)
         had: dict[frozenset[Suspect], float] = {}
-        while more is not None and self._is_new(more, had):
+        while more is not None and self.is_new(more, had):
             had[frozenset(more.suspects)] = more.fit.loglik2
             best = with_jumps_beside(begun_anew(polished(more), self.regression), self.jumps, best)
             if (otherwise := holds.asked_again(best)) is not best:
@@ -142,15 +142,6 @@ class Search(Judge):
             more = more if again is more else self._with_jumps([again], best)[0]
             return more if self.worth(more, best) else None
         return more
-
-    @staticmethod
-    def _is_new(more: Hypothesis, had: dict[frozenset[Suspect], float]) -> bool:
-        """Whether these suspects were not believed yet, or with values that are far less likely.
-
-        had : twice the log-likelihood by suspects. The same ones may be believed more beside friction of another
-            abruptness, and a little likelier each time.
-        """
-        return more.fit.loglik2 > had.get(frozenset(more.suspects), -inf) + POLICY.equivalent
 
     def _goes_on_from(self, best: Hypothesis) -> None:
         """What is tried next has dry friction that is as abrupt."""

@@ -11,7 +11,7 @@ import symid.discrepancy.name.explore as exploring
 import symid.discrepancy.name.scan as scanning
 from symid.discrepancy import Suspect
 from symid.discrepancy.name.error_model import _likeliest, _of_settled
-from symid.discrepancy.name.search import Search
+from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.policy import POLICY
 from symid.errors import DiagnosisError
 from symid.mechanics import LIBRARY
@@ -146,6 +146,6 @@ def test_the_same_laws_are_believed_anew_only_with_values_that_are_far_likelier(
     """A play began from two sizes of gap: one ended where a tenth of the spring was left."""
     law = object()
     more = SimpleNamespace(suspects=(law,), fit=SimpleNamespace(loglik2=100.0))
-    assert Search._is_new(more, {})
-    assert Search._is_new(more, {frozenset([law]): 50.0})
-    assert not Search._is_new(more, {frozenset([law]): 99.0})
+    assert Judge.is_new(more, {})
+    assert Judge.is_new(more, {frozenset([law]): 50.0})
+    assert not Judge.is_new(more, {frozenset([law]): 99.0})

@@ -16,6 +16,12 @@ class Known:
     fit: object = None
     base: object = None
     data: object = None
+    score: float = 0.0
+    log_ratio: float = 0.0
+    share: float = 1.0
+
+    def evidence(self, share: float) -> float:
+        return share * self.score
 
 
 @dataclass
@@ -32,6 +38,9 @@ class Stub:
     def worth(self, more, less) -> bool:
         return self.worthwhile
 
+    def better(self, one: Known, other: Known) -> Known:
+        return other if other.score > one.score else one
+
 
 @pytest.mark.parametrize("worthwhile", [True, False])
 def test_a_search_begins_anew_where_the_model_as_given_explains_as_much_beside_the_noise(monkeypatch, worthwhile):
@@ -41,6 +50,17 @@ def test_a_search_begins_anew_where_the_model_as_given_explains_as_much_beside_t
     first = Known()
     again = error_model._going_on(Stub(worthwhile), [first], None, lambda base, data: Stub(worthwhile))
     assert again.known == ([first] if worthwhile else [])
+
+
+@pytest.mark.parametrize(("score", "leader"), [(9.0, "gain"), (11.0, "drag")])
+def test_what_is_believed_more_there_leads(monkeypatch, score, leader):
+    """With inputs that are held another suspect may explain more than the one that was found."""
+    monkeypatch.setattr(error_model, "_refitted", lambda base, fit, data: base)
+    monkeypatch.setattr(error_model, "hypothesis", lambda suspects, *others: Known(suspects, score=score))
+    search = Stub(True, base=SimpleNamespace(values={}))
+    known = [Known(score=10.0), Known(("drag",), score=1.0)]
+    again = error_model._going_on(search, known, None, lambda base, data: Stub(True, base=base))
+    assert [h.suspects for h in again.known] == [(leader,), ("drag" if leader == "gain" else "gain",)]
 
 
 @pytest.mark.parametrize(
