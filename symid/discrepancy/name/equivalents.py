@@ -56,14 +56,16 @@ def _on_the_same_base(h: Hypothesis, found: Hypothesis, tried: Sequence[Hypothes
 
 def _to_the_end(h: Hypothesis, found: Hypothesis, tried: Sequence[Hypothesis]) -> Hypothesis | None:
     """`h`, of which a fit that was left early promised as much as what was found did, fitted to its end; None where it
-    is not near there. A search follows those to the end that gain most in a few steps."""
+    is not near there, or has more unknowns. A search follows those to the end that gain most in a few steps."""
     own = {s.term for s in found.suspects}
     promised = max((k.forecast for k in tried if {s.term for s in k.suspects} == own), default=inf)
-    if h.fit.converged or h.base is not found.base or not 0 < PROMISED * promised <= h.forecast:
+    if h.fit.converged or h.base is not found.base or len(h.fit.values) > len(found.fit.values):
+        return None
+    if not 0 < PROMISED * promised <= h.forecast:
         return None
     longer: Hypothesis | None = h
     for _ in range(MOST_FITS):
-        longer = hypothesis(longer.suspects, longer.fit, longer.base, longer.data)
+        longer = hypothesis(longer.suspects, longer.fit, longer.base, longer.data, exact=False)
         if longer is None or longer.fit.converged:
             break
     return longer if longer is not None and _is_near(longer, found) else None
