@@ -37,8 +37,8 @@ class _Found:
         return max(found, self.by.search.flexible().fit.loglik2) if self.tested.nameless else found
 
     @property
-    def may_be_noise(self) -> bool:
-        """Whether what has no name may be noise of inputs: where one law leaves nothing but white noise it is none."""
+    def asks_for_noise(self) -> bool:
+        """Whether noise of inputs may be what has no name: where one law leaves nothing but white noise it is not."""
         search, found = self.by.search, self.tested.found
         if not self.tested.nameless or search.data.memory or len(found.suspects) != 1:
             return self.tested.nameless
@@ -82,16 +82,16 @@ def judged(
 
     def proved(found: _Found) -> Judged:
         # Prove: what stands every test.
-        by = found.by
-        evidence = evidence_of(found.tested, by.search, by.ranking, by.task, by.plain)
-        if evidence.by_chance and by.search.explained(by.search.nothing):
-            evidence = evidence_of(tested(by.search.nothing, by.search), by.search, by.ranking, by.task, by.plain)
+        by, search = found.by, found.by.search
+        evidence = evidence_of(found.tested, search, by.ranking, by.task, by.plain)
+        if evidence.by_chance and search.explained(search.nothing):
+            return proved(_Found(by, tested(search.nothing, search)))
         progress("tested for a remainder")
-        return Judged(by, evidence, *judge(evidence, by.search, by.audit))
+        return Judged(by, evidence, *judge(evidence, search, by.audit))
 
     found = found_in(task)
     astray = _holds_in_pieces_alone(found, task)
-    noisy = _with_input_noise(found, astray, task, found_in, progress) if astray or found.may_be_noise else None
+    noisy = _with_input_noise(found, astray, task, found_in, progress) if astray or found.asks_for_noise else None
     if noisy is not None and ((answer := proved(noisy)).verdict != "unexplained" or astray):
         return answer
     return proved(found)

@@ -11,6 +11,7 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name import held as held_or_late
 from symid.discrepancy.name.search import Search
 from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
 from symid.recording.signals.between import is_stepped
@@ -87,6 +88,31 @@ def test_a_delay_by_part_of_a_sample_is_compared_with_a_held_input_whatever_that
     chosen = held_or_late.Holds(data, ["u"], lambda h, _: h.evidence(1.0)).held(found)
     assert chosen.suspects == ()
     assert chosen.fit.model.inputs["u"].hold == "zero"
+
+
+def test_what_is_clearly_less_likely_is_not_held_however_few_its_laws():
+    """Platforms move smoothly: one that was recorded late was taken for held, for the sake of one law fewer."""
+    model = si.mechanics.places.with_places(lag()).with_unstated_holds("either")
+    pieces = segments_of(model, recorded(0, hold=False, delay_s=0.08), (0, 16), None)
+    data = Data(pieces, np.array([0.005]), False)
+    base, law = fit_model(model, data), next(s for s in si.suspects(lag()) if s.term.name == "input_delay")
+    late = Suspect(law.term)
+    found = hypothesis([late], base, base, data, late.named({held_or_late.LATE[late.term.name]: 0.08}))
+    assert held_or_late.Holds(data, ["u"], lambda h, _: -len(h.suspects)).held(found) is found
+
+
+def test_the_step_that_is_taken_tells_an_output_that_it_explains_from_one_that_it_does_not():
+    """All that it explains of both together is worth less than all of the one and nothing of the other."""
+    model, rng = lag(), np.random.default_rng(3)
+    model.beside = si.Output(0 * model.x, channel="beside")
+    recording = recorded(0, hold=True, delay_s=0.0).with_channel("beside", rng.standard_normal(240), "1")
+    model = si.mechanics.places.with_places(model).with_holds(u="zero")
+    data = Data(segments_of(model, recording, (0, 16), None), np.array([0.005, 1.0]), False)
+    fitter, fit = Fitter(model, data), fit_model(model, data)
+    start = (fit.values | {"k": 1.02 * fit.values["k"]}, fit.initial, fit.process)
+    promised, taken = fitter.promise(*start), fitter.promise(*start, taken=True)
+    assert promised < taken - 10
+    assert taken == pytest.approx(fit.loglik2, abs=0.1)
 
 
 @pytest.mark.parametrize("hold", [True, False])

@@ -1,5 +1,6 @@
 """Recorded inputs that have noise of their own: it moves a mechanism like random forces, and is no missing law."""
 
+from types import SimpleNamespace
 from unittest import mock
 
 import numpy as np
@@ -9,7 +10,7 @@ from scipy.signal import butter, filtfilt, lfilter
 
 import symid as si
 from symid.discrepancy.task import Task
-from symid.errors import ModelError
+from symid.errors import DiagnosisError, ModelError
 from symid.estimation.fitting import noise_sizes as sizes
 from symid.model.variants import CORRELATION_TIME
 from symid.simulation import Simulator
@@ -97,6 +98,51 @@ def test_what_was_found_is_kept_where_noise_cannot_be_tried(monkeypatch):
     monkeypatch.setattr(Task, "with_input_noise", property(refuse))
     task = Task(pendulum(), recorded(pendulum(), 0, 0), (0.0, 30.0), None)
     assert module.judged(task, None, None, None, lambda text: None).verdict == "unexplained"
+
+
+@pytest.mark.parametrize(("left", "said"), [(False, ["law", "nothing"]), (True, ["law"])])
+def test_what_chance_may_have_made_is_put_to_the_tests_as_nothing(left, said, monkeypatch):
+    """left : whether something systematic is left without it, so that something acts whatever it is called."""
+    from symid.discrepancy import judged as module
+
+    search, judged = mock.MagicMock(nothing="nothing"), []
+    search.explained = lambda found: not left
+    search.settled = lambda found: "law"
+
+    def evidence_of(found, *others):
+        judged.append(found.found)
+        return mock.MagicMock(by_chance=found.found == "law")
+
+    explained = mock.MagicMock(search=search)
+    monkeypatch.setattr(module, "explained", lambda *arguments: explained)
+    monkeypatch.setattr(module, "tested", lambda found, search: mock.MagicMock(found=found, nameless=False))
+    monkeypatch.setattr(module, "_holds_in_pieces_alone", lambda found, task: False)
+    monkeypatch.setattr(module, "evidence_of", evidence_of)
+    monkeypatch.setattr(module, "judge", lambda *arguments: ("adequate", (), ()))
+    monkeypatch.setattr(module._Found, "asks_for_noise", False)
+    module.judged(None, None, None, None, lambda text: None)
+    assert judged == said
+
+
+@pytest.mark.parametrize(("given", "improved", "refuted"), [(1.0, 1.0, True), (1e9, 1.0, False), (1.0, 1e9, False)])
+def test_the_whole_refutes_nothing_where_either_model_runs_away(given, improved, refuted, monkeypatch):
+    """A balancing robot looked steady where the slope that it stood on was left out."""
+    from symid.discrepancy import judged as module
+
+    def unable(fit, data):
+        raise DiagnosisError("it diverges")
+
+    base, fit = (SimpleNamespace(initial=np.zeros((2, 1)), growth=g, model=None) for g in (given, improved))
+    piece = SimpleNamespace(time=np.array([0.0]))
+    search = SimpleNamespace(base=base, data=SimpleNamespace(segments=[piece]))
+    by = SimpleNamespace(search=search, task=SimpleNamespace(segment_length=1.0))
+    tested = SimpleNamespace(found=SimpleNamespace(suspects=("force",), fit=fit))
+    monkeypatch.setattr(module, "of_window", lambda *arguments: SimpleNamespace(segments=[piece]))
+    monkeypatch.setattr(module, "replace", lambda fit, **changed: fit)
+    monkeypatch.setattr(module, "largest_growth", lambda fit, whole: fit.growth)
+    monkeypatch.setattr(module.Fitter, "of", unable)
+    task = SimpleNamespace(segment_length=None, recording=None, fit_window=None)
+    assert module._holds_in_pieces_alone(SimpleNamespace(by=by, tested=tested), task) is refuted
 
 
 @pytest.mark.parametrize(("size", "believed"), [(0.9, True), (1.1, False)])
