@@ -14,6 +14,7 @@ import sympy as sm
 from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.bodies import bodies
+from symid.mechanics.elements import element_ports
 from symid.mechanics.flows import flow_ports
 from symid.mechanics.missing.laws import force_unit
 from symid.mechanics.missing.pair_laws import ROLE as PAIR
@@ -39,16 +40,17 @@ NOTHING = 1e-300
 def with_places(model: Model) -> Model:
     """The model with every place named at which something may be missing, where its user named none.
 
-    Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a
-    ``joint`` at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed
-    is all that the model knows, as of a motor; the position of such a port is 0. A force that drives
-    several joints at once is a ``joint``, too, between them, and so is what would join two neighbours. In another
-    equation of first order, such as that of a tank, a force has no rate of its own, and moves the state: a
-    ``balance``; between two of one kind, or such a state and an input of its kind, something may flow: an
-    ``exchange``; and a state that is not in it may act on it, as each of several inputs may on a balance that does not
-    have it: a ``coupling``. Where no port is declared at all, a mass that moves as no coordinate does is a ``body``,
-    two neighbours of one kind are a ``pair``, and a constant without a role is ``stated``. Outputs without a role
-    become sensors, inputs without one excitations. A port of which no unit is known gets that of a force or a torque.
+    Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a ``joint``
+    at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed is all that
+    the model knows, as of a motor; the position of such a port is 0. A force that drives several joints at once is a
+    ``joint``, too, between them, and so is what would join two neighbours, and a spring or a damper that acts on
+    several by levers, or against what inputs move. In another equation of first order, such as that of a tank, a
+    force has no rate of its own, and moves the state: a ``balance``; between two of one kind, or such a state and an
+    input of its kind, something may flow: an ``exchange``; and a state that is not in it may act on it, as each of
+    several inputs may on a balance that does not have it: a ``coupling``. Where no port is declared at all, a mass
+    that moves as no coordinate does is a ``body``, two neighbours of one kind are a ``pair``, and a constant without
+    a role is ``stated``. Outputs without a role become sensors, inputs without one excitations. A port of which no
+    unit is known gets that of a force or a torque.
 
     Examples
     --------
@@ -95,7 +97,8 @@ def _ports_of_balances(model: Model) -> dict[str, Port]:
         if name not in entered and port.unit:
             found[name] = port
     among = _between(model, found, residuals) | flow_ports(model, found, residuals)
-    return found | among | _of_drives(model, found, residuals)
+    found |= among | _of_drives(model, found, residuals)
+    return found | element_ports(model, found, residuals)
 
 
 def _between(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
@@ -258,8 +261,9 @@ def other_signals(model: Model, port: Port) -> list[sm.Symbol]:
 
 
 def signal_unit(model: Model, signal: sm.Expr) -> str:
-    """Unit of a linear expression of the states, as the model calls that of its first state."""
-    return next(s.unit for s in model.states.values() if signal.has(s.symbol))
+    """Unit of a linear expression of the states, as the model calls that of the first state that no lever turns."""
+    found = [s for s in model.states.values() if signal.has(s.symbol)]
+    return next((s.unit for s in found if abs(signal.coeff(s.symbol)) == 1), found[0].unit)
 
 
 def _row(expr: sm.Expr, states: list[sm.Symbol]) -> list[float]:

@@ -11,7 +11,7 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.path import along, fitted_path
+from symid.estimation.fitting.path import along, fitted_signals
 from symid.estimation.signals.data import Data
 from symid.mechanics.missing.unknown_laws import unknown_coupling, unknown_force, unknown_input, unknown_sensor
 from symid.mechanics.places import ROLES
@@ -23,13 +23,13 @@ MOST_ITERATIONS = 20
 
 def flexible_terms(fit: Fit, data: Data) -> list[Term]:
     """A flexible term at every port, sensor and input, scaled by the motion of the fit."""
-    model, path, terms = fit.model, fitted_path(fit, data), []
+    model, signals, terms = fit.model, fitted_signals(fit, data), []
     for role in ROLES:
         ports = [p for p in model.ports.values() if p.role == role]
-        scales = {p.at: (_size(along(path, p.position, model)), _size(along(path, p.rate, model))) for p in ports}
+        scales = {p.at: (_size(along(signals, p.position, model)), _size(along(signals, p.rate, model))) for p in ports}
         law = unknown_force(role, scales, data.span, data.pace)
         terms += [law.at(p.at) for p in ports if _first(model, p)]
-        terms += [law.at(p.at) for p in ports for law in _coupling(model, path, p) if _first(model, p)]
+        terms += [law.at(p.at) for p in ports for law in _coupling(model, signals, p) if _first(model, p)]
     recorded = np.vstack([e.recorded for e in data.segments])
     scale = {y.at: _size(recorded[:, i]) for i, y in enumerate(model.outputs.values())}
     law = unknown_sensor(scale, data.span, data.pace)
@@ -43,18 +43,18 @@ def flexible_terms(fit: Fit, data: Data) -> list[Term]:
     return terms + [law.at(place) for place in scale]
 
 
-def _coupling(model: Model, path: np.ndarray, port: Port) -> list[Law]:
+def _coupling(model: Model, signals: np.ndarray, port: Port) -> list[Law]:
     """The law of a force at a port that follows the states of other ports; none where there are no others."""
     if port.role == "link":
         return []
     own = port.position.free_symbols | port.rate.free_symbols
     moving = set().union(*(p.position.free_symbols | p.rate.free_symbols for p in model.ports.values()))
     others = {
-        x.symbol: _size(path[:, i])
+        x.symbol: _size(signals[:, i])
         for i, x in enumerate(model.states.values())
         if x.symbol in moving and x.symbol not in own
     }
-    return [unknown_coupling(port, _size(along(path, port.rate, model)), others)] if others else []
+    return [unknown_coupling(port, _size(along(signals, port.rate, model)), others)] if others else []
 
 
 def _first(model: Model, port: Port) -> bool:

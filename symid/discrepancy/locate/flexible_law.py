@@ -68,7 +68,7 @@ class FlexibleLaw:
 
     @property
     def signals(self) -> tuple:
-        """What the force follows: expressions of the states."""
+        """What the force follows: expressions of the states and inputs."""
         return tuple(dict.fromkeys(s for b in self.blocks for s in b.signals))
 
     def table(self) -> dict:
@@ -92,17 +92,17 @@ class FlexibleLaw:
             "log_likelihood_ratio": self.log_ratio,
         }
 
-    def shapes(self, path: np.ndarray) -> np.ndarray:
-        """(N, unknowns) what each unknown is multiplied by along states (N, n) of the model."""
-        return np.hstack([numbers(b, path, self.model) for b in self.blocks])
+    def shapes(self, signals: np.ndarray) -> np.ndarray:
+        """(N, unknowns) what each unknown is multiplied by along states and inputs (N, n + u) of the model."""
+        return np.hstack([numbers(b, signals, self.model) for b in self.blocks])
 
     def coefficients(self) -> np.ndarray:
         """(unknowns,) [SI]."""
         return np.array([self.fit.values[k] for k in names_of(self.term)])
 
-    def force(self, path: np.ndarray) -> np.ndarray:
-        """(N,) the force [SI] at these states (N, n)."""
-        return self.shapes(path) @ self.coefficients()
+    def force(self, signals: np.ndarray) -> np.ndarray:
+        """(N,) the force [SI] at these states and inputs (N, n + u)."""
+        return self.shapes(signals) @ self.coefficients()
 
 
 def flexible_law(

@@ -11,7 +11,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import Suspect
-from symid.estimation.fitting.path import along, fitted_path
+from symid.estimation.fitting.path import along, fitted_signals
 from symid.mechanics.missing.unknown_laws import short_push
 from symid.model import Port
 from symid.simulation import simulator
@@ -43,13 +43,13 @@ def modulated(projection: Projection) -> list[tuple[str, float, int]]:
     frequencies = np.arange(1.5, HIGHEST * time[-1] / data.pace, SPACING) / time[-1]
     if not len(frequencies):
         return found
-    path, slow = _coarse(fitted_path(projection.fit, data), every), _Slow(projection, every)
+    signals, slow = _coarse(fitted_signals(projection.fit, data), every), _Slow(projection, every)
     for port in (p for p in model.ports.values() if p.role == "joint"):
         answer = _answer(projection, port)
         if answer is None:
             continue
         answer = _coarse(answer, every) * every
-        motion = [along(path, expr, model) for expr in (port.position, port.rate)]
+        motion = [along(signals, expr, model) for expr in (port.position, port.rate)]
         motion = [(x - x.mean()) / (x.std() or 1.0) for x in motion]
         push = _Push(answer, len(time))
         gains = []

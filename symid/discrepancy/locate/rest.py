@@ -11,7 +11,7 @@ from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.spline_parts import chosen_blocks, numbers
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.path import along, fitted_path
+from symid.estimation.fitting.path import along, fitted_signals
 from symid.estimation.sensors.independence import independent_share
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import swing
@@ -112,9 +112,9 @@ def rest_of(fit: Fit, data: Data) -> Rest | None:
     if not ranked or not ranked[0][0] > 0:
         return None
     _, port, blocks = ranked[0]
-    edges, path = _edges(data), fitted_path(fit, data)
+    edges, signals = _edges(data), fitted_signals(fit, data)
     time = np.concatenate([e.time for e in data.segments])
-    shapes = np.hstack([numbers(b, path, fit.model) for b in blocks])
+    shapes = np.hstack([numbers(b, signals, fit.model) for b in blocks])
     within = np.searchsorted(edges, time, side="right")
     courses = np.hstack([shapes * (within == k)[:, None] for k in range(len(edges) + 1)])
     projection = Projection(fit, data, known=tuple(fit.values))
@@ -122,7 +122,7 @@ def rest_of(fit: Fit, data: Data) -> Rest | None:
     if columns is None:
         return None
     estimate = _least_squares(projection, columns)
-    return _described(fit, data, port, blocks, path, courses, within, estimate)
+    return _described(fit, data, port, blocks, signals, courses, within, estimate)
 
 
 def _edges(data: Data) -> tuple[float, ...]:
@@ -149,11 +149,13 @@ def _least_squares(projection: Projection, columns: np.ndarray) -> tuple[np.ndar
     return inverse @ (u.T @ rest), power * inverse @ inverse.T, 1 - float(left @ left) / float(rest @ rest)
 
 
-def _described(fit, data, port, blocks, path, phi, within, estimate) -> Rest:
-    """From the shapes of the force along the path and their coefficients to a Rest."""
+def _described(fit, data, port, blocks, signals, phi, within, estimate) -> Rest:
+    """From the shapes of the force along the motion and their coefficients to a Rest."""
     (coefficients, covariance, explained), model = estimate, fit.model
     time = np.concatenate([e.time for e in data.segments])
-    position, rate = (along(path, e, model) if e != 0 else np.zeros(len(path)) for e in (coordinate(port), port.rate))
+    position, rate = (
+        along(signals, e, model) if e != 0 else np.zeros(len(signals)) for e in (coordinate(port), port.rate)
+    )
     force = phi @ coefficients
     ends = np.cumsum([len(e.time) for e in data.segments])
     amplitude = _amplitude(position, data)
@@ -186,7 +188,7 @@ def _described(fit, data, port, blocks, path, phi, within, estimate) -> Rest:
         stretch(amplitude <= limit),
         stretch(amplitude > limit) if np.any(amplitude > limit) else stretch(amplitude >= limit),
         limit,
-        {s: along(path, s, model) for b in blocks for s in b.signals},
+        {s: along(signals, s, model) for b in blocks for s in b.signals},
         explained,
     )
 

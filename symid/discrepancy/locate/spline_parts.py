@@ -9,7 +9,7 @@ import numpy as np
 from symid.discrepancy.locate.probe import force_responses
 from symid.discrepancy.locate.projection import Projection
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.path import along, fitted_path
+from symid.estimation.fitting.path import along, fitted_signals
 from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.estimation.signals.data import Data
 from symid.mechanics.missing.spline_law import Block, knots_of
@@ -31,10 +31,11 @@ def chosen_blocks(
 
     Parameters
     ----------
-    projection : of `fit`, or of one with a flexible law at the port. force : (N, n) states -> (N,) force of that law.
+    projection : of `fit`, or of one with a flexible law at the port. force : of that law, (N, n + u) states and inputs
+        -> (N,).
     """
-    parts, path = candidate_blocks(fit, data, port), fitted_path(projection.fit, data)
-    shapes = [numbers(b, path, fit.model) for b in parts]
+    parts, signals = candidate_blocks(fit, data, port), fitted_signals(projection.fit, data)
+    shapes = [numbers(b, signals, fit.model) for b in parts]
     columns = force_responses(projection, port, np.hstack(shapes))
     if columns is None:
         return -np.inf, port, ()
@@ -42,7 +43,7 @@ def chosen_blocks(
     rest = projection.rest
     if force is not None:
         # What the law explains now, any set of parts has to explain in its place.
-        own = force_responses(projection, port, force(path)[:, None])
+        own = force_responses(projection, port, force(signals)[:, None])
         rest = rest + projection.project(own[:, 0])
     forecast = _Forecast(projection, columns, rest)
     best: tuple[int, ...] = ()
@@ -103,10 +104,10 @@ class _Forecast:
 
 def candidate_blocks(fit: Fit, data: Data, port: Port, count: int = KNOTS) -> list[Block]:
     """Splines of position, of rate, each times the other, and of the other states, alone and times the rate."""
-    path, model = fitted_path(fit, data), fit.model
+    signals, model = fitted_signals(fit, data), fit.model
 
     def block(signal, times=1) -> Block | None:
-        values = along(path, signal, model)
+        values = along(signals, signal, model)
         return Block(signal, times, knots_of(values, count)) if np.ptp(values) > 0 and times != 0 else None
 
     x, v = port.position, port.rate
@@ -117,10 +118,10 @@ def candidate_blocks(fit: Fit, data: Data, port: Port, count: int = KNOTS) -> li
     return [b for b in (block(*p) for p in pairs) if b is not None]
 
 
-def numbers(block: Block, path: np.ndarray, model: Model) -> np.ndarray:
-    """(N, unknowns) what each unknown of a part is multiplied by along states (N, n)."""
-    times = 1.0 if block.times == 1 else along(path, block.times, model)
-    return block.basis(along(path, block.along, model), times)
+def numbers(block: Block, signals: np.ndarray, model: Model) -> np.ndarray:
+    """(N, unknowns) what each unknown of a part is multiplied by along states and inputs (N, n + u)."""
+    times = 1.0 if block.times == 1 else along(signals, block.times, model)
+    return block.basis(along(signals, block.along, model), times)
 
 
 def names_of(term: Term) -> list[str]:

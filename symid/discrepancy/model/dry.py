@@ -53,11 +53,22 @@ def weights_of(model: Model, expr: Any) -> np.ndarray | None:
     asked = None if expr == 0 else slopes_of(model, expr)
     if asked is None:
         return None
-    shown = [slopes_of(model, y.expr) for y in model.outputs.values()]
-    each = np.array([np.zeros_like(asked) if row is None else row for row in shown])
+    rows = [slopes_of(model, y.expr) for y in model.outputs.values()]
+    each = np.array([np.zeros_like(asked) if row is None else row for row in rows])
     weights = np.linalg.lstsq(each.T, asked)[0]
     missed = np.abs(each.T @ weights - asked).max()
     return weights if missed < ROUNDED * np.abs(asked).max() else None
+
+
+def shown(model: Model, expr: Any, segments: Sequence[Segment]) -> list[np.ndarray] | None:
+    """What outputs show of a linear expression of states and inputs, (N,) by segment; None where they do not."""
+    weights = weights_of(model, expr)
+    if weights is None:
+        return None
+    levers = {k: float(expr.coeff(u.symbol)) for k, u in model.inputs.items() if expr.has(u.symbol)}
+    return [
+        e.recorded @ weights + sum(lever * e.inputs[k][:: e.ratio] for k, lever in levers.items()) for e in segments
+    ]
 
 
 def slopes_of(model: Model, expr: Any) -> np.ndarray | None:
@@ -79,7 +90,8 @@ def widths(model: Model, port: Port, segments: Sequence[Segment], noise: np.ndar
         return tuple(part * usual for part in (float(np.sqrt(PARTS[0] * PARTS[1])), *WIDER))
     once = [1.0 if port.position == 0 else swing(e) for e in segments]
     turn = 1.0 if port.position == 0 else 2 * np.pi
-    usual = float(np.median([turn * np.std(e.recorded @ weights) / s for e, s in zip(segments, once, strict=True)]))
+    moved = shown(model, coordinate(port), segments) or ()
+    usual = float(np.median([turn * np.std(x) / s for x, s in zip(moved, once, strict=True)]))
     creep = 2 * float(np.linalg.norm(weights * noise)) / float(np.median(once))
     sharp = float(np.clip(creep, *(part * usual for part in PARTS))) or 1.0
     return (sharp, *(part * usual for part in WIDER))

@@ -15,7 +15,7 @@ from symid.discrepancy.policy import POLICY
 from symid.errors import ModelError, SymidError
 from symid.estimation.fitting.fit import Fit, rms_of
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.path import along, fitted_path
+from symid.estimation.fitting.path import along, fitted_signals
 from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import period
@@ -132,13 +132,13 @@ class Hypothesis:
             return False
         joint = port_at(self.fit.model, "joint", suspect.term.location)
         force = self.fit.values[suspect.term.parameter_name(suspect.law.parameters[0].key)]
-        power = force * along(self._path, joint.rate, self.fit.model)
+        power = force * along(self._signals, joint.rate, self.fit.model)
         return bool(np.all(power <= 0) and np.any(power < 0))
 
     @cached_property
-    def _path(self) -> np.ndarray:
-        """(N, n) states along the fit."""
-        return fitted_path(self.fit, self.data)
+    def _signals(self) -> np.ndarray:
+        """(N, n + u) states and inputs along the fit."""
+        return fitted_signals(self.fit, self.data)
 
     def _is_ahead(self, suspect: Suspect) -> bool:
         """Whether a drive or a sensor comes early, and something lags as much: a smoothing, of no machine.

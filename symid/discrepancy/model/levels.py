@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from symid.discrepancy.model.dry import WIDER, weights_of
+from symid.discrepancy.model.dry import WIDER, shown
 from symid.estimation.signals.segment import Segment
 from symid.mechanics.missing.flow_laws import level_unit
 from symid.model import Constant, Model, Port
@@ -61,5 +61,5 @@ def _usual(model: Model, port: Port, segments: Sequence[Segment]) -> float:
 
 def _recorded(model: Model, port: Port, segments: Sequence[Segment]) -> np.ndarray | None:
     """A port's level at all samples; None where no outputs show it."""
-    weights = weights_of(model, port.position)
-    return None if weights is None else np.concatenate([e.recorded @ weights for e in segments])
+    pieces = shown(model, port.position, segments)
+    return None if pieces is None else np.concatenate(pieces)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from symid.discrepancy.model.dry import slopes_of, weights_of
+from symid.discrepancy.model.dry import shown, slopes_of
 from symid.discrepancy.model.levels import signed
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.path import fitted_path
@@ -68,10 +68,10 @@ def _ranges(model: Model, data: Data) -> dict[str, tuple[float, float]]:
     """Of the joints whose position outputs show."""
     found = {}
     for port in (p for p in model.ports.values() if p.role == "joint"):
-        weights = weights_of(model, port.position)
-        if weights is not None:
-            shown = np.concatenate([e.recorded @ weights for e in data.segments])
-            found[port.at] = (float(shown.max() + shown.min()) / 2, float(np.ptp(shown)) / 2)
+        pieces = shown(model, port.position, data.segments)
+        if pieces is not None:
+            moved = np.concatenate(pieces)
+            found[port.at] = (float(moved.max() + moved.min()) / 2, float(np.ptp(moved)) / 2)
     return found
 
 
@@ -82,12 +82,8 @@ def _joints_without_controller(model: Model) -> list[str]:
 def _turning(fit: Fit, data: Data) -> list[str]:
     """Places of joints that outputs show to turn by more than one turn within a segment."""
     joints = [p for p in fit.model.ports.values() if p.role == "joint" and coordinate_unit(fit.model, p.at) == "rad"]
-    moved = {p.at: weights_of(fit.model, p.position) for p in joints}
-    return [
-        place
-        for place, weights in moved.items()
-        if weights is not None and max(float(np.ptp(e.recorded @ weights)) for e in data.segments) > 2 * np.pi
-    ]
+    moved = {p.at: shown(fit.model, p.position, data.segments) for p in joints}
+    return [place for place, pieces in moved.items() if pieces and max(map(np.ptp, pieces)) > 2 * np.pi]
 
 
 def _reaches(fit: Fit, data: Data, path: np.ndarray) -> dict[str, float]:
@@ -108,9 +104,9 @@ def _moved(model: Model, port: Port, data: Data, path: np.ndarray) -> float:
 
     0 where neither tells.
     """
-    weights, slopes = weights_of(model, port.position), None
-    if weights is not None:
-        return float(np.median([np.std(e.recorded @ weights) for e in data.segments]))
+    pieces, slopes = shown(model, port.position, data.segments), None
+    if pieces is not None:
+        return float(np.median([np.std(x) for x in pieces]))
     if port.position != 0 and np.isfinite(path).all():
         slopes = slopes_of(model, port.position)
     ends = np.cumsum([len(e.time) for e in data.segments])[:-1]

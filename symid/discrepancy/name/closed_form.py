@@ -18,7 +18,7 @@ from symid.discrepancy.model.suspects import Suspect
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.path import along, fitted_path
+from symid.estimation.fitting.path import along, fitted_signals
 from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.mechanics.missing.dictionary import Shape, closed_expression, closed_law, shapes_of
 from symid.model import Law, Model, Port, Term
@@ -138,10 +138,10 @@ class _Regression:
 
     def __init__(self, law: FlexibleLaw):
         data, model = law.data, law.fit.model
-        path = fitted_path(law.fit, data)
-        self.signals = {s: along(path, s, model) for s in law.signals}
+        signals = fitted_signals(law.fit, data)
+        self.signals = {s: along(signals, s, model) for s in law.signals}
         self.shapes = shapes_of(law.port.position, law.port.rate, list(self.signals))
-        phi = law.shapes(path)
+        phi = law.shapes(signals)
         projection = Projection(law.fit, data, known=names_of(law.term))
         responses = force_responses(projection, law.port, phi)
         self.whole = np.linalg.qr(responses, mode="r")

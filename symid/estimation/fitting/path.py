@@ -1,4 +1,4 @@
-"""The states along a fit."""
+"""The states and inputs along a fit."""
 
 from __future__ import annotations
 
@@ -20,6 +20,13 @@ def fitted_path(fit: Fit, data: Data) -> np.ndarray:
     )
 
 
-def along(path: np.ndarray, expr, model: Model) -> np.ndarray:
-    """(N,) a linear expression of the states along a path."""
-    return sum(float(expr.coeff(s.symbol)) * path[:, i] for i, s in enumerate(model.states.values()))
+def fitted_signals(fit: Fit, data: Data) -> np.ndarray:
+    """(N, n + u) states of the fit, and the model's inputs beside them."""
+    inputs = [np.concatenate([e.inputs[k][:: e.ratio] for e in data.segments]) for k in fit.model.inputs]
+    return np.column_stack([fitted_path(fit, data), *inputs])
+
+
+def along(signals: np.ndarray, expr, model: Model) -> np.ndarray:
+    """(N,) a linear expression of the states and inputs along `fitted_signals`."""
+    parts = (*model.states.values(), *model.inputs.values())
+    return sum(float(expr.coeff(s.symbol)) * signals[:, i] for i, s in enumerate(parts))

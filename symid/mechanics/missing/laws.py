@@ -45,10 +45,11 @@ def _ports_at(model: Model, place: str) -> list[Port]:
 def coordinate_unit(model: Model, place: str) -> str:
     """Unit of what moves at `place`: "rad" of a joint that turns, "m" where a force [N] acts along a displacement.
 
-    Where an input is what acts there, as by a coupling, that of the input.
+    Where an input is what acts there, as by a coupling, that of the input; of levers, that of what they move.
     """
     ports, signals = _ports_at(model, place), (*model.states.values(), *model.inputs.values())
-    units = {s.unit for port in ports for s in signals if s.symbol in port.position.free_symbols} - {""}
+    moved = [(s.unit, port.position.coeff(s.symbol)) for port in ports for s in signals if port.position.has(s.symbol)]
+    units = ({unit for unit, lever in moved if abs(lever) == 1} or {unit for unit, _ in moved}) - {""}
     if units:
         return "rad" if "rad" in units else min(units)
     parts = [c for role in ("feedback_torque", "feedback_error") for c in model.find(role, place)]

@@ -15,7 +15,7 @@ ROLE = "pair"
 def _gyroscope(model: Model, place: str, p: SimpleNamespace) -> None:
     fit_units(model, place, p)
     across = port_at(model, ROLE, place)
-    joints = [q for q in model.ports.values() if q.role == "joint"]
+    joints = [q for q in model.ports.values() if q.role == "joint" and q.rate.is_Symbol]
     (one,) = (q for q in joints if q.into == across.into)
     (other,) = (q for q in joints if q.rate == across.rate)
     model.add_effort(one.name, -p.coefficient_Nms_rad * other.rate)
