@@ -82,6 +82,9 @@ class Policy:
             "late_feedback": 10.0,
             "late_sensing": 10.0,
             "feedback_lag": 10.0,
+            "late_correction": 10.0,
+            "late_observation": 10.0,
+            "correction_lag": 10.0,
         }
     )
     braking: float = 8.0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import inf
 from types import SimpleNamespace
 
@@ -18,33 +19,46 @@ def _late_damping(model: Model, port: Port, p: SimpleNamespace) -> sm.Expr:
     return -p.coefficient_Nms_rad * port.rate.xreplace(felt)
 
 
-def _late_loop(model: Model, place: str, p: SimpleNamespace) -> None:
-    port = port_at(model, "joint", place)
-    now = loop_force(model, port)
-    model.add_effort(port.name, model.delayed(now, p.delay_s) - now)
+Build = Callable[[Model, str, SimpleNamespace], None]
 
 
-def _late_sensors(model: Model, place: str, p: SimpleNamespace) -> None:
-    port = port_at(model, "joint", place)
-    now = loop_force(model, port)
-    prompt = {s: sm.Dummy(str(s)) for s in _told(model, now)}
-    late = model.delayed(now.xreplace(prompt), p.delay_s).xreplace({kept: s for s, kept in prompt.items()})
-    model.add_effort(port.name, late - now)
+def _late_loop(role: str) -> Build:
+    def build(model: Model, place: str, p: SimpleNamespace) -> None:
+        port = port_at(model, role, place)
+        now = loop_force(model, port)
+        model.add_effort(port.name, model.delayed(now, p.delay_s) - now)
+
+    return build
 
 
-def _lagging_drive(model: Model, place: str, p: SimpleNamespace) -> None:
-    port = port_at(model, "joint", place)
-    now = loop_force(model, port)
-    felt = lagging(model, port, f"feedback_lag_{port.name}")
-    follow(model, felt, p.time_constant_s, now)
-    model.add_effort(port.name, felt - now)
+def _late_sensors(role: str) -> Build:
+    def build(model: Model, place: str, p: SimpleNamespace) -> None:
+        port = port_at(model, role, place)
+        now = loop_force(model, port)
+        prompt = {s: sm.Dummy(str(s)) for s in _told(model, port, now)}
+        late = model.delayed(now.xreplace(prompt), p.delay_s).xreplace({kept: s for s, kept in prompt.items()})
+        model.add_effort(port.name, late - now)
+
+    return build
+
+
+def _lagging_drive(role: str, law: str) -> Build:
+    def build(model: Model, place: str, p: SimpleNamespace) -> None:
+        port = port_at(model, role, place)
+        now = loop_force(model, port)
+        felt = lagging(model, port, f"{law}_{port.name}")
+        follow(model, felt, p.time_constant_s, now)
+        model.add_effort(port.name, felt - now)
+
+    return build
 
 
 def loop_force(model: Model, port: Port) -> sm.Expr:
     """The force at a port that unknown parameters make of states and inputs, as gains of a controller do; 0 if none.
 
     Those count that stand beside a state, beside no rate and in no power, and act as a force there does: in the same
-    equations. Parameters of passive springs and dampers are among them; a delay is next to nothing to these.
+    equations. Parameters of passive springs and dampers are among them; a delay is next to nothing to these. A balance
+    of first order has no damping to be fed back, and what it loses is not late: there they stand beside a reference.
     """
     written = {name: model.inline(e.expr) for name, e in model.equations.items()}
     states = {x.symbol for x in model.states.values()}
@@ -52,6 +66,8 @@ def loop_force(model: Model, port: Port) -> sm.Expr:
     rates = {x.dot for x in model.states.values()}
     gains = [q.symbol for q in model.parameters.values() if _is_gain(q.symbol, written, port, states, rates)]
     name, sign = next(iter(port.into.items()))
+    if port.role == "balance":
+        gains = [q for q in gains if _told(model, port, sm.diff(written[name], q))]
     return (written[name] - written[name].xreplace(dict.fromkeys(gains, sm.S.Zero))) / sign
 
 
@@ -65,24 +81,32 @@ def _is_gain(q: sm.Symbol, written: dict[str, sm.Expr], port: Port, states: set,
     return all(force == first for force in others)
 
 
-def _has_loop(model: Model, place: str) -> bool:
+def _has_loop(model: Model, place: str, role: str = "joint") -> bool:
     """Whether anything moves the machine that a controller could answer to, and it is none whose parts are told."""
     if model.find("feedback_torque") or not (model.inputs or model.noises):
         return False
     try:
-        return loop_force(model, port_at(model, "joint", place)) != 0
+        return loop_force(model, port_at(model, role, place)) != 0
     except ModelError:
         return False
 
 
-def _has_reference(model: Model, place: str) -> bool:
+def _has_reference(model: Model, place: str, role: str = "joint") -> bool:
     """Whether a controller compares what it senses with what it is told, which need not be as late."""
-    return _has_loop(model, place) and bool(_told(model, loop_force(model, port_at(model, "joint", place))))
+    if not _has_loop(model, place, role):
+        return False
+    port = port_at(model, role, place)
+    return bool(_told(model, port, loop_force(model, port)))
 
 
-def _told(model: Model, force: sm.Expr) -> set[sm.Symbol]:
-    """What of a force is no motion of a joint: inputs, late ones, and states through which they pass."""
-    ports = [p for p in model.ports.values() if p.role == "joint"]
+def _corrects(model: Model, place: str) -> bool:
+    """Whether a balance of first order is driven towards a reference: else its loop is a leak, which is never late."""
+    return _has_reference(model, place, "balance")
+
+
+def _told(model: Model, port: Port, force: sm.Expr) -> set[sm.Symbol]:
+    """What of a force is no motion at a port of that kind: inputs, late ones, and states through which they pass."""
+    ports = [p for p in model.ports.values() if p.role == port.role]
     moving = set().union(*(p.position.free_symbols | p.rate.free_symbols for p in ports))
     signals = {part.symbol for part in [*model.states.values(), *model.inputs.values()]}
     sources = {s: s for s in signals} | {late: d.of for late, d in model.delays.items()}
@@ -96,7 +120,7 @@ LOOP_LAWS: tuple[Law, ...] = (
         "late_feedback",
         "joint",
         (_LATE,),
-        _late_loop,
+        _late_loop("joint"),
         "What holds the {place} comes {delay_s} late, as from nerves or from a computer",
         "Peterka 2002",
         applies=_has_loop,
@@ -105,7 +129,7 @@ LOOP_LAWS: tuple[Law, ...] = (
         "late_sensing",
         "joint",
         (_LATE,),
-        _late_sensors,
+        _late_sensors("joint"),
         "What the controller of the {place} senses comes {delay_s} late, and what it is told does not",
         "Peterka 2002",
         applies=_has_reference,
@@ -114,13 +138,41 @@ LOOP_LAWS: tuple[Law, ...] = (
         "feedback_lag",
         "joint",
         (LAG,),
-        _lagging_drive,
+        _lagging_drive("joint", "feedback_lag"),
         "What holds the {place} follows its controller with a lag of {time_constant_s}, as of a motor or a muscle",
         "Ljung 1999",
         applies=_has_loop,
     ),
+    Law(
+        "late_correction",
+        "balance",
+        (_LATE,),
+        _late_loop("balance"),
+        "What corrects the {place} comes {delay_s} late, as from nerves or from a computer",
+        "McRuer & Jex 1967",
+        applies=_corrects,
+    ),
+    Law(
+        "late_observation",
+        "balance",
+        (_LATE,),
+        _late_sensors("balance"),
+        "What the controller of the {place} observes comes {delay_s} late, and what it is told does not",
+        "McRuer & Jex 1967",
+        applies=_corrects,
+    ),
+    Law(
+        "correction_lag",
+        "balance",
+        (LAG,),
+        _lagging_drive("balance", "correction_lag"),
+        "What corrects the {place} follows its controller with a lag of {time_constant_s}, as of a motor or a muscle",
+        "Ljung 1999",
+        applies=_corrects,
+    ),
 )
-"""Of a controller that is written into the equations: all of it, what it senses, or what it drives."""
+"""Of a controller that is written into the equations: all of it, what it senses, or what it drives. At a joint, or at a
+balance of first order, as where a person follows a target with what moves as fast as it is pushed."""
 
 LATE_LAWS: tuple[Law, ...] = (
     effort_law(
