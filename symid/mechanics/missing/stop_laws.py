@@ -1,4 +1,4 @@
-"""Springs that are met beyond some position: play, bumpers, a stop on one side."""
+"""Springs that are met beyond some position, or are wound up there: play, bumpers, a stop on one side, a preload."""
 
 from __future__ import annotations
 
@@ -46,6 +46,10 @@ def stiffness(model: Model, port: Port) -> sm.Expr:
         found += [sm.expand(-slope) for slope in slopes if slope.free_symbols <= known]
     between = max(found, key=found.count, default=sm.S.Zero)
     return between if found.count(between) > 1 else sm.S.Zero
+
+
+def _preload(m: Model, port: Port, p: SimpleNamespace) -> sm.Expr:
+    return -p.torque_Nm * sm.tanh((port.position - p.angle_rad) / p.width_rad)
 
 
 def _has_spring(model: Model, place: str) -> bool:
@@ -97,6 +101,18 @@ STOP_LAWS: tuple[Law, ...] = (
             "Den Hartog & Heiles 1936",
         ),
         applies=_has_spring,
+    ),
+    effort_law(
+        "preload",
+        "joint",
+        (
+            LawParameter("torque_Nm", "N*m", (0.0, inf)),
+            LawParameter("angle_rad", "rad", (-1.0, 1.0), None, (0.0,), 0.0, clock="range"),
+            LawParameter("width_rad", "rad", (1e-4, 1.0), None, (0.02,), 0.02),
+        ),
+        _preload,
+        "Springs wound up to {torque_Nm} hold the {place} at an angle of {angle_rad}, within {width_rad} of it",
+        "Deur et al. 2004",
     ),
     _stop_law("upper_stop", 1),
     _stop_law("lower_stop", -1),
