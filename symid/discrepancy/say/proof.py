@@ -17,7 +17,9 @@ def unproved(s: Story) -> list[str]:
     if s.proof is None or s.proof.confirmed:
         return []
     return [
-        "The held-out data speak against this." if s.proof.margin <= 0 else "The held-out data do not confirm this yet."
+        "The held-out data speak against this."
+        if not s.proof.margin > 0
+        else "The held-out data do not confirm this yet."
     ]
 
 
@@ -34,9 +36,10 @@ def proof_words(s: Story) -> list[str]:
     if s.proof.free_runs is None:
         return [f"The error of free simulation on the held-out window {errors}{_confirmation(s.proof)}.", *_chance(s)]
     more = "less" if s.proof.margin > 0 else "more"
+    by = f"{rough(100 * abs(s.proof.margin))} %" if np.isfinite(s.proof.margin) else "more than can be told"
     errors = errors if s.proof.free_runs.margin > 0 else f"does not fall: it {errors}"
     return [
-        f"On the held-out window predictions from sample to sample err {more}, by {rough(100 * abs(s.proof.margin))} %"
+        f"On the held-out window predictions from sample to sample err {more}, by {by}"
         f"{_confirmation(s.proof)}. The error of free simulation, which holds all that random forces did, {errors}.",
         *_chance(s),
     ]
@@ -46,7 +49,7 @@ def _confirmation(p: Proof) -> str:
     """What the blocks of the held-out data say of the fall of the error."""
     if p.confirmed:
         return f", which confirms the finding (probability {min(p.probability, 0.999):.3g} from {_blocks(p.blocks)})"
-    if p.margin <= 0:
+    if not p.margin > 0:  # nor where a run diverges
         return ": the held-out window does not confirm the finding"
     if p.contradicted:
         chance = f"probability {p.free_runs.probability:.2g} from {_blocks(p.free_runs.blocks)}"

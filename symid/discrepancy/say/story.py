@@ -94,6 +94,8 @@ class Story:
         """The rms errors (m,) of the outputs, as one number where they share a unit; in units that suit those `beside`,
         with which they are compared.
         """
+        if not np.all(np.isfinite(errors)):
+            return "infinity, since it diverges"
         others = np.zeros_like(errors) if beside is None else beside
         unit = common_unit(y.unit for y in self.model.outputs.values())
         if unit is not None:

@@ -68,16 +68,12 @@ def _finding(s: Story) -> list[str]:
 
 
 def _at_bounds(s: Story) -> list[str]:
-    """A sentence for each parameter of which the model as given asks for a value beyond its bounds.
-
-    Zero is no such bound: nothing has a negative mass, stiffness or damping.
-    """
+    """A sentence for each parameter of which the model as given asks for a value beyond its bounds."""
     but = ", and what is found may make up for no more than that" if s.effects else ""
     return [
-        f"In the model as given {k} lies at its bound ({in_unit(value, p.unit)}): the recording asks for a "
-        f"value beyond it{but}. Widen it with model.with_bounds({k}=(lower, upper))."
-        for k, p in s.model.parameters.items()
-        if (value := s.base.values[k]) != 0 and p.bounds[0] < p.bounds[1] and value in p.bounds
+        f"In the model as given {k} lies at its bound ({in_unit(s.base.values[k], s.model.parameters[k].unit)}): the "
+        f"recording asks for a value beyond it{but}. Widen it with model.with_bounds({k}=(lower, upper))."
+        for k in s.base.at_bounds
     ]
 
 
@@ -139,8 +135,8 @@ def left_beside_noise(s: Story) -> list[str]:
         )
     errors = s.runs["augmented_train"].errors
     times = float(np.sqrt(np.mean((errors / s.audit.noise) ** 2)))
-    if s.driven or s.verdict != "unexplained" or not times > ABOVE:
-        return []
+    if s.driven or s.data.memory or s.verdict != "unexplained" or not times > ABOVE:
+        return []  # what remembers its past is larger than the highest frequencies show
     return [
         f"In the fit window an error of {s.error(errors)} remains, {times:.0f} times the noise of the sensors "
         f"({s.error(s.audit.noise)}): unexplained.",

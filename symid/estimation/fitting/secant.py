@@ -27,11 +27,13 @@ class Secant:
         if not along > 0:
             return
         missed = change - (after[0] @ step)[:k]
-        known = self.left_out @ own
-        self.left_out *= min(1.0, abs(float(own @ missed)) / max(abs(float(own @ known)), 1e-300))
-        rest = missed - self.left_out @ own
-        self.left_out += (np.outer(rest, change) + np.outer(change, rest)) / along
-        self.left_out -= float(rest @ own) * np.outer(change, change) / along**2
+        with np.errstate(over="ignore", invalid="ignore"):  # where a run nearly diverges nothing is learned
+            known = self.left_out @ own
+            kept = self.left_out * min(1.0, abs(float(own @ missed)) / max(abs(float(own @ known)), 1e-300))
+            rest = missed - kept @ own
+            kept += (np.outer(rest, change) + np.outer(change, rest)) / along
+            kept -= float(rest @ own) * np.outer(change, change) / along**2
+        self.left_out = kept if np.isfinite(kept).all() else self.left_out
 
     def corrected(self, system: tuple) -> tuple:
         """The normal equations with what was learned, where they stay convex with it."""

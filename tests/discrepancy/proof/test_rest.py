@@ -172,6 +172,7 @@ def test_a_rest_of_a_model_without_noise_says_how_random_forces_are_declared(noi
     story = SimpleNamespace(
         verdict="unexplained",
         driven=False,
+        data=SimpleNamespace(memory=0),
         runs={"augmented_train": SimpleNamespace(errors=np.array([3e-3]))},
         audit=SimpleNamespace(noise=np.array([1e-3])),
         model=SimpleNamespace(noises=noises),
