@@ -95,22 +95,37 @@ def explore(
     near = least_near(found)
     close = [c for c in rest if c.log_ratio > near and not c.fit.converged]
     found += converging(close) + [c for c in rest if c not in close]
-    found = found if later else _from_nothing(found, data, converged, regression)
+    found = found if later else _from_nothing(found, fit, data, starts, regression)
     return by_score(exact_where_leading(found, least_near(found)))
 
 
-def _from_nothing(found: list[Hypothesis], data: Data, count: int, regression: Regression) -> list[Hypothesis]:
+def _from_nothing(
+    found: list[Hypothesis], fit: Fit, data: Data, starts: Sequence[list[Start]], regression: Regression
+) -> list[Hypothesis]:
     """The same, where none meets a free motion with those that explain most fitted as if nothing were known.
 
     A motor that drives a load by a shaft lacked dry friction at the load, took nearly all inertia for the motor's, and
     then the friction for it, too (tests/discrepancy/machines/test_from_nothing.py). Only laws with one unknown: they
     tell the place, from where others of their family begin, and find their size from anywhere.
+
+    All of them where the model as given ends at a bound, from where each may be misled: one whose amplifier lags took
+    four times its damping for that, and then two delays (test_at_a_bound.py).
     """
-    simple = [h for h in found if h.suspect.size == 1 and h.suspect.scanned is None]
-    first = sorted(simple, key=lambda h: -h.log_ratio)[:count]
-    if any(is_met(h.fit, data, POLICY.sensors) for h in first):
+    simple = sorted((h for h in found if _is_simple(h.suspect)), key=lambda h: -h.log_ratio)
+    first = simple[: POLICY.converged]
+    if fit.kalman_gain is not None or any(is_met(h.fit, data, POLICY.sensors) for h in first):
         return found
+    if fit.at_bounds:
+        known = {h.suspect for h in simple}
+        others = [s for s in starts if _is_simple(s[0].suspect) and s[0].suspect.established]
+        others = [s for s in others if s[0].suspect not in known][: POLICY.refitted]
+        begun = in_threads(lambda s: _begin(fit, data, s), others)
+        first = [*simple, *(h for h in begun if h is not None)]
     return in_threads(lambda h: begun_anew(h, regression), first) + [h for h in found if h not in first]
+
+
+def _is_simple(suspect: Suspect) -> bool:
+    return suspect.size == 1 and suspect.scanned is None
 
 
 def least_near(found: Sequence[Hypothesis]) -> float:

@@ -75,9 +75,9 @@ def simpler_than_best(found: Sequence[Hypothesis], pool: Sequence[Suspect], near
 
 
 def exchanges(found: Hypothesis, pool: Sequence[Suspect]) -> list[Exchange]:
-    """One of three or more suspects left out, each exchanged for others that it may stand for, or for two by `TWO`."""
+    """One of several suspects left out, each exchanged for others that it may stand for, or for two by `TWO`."""
     taken, sets = {s.term for s in found.suspects}, []
-    if len(taken) > 2:
+    if len(taken) > 1:
         sets = [([t for t in found.suspects if t is not s], None) for s in found.suspects]
     for s in found.suspects:
         others = [o for o in pool if may_be(s, o) and o.term not in taken and o.established >= s.established]

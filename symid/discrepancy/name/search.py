@@ -19,7 +19,7 @@ from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
 from symid.discrepancy.name.scan import promising
 from symid.discrepancy.name.starts import Start
-from symid.discrepancy.name.stated_together import stated_together
+from symid.discrepancy.name.stated_together import is_stated, stated_together
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_holds
 from symid.estimation.measurement import has_settled
@@ -125,23 +125,28 @@ class Search(Judge):
         more = self._steady(best, self._added(best) if best.suspects else single)
         if more is None and len(best.suspects) < 2 and not self.explained(best):
             more = self._preferred(best, self._other_pairs(best, single, alone=False))
-        if (
-            more is not None
-            and len(more.suspects) == 2
-            and not self.quiet(more)
-            and (more.is_free or not self.beaten(more))
-        ):
-            stated = stated_together(more, self.pool, self.together, self.better)
-            rivals = [stated] if stated else []
-            if not (stated and self.quiet(stated)):
-                rivals += self._other_pairs(best, single, above=more.log_ratio)
-            self.tried += rivals
-            more = self._preferred(best, [more, *rivals])
+        if more is not None and len(more.suspects) == 2 and (more.is_free or not self.beaten(more)):
+            more = self._preferred(best, [more, *self._rivals_of_two(more, best, single)])
         if more is not None and len(more.suspects) > 1:
             again = self._reexamined(more, single)
             more = more if again is more else self._with_jumps([again], best)[0]
             return more if self.worth(more, best) else None
         return more
+
+    def _rivals_of_two(self, two: Hypothesis, best: Hypothesis, single: list[Hypothesis]) -> list[Hypothesis]:
+        """Stated values that are wrong together, and pairs that begin otherwise, in the place of `two`, on `best`.
+
+        A payload of an arm looked like a late sensor and one wrong value, which left nothing.
+        """
+        quiet = self.quiet(two)
+        if quiet and all(map(is_stated, two.suspects)):
+            return []
+        stated = stated_together(two, self.pool, self.together, self.better)
+        rivals = [stated] if stated else []
+        if not quiet and not (stated and self.quiet(stated)):
+            rivals += self._other_pairs(best, single, above=two.log_ratio)
+        self.tried += rivals
+        return rivals
 
     def _goes_on_from(self, best: Hypothesis) -> None:
         """What is tried next has dry friction that is as abrupt."""
@@ -172,8 +177,12 @@ class Search(Judge):
         return begun_anew(polished(one), self.regression) if one else self.nothing
 
     def most_of_one(self) -> float:
-        """Evidence for the one suspect or flexible law that explains most; infinite where one explains everything."""
-        if self.explained(self.of_one):
+        """Evidence for the one suspect or flexible law that explains most; infinite where one with an established name
+        explains everything.
+
+        Random forces that last for a sample look like an inertia at an elbow that left nothing, half as likely.
+        """
+        if self.explained(self.of_one) and self.of_one.established:
             return inf
         return max(h.evidence(1.0) for h in [self.nothing, self.flexible(), self.of_one, *self.single])
 

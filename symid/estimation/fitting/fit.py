@@ -61,6 +61,17 @@ class Fit:
         return {"substeps": self.substeps, "method": self.method}
 
     @property
+    def at_bounds(self) -> list[str]:
+        """Parameters of which the data ask for a value beyond their bounds.
+
+        Zero is no such bound: nothing has a negative mass, stiffness or damping.
+        """
+        bounds = {k: p.bounds for k, p in self.model.parameters.items()}
+        return [
+            k for k, (low, high) in bounds.items() if low < high and self.values[k] in (low, high) and self.values[k]
+        ]
+
+    @property
     def covariance(self) -> np.ndarray:
         """(m, m) of the innovations, whitened by their own past where they have a memory."""
         return self.whitening.covariance

@@ -1,6 +1,8 @@
 """A motor that drives a load by a shaft, of which nothing is known but the torque, and dry friction at the load."""
 
+from dataclasses import replace
 from types import SimpleNamespace
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -11,6 +13,7 @@ import symid as si
 from symid.discrepancy.model.begun_anew import nowhere
 from symid.discrepancy.name import explore as exploring
 from symid.discrepancy.name.starts import Start
+from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
@@ -62,7 +65,7 @@ def test_inertia_that_a_model_without_friction_took_for_the_motors_is_given_back
     assert base.values["load_inertia"] < 0.1 * TRUE["load_inertia"]
     (suspect,) = [s for s in si.suspects(model) if str(s.term) == "coulomb_friction@load"]
     stuck = exploring._refit(base, data, Start(0.0, suspect, {"torque_Nm": 0.0}))
-    (found,) = exploring._from_nothing([stuck], data, 1, nowhere)
+    (found,) = exploring._from_nothing([stuck], base, data, [], nowhere)
     assert found.log_ratio > stuck.log_ratio and stuck.fit.values["load_inertia"] < 0.5 * TRUE["load_inertia"]
     assert found.fit.values["load_inertia"] == pytest.approx(TRUE["load_inertia"], rel=0.05)
 
@@ -77,4 +80,27 @@ def test_only_laws_with_one_unknown_are_fitted_from_nothing_where_none_meets_the
     monkeypatch.setattr(exploring, "is_met", lambda *_: met)
     monkeypatch.setattr(exploring, "begun_anew", lambda found, regression: "begun anew")
     found = [SimpleNamespace(suspect=SimpleNamespace(scanned=scanned, size=size), log_ratio=1.0, fit=None)]
-    assert exploring._from_nothing(found, None, 3, nowhere) == (["begun anew"] if anew else found)
+    base = SimpleNamespace(kalman_gain=None, at_bounds=[])
+    assert exploring._from_nothing(found, base, None, [], nowhere) == (["begun anew"] if anew else found)
+
+
+@pytest.mark.parametrize(("at_bounds", "anew"), [([], ["best"]), (["gain"], ["best", "worse", "left alone"])])
+def test_all_simple_laws_are_fitted_from_nothing_where_the_model_as_given_ends_at_a_bound(monkeypatch, at_bounds, anew):
+    class Tried(NamedTuple):
+        name: str
+        size: int = 1
+        established: bool = True
+        scanned: None = None
+
+    explained = {"best": 9.0, "worse": 5.0}
+    found = [SimpleNamespace(suspect=Tried(n), log_ratio=v, fit=None) for n, v in explained.items()]
+    others = [Tried("left alone"), Tried("two unknowns", size=2), Tried("nameless", established=False)]
+    starts = [[SimpleNamespace(suspect=s)] for s in [*(h.suspect for h in found), *others]]
+    asked = []
+    monkeypatch.setattr(exploring, "is_met", lambda *_: False)
+    monkeypatch.setattr(exploring, "POLICY", replace(POLICY, converged=1))
+    monkeypatch.setattr(exploring, "_begin", lambda fit, data, s: SimpleNamespace(suspect=s[0].suspect, log_ratio=0.0))
+    monkeypatch.setattr(exploring, "begun_anew", lambda h, regression: asked.append(h.suspect.name) or h)
+    base = SimpleNamespace(kalman_gain=None, at_bounds=at_bounds)
+    exploring._from_nothing(found, base, None, starts, nowhere)
+    assert sorted(asked) == sorted(anew)

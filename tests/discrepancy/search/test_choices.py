@@ -25,7 +25,7 @@ def tried_beside(monkeypatch, leader: str, *alike: str, explains: float) -> set[
     pool = [Suspect(LIBRARY[name].at(f"place{max(0, i - 2)}")) for i, name in enumerate(laws)]
     pool.append(Suspect(LIBRARY[alike[0]].at("another")))
     promised = {leader: 50.0, "cubic_stiffness": 20.0}
-    fit = SimpleNamespace(converged=True)
+    fit = SimpleNamespace(converged=True, kalman_gain=None)
 
     def starts(_fit, _data, _projection, s):
         return [exploring.Start(promised.get(s.term.name, 0.0), s, {s.strength.key: s.strength.null})]
