@@ -11,6 +11,7 @@ from symid.errors import DiagnosisError, SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.noise_sizes import likeliest_sizes
+from symid.estimation.fitting.unseen_forces import LIKELIER
 from symid.estimation.predicting.kalman import linearised_along
 from symid.estimation.sensors.whitening import longest_memory
 from symid.estimation.signals.data import Data, observed_state
@@ -31,9 +32,6 @@ ELSEWHERE = (1 / 64, 1 / 16, 1 / 4, 4.0, 16.0)
 """Factors of the size of each random force at which a likelihood with several maxima may be higher. Sensors seem to
 be perfect at one: at that of an arm twice the log-likelihood was 135 less than with a force a seventeenth as large
 (`controlled` 25 of tests/examination)."""
-LIKELIER = 10.0
-"""So much more of twice the log-likelihood makes another maximum worth going to. Where sensors are so good that a force
-may be of any size it is 0.1, and there a lag of the sensor is not found (`controlled` 12)."""
 
 
 def fit_model(model: Model, data: Data, start: dict[str, float] | None = None, exact: bool = True) -> Fit:

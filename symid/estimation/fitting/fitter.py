@@ -16,6 +16,7 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.normal_equations import covariance_of, normal_equations
 from symid.estimation.fitting.secant import Secant
 from symid.estimation.fitting.step import damped_step
+from symid.estimation.fitting.unseen_forces import likelier_forces
 from symid.estimation.predicting.growth import growth, runs_away
 from symid.estimation.predicting.refining import Refining
 from symid.estimation.signals.data import Data
@@ -106,8 +107,10 @@ class Fitter(Refining):
         at = self._begin(start, initial, process, kalman_gain)
         k, converged = self._descend(at, iterations, tolerance)
         left = iterations  # for all descents that follow
-        while self._refined(at.p, at.x0, at.kalman_gain, at.process, exact, at.runs) or (
-            exact and converged and self._misled(at)
+        while (
+            self._refined(at.p, at.x0, at.kalman_gain, at.process, exact, at.runs)
+            or (exact and converged and self._misled(at))
+            or (converged and self._has_unseen_forces(at))
         ):
             at.runs = None
             at.value = self.evaluate(at.p, at.x0, at.kalman_gain, at.process) - self._growth_penalty(at.p, at.path)
@@ -163,6 +166,16 @@ class Fitter(Refining):
         if system is None or float(self._step(system, at, 0.0) @ system[1]) < MISLED:
             return False
         self._shorten(at.p, at.x0, at.kalman_gain, at.process)
+        return True
+
+    def _has_unseen_forces(self, at: _Point) -> bool:
+        """Take clearly likelier, smaller random forces where no slope leads to them; whether there are such."""
+        if not self.driven:
+            return False
+        likelier = likelier_forces(self, at.p, at.x0, at.process, at.path, at.value)
+        if likelier is None:
+            return False
+        at.process, at.kalman_gain = likelier, self.kalman_gain(at.p, likelier, at.path)
         return True
 
     def _step(self, system, at: _Point, damping: float) -> np.ndarray:
