@@ -109,7 +109,7 @@ def _from_nothing(
     tell the place, from where others of their family begin, and find their size from anywhere.
 
     All of them where the model as given ends at a bound, from where each may be misled: one whose amplifier lags took
-    four times its damping for that, and then two delays (test_at_a_bound.py).
+    five times its gain for that, and then two delays (tests/discrepancy/machines/test_at_a_bound.py).
     """
     simple = sorted((h for h in found if _is_simple(h.suspect)), key=lambda h: -h.log_ratio)
     first = simple[: POLICY.converged]

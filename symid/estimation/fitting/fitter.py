@@ -172,7 +172,8 @@ class Fitter(Refining):
         """Take clearly likelier, smaller random forces where no slope leads to them; whether there are such."""
         if not self.driven:
             return False
-        likelier = likelier_forces(self, at.p, at.x0, at.process, at.path, at.value)
+        value = at.value + self._growth_penalty(at.p, at.path)
+        likelier = likelier_forces(self, at.p, at.x0, at.process, at.path, value)
         if likelier is None:
             return False
         at.process, at.kalman_gain = likelier, self.kalman_gain(at.p, likelier, at.path)
