@@ -1,6 +1,7 @@
 """What the products of slopes leave out of the curvature is learned from steps."""
 
 import numpy as np
+import pytest
 
 from symid.estimation.fitting.secant import Secant
 
@@ -45,3 +46,14 @@ def test_what_would_not_be_convex_is_left_as_it_was():
     assert secant.corrected(given) is given
     secant.left_out[:] = 1.0
     np.testing.assert_array_equal(secant.corrected(given)[0], np.diag([2.0, 1.0]))
+
+
+def test_of_a_run_that_nearly_diverged_nothing_is_learned():
+    def normal(curvature: float, slope: float) -> tuple:
+        return np.array([[curvature]]), np.array([slope]), 1
+
+    secant = Secant(1)
+    secant.learn(np.array([1.0]), normal(2.0, 5.0), normal(2.0, 1.0))
+    assert secant.left_out == pytest.approx(2.0)  # the slope fell by four where the equations know two
+    secant.learn(np.array([1.0]), normal(2.0, 1e200), normal(1e300, 1.0))
+    assert secant.left_out == pytest.approx(2.0)

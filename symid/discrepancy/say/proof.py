@@ -36,10 +36,10 @@ def proof_words(s: Story) -> list[str]:
     if s.proof.free_runs is None:
         return [f"The error of free simulation on the held-out window {errors}{_confirmation(s.proof)}.", *_chance(s)]
     more = "less" if s.proof.margin > 0 else "more"
-    by = f"{rough(100 * abs(s.proof.margin))} %" if np.isfinite(s.proof.margin) else "more than can be told"
+    by = f", by {rough(100 * abs(s.proof.margin))} %" if np.isfinite(s.proof.margin) else " without bound"
     errors = errors if s.proof.free_runs.margin > 0 else f"does not fall: it {errors}"
     return [
-        f"On the held-out window predictions from sample to sample err {more}, by {by}"
+        f"On the held-out window predictions from sample to sample err {more}{by}"
         f"{_confirmation(s.proof)}. The error of free simulation, which holds all that random forces did, {errors}.",
         *_chance(s),
     ]

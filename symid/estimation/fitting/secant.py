@@ -32,7 +32,7 @@ class Secant:
             kept = self.left_out * min(1.0, abs(float(own @ missed)) / max(abs(float(own @ known)), 1e-300))
             rest = missed - kept @ own
             kept += (np.outer(rest, change) + np.outer(change, rest)) / along
-            kept -= float(rest @ own) * np.outer(change, change) / along**2
+            kept -= float(rest @ own) * np.outer(change, change) / along / along
         self.left_out = kept if np.isfinite(kept).all() else self.left_out
 
     def corrected(self, system: tuple) -> tuple:
