@@ -78,10 +78,10 @@ def _elements(
         levers = {n: float(k) for n, k in along.items() if k != 0}
         if levers.keys() == pushed.keys() and levers[name] > 0 and _is_pushed(pushed, levers, stretch, name):
             # Once as a lever of the force, once of the stretch; a single joint's own unit of force is kept.
-            size = levers[name] if len(levers) == 1 else levers[name] ** 0.5
-            whole = _without_lever({n: k / size for n, k in levers.items()})
-            size *= -1 if whole and levers[whole] < 0 else 1
-            yield _Element(q, {n: k / size for n, k in levers.items()}, sm.expand(stretch / size), is_spring)
+            scale = levers[name] if len(levers) == 1 else levers[name] ** 0.5
+            whole = _without_lever({n: k / scale for n, k in levers.items()})
+            scale *= -1 if whole and levers[whole] < 0 else 1
+            yield _Element(q, {n: k / scale for n, k in levers.items()}, sm.expand(stretch / scale), is_spring)
 
 
 def _is_pushed(pushed: Mapping[str, sm.Expr], levers: Mapping[str, float], stretch: sm.Expr, name: str) -> bool:
@@ -107,12 +107,12 @@ def _is_parallel(one: _Element, other: _Element) -> bool:
 def _port(
     model: Model, joints: Mapping[str, Port], first: _Element, spring: _Element | None, damper: _Element | None
 ) -> Port | None:
-    """The port along some elements; None where an input moves their end of which the speed is not known."""
+    """The port along these; None where an input moves the end of one of them alone, or a joint has such a port."""
     inputs = {u.symbol for u in model.inputs.values()}
     name = next(iter(first.along))
     ends = [e and sm.expand(e.stretch * (first.along[name] / e.along[name])) for e in (spring, damper)]
-    against = [bool(end.free_symbols & inputs) for end in ends if end is not None]
-    if any(against) and len(against) < 2 or len(set(against)) > 1 or not any(against) and len(first.along) < 2:
+    against = [end is not None and bool(end.free_symbols & inputs) for end in ends]
+    if any(against) and not all(against) or not any(against) and len(first.along) == 1:
         return None
     position, rate = (
         sum(k * (joints[n].position if kind else joints[n].rate) for n, k in first.along.items())

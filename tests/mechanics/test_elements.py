@@ -92,7 +92,7 @@ def test_one_joint_against_a_moving_ground_and_not_against_a_fixed_one():
         m.ground, m.ground_rate = si.Input(unit="m"), si.Input(unit="m/s")
         m.k, m.c = si.Parameter(unit="N/m", bounds=(0, 1e5)), si.Parameter(unit="N*s/m", bounds=(0, 1e4))
         x, v = (m.x - m.ground, m.v - m.ground_rate) if moving else (m.x, m.v)
-        m.moves, m.cart = si.Equation(m.x.dot - m.v), si.Equation(3.0 * m.v.dot + m.k * x + m.c * v - 0 * m.ground)
+        m.moves, m.cart = si.Equation(m.x.dot - m.v), si.Equation(3.0 * m.v.dot + m.k * x + m.c * v)
         m.seen = si.Output(m.x)
         return m
 

@@ -11,6 +11,7 @@ from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
 from symid.discrepancy.model.families import is_alike
 from symid.discrepancy.model.hypothesis import Hypothesis, extended, is_met
 from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.name.scan import moment_profile
 from symid.discrepancy.name.short_pieces import ShortPieces
 from symid.discrepancy.name.starts import Start, starts_of
 from symid.discrepancy.policy import POLICY
@@ -296,16 +297,3 @@ def _profiled(best: Hypothesis, data: Data) -> Start | None:
     value, moment = values.max(), float(moments[np.argmax(values)])
     own = {k.key: fit.values[best.suspect.term.parameter_name(k.key)] for k in best.suspect.law.parameters}
     return Start(best.forecast, best.suspect, own | {q.key: moment}) if value > fit.loglik2 + 0.1 else None
-
-
-def moment_profile(fit: Fit, data: Data, name: str, within: tuple[float, float], spacing: float):
-    """Moments of a lasting change and twice the log-likelihood of each, all else as fitted."""
-    t0, t1 = data.span
-    fitter = Fitter.of(fit, data)
-    at = fitter.sim.parameters.index(name)
-    p = np.array([fit.values[k] for k in fitter.sim.parameters])
-    moments, values = np.arange(max(t0 + spacing, within[0]), min(t1 - spacing, within[1]), spacing), []
-    for moment in moments:
-        p[at] = moment
-        values.append(fitter.evaluate(p, fit.initial, fit.kalman_gain))
-    return moments, np.array(values)

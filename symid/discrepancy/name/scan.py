@@ -12,8 +12,11 @@ from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import HIGHEST_FREQUENCY, Suspect
 from symid.discrepancy.name.comb import comb
 from symid.discrepancy.policy import POLICY
+from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.path import fitted_path
 from symid.estimation.predicting.kalman import linearised_along
+from symid.estimation.signals.data import Data
 from symid.model import Model
 from symid.simulation import Simulator, simulator
 
@@ -166,3 +169,21 @@ def _peaks(values: np.ndarray, apart: int, keep: int) -> list[int]:
         found.append(k)
         values[max(0, k - apart) : k + apart + 1] = 0
     return found
+
+
+def moment_profile(fit: Fit, data: Data, name: str, within: tuple[float, float], spacing: float):
+    """(K,) moments [s] of a lasting change and (K,) twice the log-likelihood at each, all else as fitted.
+
+    Parameters
+    ----------
+    name : of the parameter that is the moment. within, spacing : of the moments [s].
+    """
+    t0, t1 = data.span
+    fitter = Fitter.of(fit, data)
+    at = fitter.sim.parameters.index(name)
+    p = np.array([fit.values[k] for k in fitter.sim.parameters])
+    moments, values = np.arange(max(t0 + spacing, within[0]), min(t1 - spacing, within[1]), spacing), []
+    for moment in moments:
+        p[at] = moment
+        values.append(fitter.evaluate(p, fit.initial, fit.kalman_gain))
+    return moments, np.array(values)

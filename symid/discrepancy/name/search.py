@@ -177,10 +177,9 @@ class Search(Judge):
         return begun_anew(polished(one), self.regression) if one else self.nothing
 
     def most_of_one(self) -> float:
-        """Evidence for the one suspect or flexible law that explains most; infinite where one with an established name
-        explains everything.
+        """Evidence for the one suspect or flexible law that explains most; infinite where a named one explains all.
 
-        Random forces that last for a sample look like an inertia at an elbow that left nothing, half as likely.
+        Random forces that last for a sample looked like an inertia, without a name, that left nothing, half as likely.
         """
         if self.explained(self.of_one) and self.of_one.established:
             return inf
