@@ -7,8 +7,8 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from symid.codegen.interval import interval_program, objective_program
-from symid.codegen.program import Program
+from symid.codegen.equations.interval import interval_program, objective_program
+from symid.codegen.equations.program import Program
 from symid.codegen.shipped import FOLDER
 from symid.codegen.source import generate
 from symid.files import write_atomically

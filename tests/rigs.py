@@ -1,7 +1,7 @@
 """Rigs of tests, by the parameters of their links, and laws that no library has."""
 
 from symid.conceal.facts import RIG
-from symid.mechanics.missing.laws import effort_law
+from symid.mechanics.missing.laws.shared import effort_law
 from symid.model import LawParameter
 
 DOUBLE = RIG

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from symid.analysis.points import check_values, kernel_of, uniform_values
-from symid.codegen.rates import late_of, slopes_program
+from symid.codegen.equations.rates import late_of, slopes_program
 from symid.errors import ModelError
 from symid.model import Model
 from symid.units import FloatArray

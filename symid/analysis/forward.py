@@ -10,7 +10,7 @@ import numpy as np
 
 from symid.analysis.points import check_values, kernel_of, uniform_values
 from symid.codegen import Kernel
-from symid.codegen.rates import late_of, late_symbols, step_program
+from symid.codegen.equations.rates import late_of, late_symbols, step_program
 from symid.errors import ModelError
 from symid.model import Model
 from symid.units import FloatArray

@@ -30,7 +30,7 @@ def evaluations(task: Task, backend: str) -> dict:
 def first_use(task: Task) -> dict:
     """Seconds until a model that nobody compiled before can be evaluated: the task's, with dry friction."""
     from symid.codegen import compile_program
-    from symid.codegen.interval import interval_program
+    from symid.codegen.equations.interval import interval_program
     from symid.mechanics.missing.terms import LIBRARY
     from symid.transcription import Midpoint
 

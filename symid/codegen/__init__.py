@@ -2,8 +2,8 @@
 
 from symid.codegen.build import load_library
 from symid.codegen.cache import CodegenWarning
-from symid.codegen.cprint import c_statements
+from symid.codegen.equations.program import Program
 from symid.codegen.kernel import Kernel, compile_program
-from symid.codegen.program import Program
+from symid.codegen.straight_line.cprint import c_statements
 
 __all__ = ["CodegenWarning", "Kernel", "Program", "c_statements", "compile_program", "load_library"]

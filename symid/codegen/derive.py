@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from symid.codegen.graph import FOREIGN, POINT, UNIFORM, Graph
-from symid.codegen.lower import lower
-from symid.codegen.program import Program
+from symid.codegen.equations.program import Program
+from symid.codegen.straight_line.graph import FOREIGN, POINT, UNIFORM, Graph
+from symid.codegen.straight_line.lower import lower
 
 Entries = dict[tuple[int, int], int]  # (row, column) -> operation
 

@@ -56,5 +56,5 @@ def _key(model: Model) -> str:
 def _maker() -> str:
     """Changes with whatever writes the text."""
     here = Path(__file__).parent
-    written = b"".join((here / name).read_bytes() for name in ("ode.py", "cprint.py", "ode.h", "kept.py"))
+    written = b"".join((here / name).read_bytes() for name in ("ode.py", "straight_line/cprint.py", "ode.h", "kept.py"))
     return hashlib.sha256(written + sm.__version__.encode()).hexdigest()

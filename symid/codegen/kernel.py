@@ -9,8 +9,8 @@ import numpy as np
 
 from symid.codegen.build import compiled, load, or_numpy
 from symid.codegen.derive import Derived, derive, lowered
+from symid.codegen.equations.program import Program
 from symid.codegen.numpyprint import numpy_functions
-from symid.codegen.program import Program
 from symid.codegen.shipped import shipped_source
 from symid.codegen.source import fingerprint, print_source, structure
 from symid.errors import CodegenError

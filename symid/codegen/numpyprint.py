@@ -9,10 +9,10 @@ import numpy as np
 import sympy as sm
 
 from symid.codegen.build import load_library
-from symid.codegen.cprint import PATTERNS, Statements
 from symid.codegen.derive import Derived
-from symid.codegen.graph import FOREIGN, POINT, UNIFORM, Graph, foreign_name
-from symid.codegen.lower import lower
+from symid.codegen.straight_line.cprint import PATTERNS, Statements
+from symid.codegen.straight_line.graph import FOREIGN, POINT, UNIFORM, Graph, foreign_name
+from symid.codegen.straight_line.lower import lower
 
 NUMPY_PATTERNS = PATTERNS | {
     "not": "np.logical_not({})",

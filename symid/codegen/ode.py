@@ -16,8 +16,8 @@ from pathlib import Path
 import numpy as np
 import sympy as sm
 
-from symid.codegen.cprint import c_statements, c_statements_of_two, foreign_text
 from symid.codegen.numpyprint import python_function
+from symid.codegen.straight_line.cprint import c_statements, c_statements_of_two, foreign_text
 from symid.errors import CodegenError
 from symid.model import TIME, Model, c_texts, explicit, symbol
 

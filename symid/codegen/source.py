@@ -6,10 +6,10 @@ import hashlib
 import json
 from dataclasses import dataclass
 
-from symid.codegen.cprint import PREAMBLE, Statements, foreign_text
 from symid.codegen.derive import Derived, derive, lowered
-from symid.codegen.graph import POINT, UNIFORM, Graph
-from symid.codegen.program import Program
+from symid.codegen.equations.program import Program
+from symid.codegen.straight_line.cprint import PREAMBLE, Statements, foreign_text
+from symid.codegen.straight_line.graph import POINT, UNIFORM, Graph
 
 FORMAT = 1  # of the sources: a new number makes every fingerprint new
 

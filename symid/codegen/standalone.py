@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import sympy as sm
 
-from symid.codegen.cprint import Statements, c_statements, foreign_text, number
-from symid.codegen.graph import UNIFORM, Graph
-from symid.codegen.lower import lower
 from symid.codegen.numpyprint import NUMPY_PATTERNS
+from symid.codegen.straight_line.cprint import Statements, c_statements, foreign_text, number
+from symid.codegen.straight_line.graph import UNIFORM, Graph
+from symid.codegen.straight_line.lower import lower
 from symid.errors import CodegenError
 from symid.model import TIME, Model, c_texts, explicit
 

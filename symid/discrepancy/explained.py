@@ -19,8 +19,8 @@ from symid.discrepancy.model.sizes import sizes_of
 from symid.discrepancy.model.suspects import Suspect, suspects as suspects_of
 from symid.discrepancy.name.error_model import with_error_model
 from symid.discrepancy.name.held import held_as_given
-from symid.discrepancy.name.jump import with_likeliest_jumps
 from symid.discrepancy.name.search import Search
+from symid.discrepancy.name.trial.jump import with_likeliest_jumps
 from symid.discrepancy.prove.certain import unsteady
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError

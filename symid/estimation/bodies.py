@@ -12,7 +12,7 @@ import numpy as np
 from symid.errors import DiagnosisError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.normal_equations import covariance_of, normal_equations
+from symid.estimation.fitting.gauss_newton.normal_equations import covariance_of, normal_equations
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import swing
 from symid.estimation.signals.windows import segments_of

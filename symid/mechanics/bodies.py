@@ -16,9 +16,9 @@ from types import SimpleNamespace
 import numpy as np
 import sympy as sm
 
-from symid.mechanics.missing.laws import coordinate_unit, friction_speed, give_unit
+from symid.mechanics.missing.laws.shared import coordinate_unit, friction_speed, give_unit
 from symid.model import Expression, Law, LawParameter, Model, Port
-from symid.model.dimensions import unit_of
+from symid.model.parts.dimensions import unit_of
 from symid.units import dimension, reduced
 
 ROLE = "body"

@@ -9,7 +9,7 @@ import numpy as np
 import sympy as sm
 
 from symid.model import Constant, Model, Parameter, Port
-from symid.model.dimensions import unit_of
+from symid.model.parts.dimensions import unit_of
 
 EQUAL = 1e-9
 """Numbers that differ by no more than so small a part are equal but for rounding."""

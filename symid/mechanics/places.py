@@ -16,11 +16,11 @@ from symid.errors import ModelError
 from symid.mechanics.bodies import bodies
 from symid.mechanics.elements import element_ports
 from symid.mechanics.flows import flow_ports
-from symid.mechanics.missing.laws import force_unit
-from symid.mechanics.missing.pair_laws import ROLE as PAIR
-from symid.mechanics.missing.stated import stated
+from symid.mechanics.missing.laws.pair import ROLE as PAIR
+from symid.mechanics.missing.laws.shared import force_unit
+from symid.mechanics.missing.laws.stated import stated
 from symid.model import Input, Model, Output, Port, State
-from symid.model.dimensions import unit_of
+from symid.model.parts.dimensions import unit_of
 from symid.units import dimension
 
 ROLES = ("joint", "link", "balance")

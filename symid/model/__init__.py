@@ -1,9 +1,12 @@
 """What we believe about a system: named parts, implicit residuals, conditions, and terms to add to them."""
 
-from symid.model.c_function import CFunction, c_function, c_texts
-from symid.model.component import Component
-from symid.model.conditions import Boundary, Constraint, Objective, Row
-from symid.model.declare import (
+from symid.model.expressions.c_function import CFunction, c_function, c_texts
+from symid.model.expressions.quantity import free_symbols, initial, symbol, terminal
+from symid.model.expressions.table import table
+from symid.model.model import TIME, Model
+from symid.model.parts.component import Component
+from symid.model.parts.conditions import Boundary, Constraint, Objective, Row
+from symid.model.parts.declare import (
     WHITE,
     Algebraic,
     Constant,
@@ -19,12 +22,9 @@ from symid.model.declare import (
     Process,
     State,
 )
-from symid.model.kinds import parts_of, same_parts
-from symid.model.model import TIME, Model
-from symid.model.prior import LogNormal, Normal, Prior
-from symid.model.quantity import free_symbols, initial, symbol, terminal
+from symid.model.parts.kinds import parts_of, same_parts
+from symid.model.parts.prior import LogNormal, Normal, Prior
 from symid.model.shown import as_shown, shown_states
-from symid.model.table import table
 from symid.model.term import Law, LawParameter, Term
 from symid.model.variants import explicit
 

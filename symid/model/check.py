@@ -11,8 +11,10 @@ import sympy as sm
 
 from symid.checked import nearest, shown
 from symid.errors import ModelError, SymidError
-from symid.model.conditions import Boundary, Constraint, Objective
-from symid.model.declare import (
+from symid.model.expressions.quantity import free_symbols, initial, terminal
+from symid.model.model import TIME, Model
+from symid.model.parts.conditions import Boundary, Constraint, Objective
+from symid.model.parts.declare import (
     HOLDS,
     NOISE_HOLDS,
     Algebraic,
@@ -28,10 +30,8 @@ from symid.model.declare import (
     Process,
     State,
 )
-from symid.model.dimensions import Mismatch, dimension_of, dimensions_of_symbols
-from symid.model.model import TIME, Model
-from symid.model.prior import LogNormal, Normal, Prior
-from symid.model.quantity import free_symbols, initial, terminal
+from symid.model.parts.dimensions import Mismatch, dimension_of, dimensions_of_symbols
+from symid.model.parts.prior import LogNormal, Normal, Prior
 from symid.units import dimension, known_unit
 
 FAR = 5.0

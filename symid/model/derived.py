@@ -11,9 +11,9 @@ import sympy as sm
 from symid import checked
 from symid.errors import ModelError
 from symid.model import variants
-from symid.model.component import Component
-from symid.model.declare import Bounds, Equation, Expression, Output, Port
-from symid.model.quantity import Operand, refuse_calculus, sympified
+from symid.model.expressions.quantity import Operand, refuse_calculus, sympified
+from symid.model.parts.component import Component
+from symid.model.parts.declare import Bounds, Equation, Expression, Output, Port
 
 if TYPE_CHECKING:
     from symid.model.model import Model

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 import sympy as sm
 from sympy.printing.repr import ReprPrinter
 
-from symid.model.c_function import c_texts
-from symid.model.conditions import Boundary, Constraint, Objective
+from symid.model.expressions.c_function import c_texts
+from symid.model.parts.conditions import Boundary, Constraint, Objective
 
 if TYPE_CHECKING:
     from symid.model.model import Model

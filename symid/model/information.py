@@ -15,9 +15,9 @@ from math import inf
 import numpy as np
 import sympy as sm
 
-from symid.model.conditions import Boundary, Objective
-from symid.model.declare import Constant, Control, Equation, Parameter, State
 from symid.model.model import Model
+from symid.model.parts.conditions import Boundary, Objective
+from symid.model.parts.declare import Constant, Control, Equation, Parameter, State
 
 RATE, TAKEN, EIGENVALUE = "sampling_rate", "samples_taken", "least_eigenvalue"
 SMALLEST = 1e-8

@@ -10,14 +10,14 @@ import sympy as sm
 
 from symid import checked
 from symid.errors import ModelError
-from symid.model.attach import completed, hint, refuse_wrong_types
-from symid.model.component import Component
-from symid.model.declare import Algebraic, Constant, Control, Delay, Equation, Input, Output, Parameter, State
 from symid.model.derived import Derived
+from symid.model.expressions.quantity import Operand, free_symbols, symbol, sympified
 from symid.model.fingerprint import fingerprint_of
-from symid.model.kinds import KEPT, Kinds, kept
-from symid.model.made import Copies
-from symid.model.quantity import Operand, free_symbols, symbol, sympified
+from symid.model.parts.attach import completed, hint, refuse_wrong_types
+from symid.model.parts.component import Component
+from symid.model.parts.declare import Algebraic, Constant, Control, Delay, Equation, Input, Output, Parameter, State
+from symid.model.parts.kinds import KEPT, Kinds, kept
+from symid.model.parts.made import Copies
 
 if TYPE_CHECKING:
     from symid.model.term import Term

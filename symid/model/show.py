@@ -8,9 +8,9 @@ from math import inf
 
 import sympy as sm
 
-from symid.model.conditions import Boundary, Constraint, Objective
+from symid.model.expressions.quantity import initial, symbol, terminal
 from symid.model.model import TIME, Model
-from symid.model.quantity import initial, symbol, terminal
+from symid.model.parts.conditions import Boundary, Constraint, Objective
 
 LINE = 90
 """Characters of one line of an equation that are seen, about a notebook's width."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sympy as sm
 
-from symid.model.declare import State
 from symid.model.model import Model
+from symid.model.parts.declare import State
 
 
 def as_shown(model: Model) -> Model:

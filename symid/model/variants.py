@@ -11,8 +11,8 @@ import sympy as sm
 
 from symid import checked
 from symid.errors import ModelError
-from symid.model.component import Component
-from symid.model.declare import (
+from symid.model.parts.component import Component
+from symid.model.parts.declare import (
     Algebraic,
     Bounds,
     Constant,

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from symid.codegen import compile_program
-from symid.codegen.balance import balance_program
-from symid.codegen.rates import late_of
+from symid.codegen.equations.balance import balance_program
+from symid.codegen.equations.rates import late_of
 from symid.model import Model, shown_states
 from symid.plausibility.motion import Motion, low_pass
 from symid.units import FloatArray

@@ -11,7 +11,7 @@ from symid.discrepancy.say.names import law_name, place_name
 from symid.discrepancy.say.rest import rest_words
 from symid.files import write_atomically
 from symid.identification.fit import common_unit, rms_text
-from symid.mechanics.missing.laws import parameter_name
+from symid.mechanics.missing.laws.shared import parameter_name
 from symid.mechanics.missing.spline_law import FLEXIBLE
 from symid.model.show import latex_lines
 from symid.plots import plot_before_after, plot_latent, plot_rest, plot_scores, plot_spectra

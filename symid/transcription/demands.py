@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from symid.codegen import Kernel, Program, compile_program
-from symid.codegen.conditions import (
+from symid.codegen.equations.conditions import (
     end_penalties,
     end_rows,
     ends_program,
@@ -24,7 +24,7 @@ from symid.codegen.conditions import (
     running_program,
     terminal_objective,
 )
-from symid.codegen.symbols import node_symbols
+from symid.codegen.equations.symbols import node_symbols
 from symid.errors import TranscriptionError
 from symid.model import Model, Row, initial, terminal
 from symid.transcription.block import Block

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from symid.codegen import compile_program
-from symid.codegen.balance import shown_program
+from symid.codegen.equations.balance import shown_program
 from symid.model import Model
 from symid.transcription.guesses import parameter_guesses
 

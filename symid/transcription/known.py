@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 
 from symid.codegen import Kernel
-from symid.codegen.interval import equations_over
+from symid.codegen.equations.interval import equations_over
+from symid.codegen.equations.symbols import own_points, used_data
 from symid.codegen.ode import UNSTATED
-from symid.codegen.symbols import own_points, used_data
 from symid.model import Model
 from symid.transcription.data import Measured
 from symid.transcription.guesses import guesses

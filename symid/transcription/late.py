@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from symid.codegen.interval import late_signals
+from symid.codegen.equations.interval import late_signals
 from symid.errors import TranscriptionError
 from symid.model import Model, free_symbols
 from symid.transcription.data import Measured, spline

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from symid.codegen.stencil import Stencil
+from symid.codegen.equations.stencil import Stencil
 from symid.errors import TranscriptionError
 
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from symid.codegen import Kernel
-from symid.codegen.interval import late_signals
+from symid.codegen.equations.interval import late_signals
 from symid.model import Model
 from symid.transcription.data import Measured
 from symid.transcription.guesses import first_guess, parameter_guesses

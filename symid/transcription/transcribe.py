@@ -10,9 +10,9 @@ import numpy as np
 
 from symid.checked import nearest
 from symid.codegen import compile_program
-from symid.codegen.interval import interval_program, late_signals, objective_program
-from symid.codegen.rates import with_rates_solved
-from symid.codegen.symbols import algebraics_at_nodes, own_points
+from symid.codegen.equations.interval import interval_program, late_signals, objective_program
+from symid.codegen.equations.rates import with_rates_solved
+from symid.codegen.equations.symbols import algebraics_at_nodes, own_points
 from symid.errors import TranscriptionError
 from symid.model import Model
 from symid.nlp import NonlinearProgram

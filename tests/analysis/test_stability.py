@@ -15,7 +15,7 @@ from symid.analysis.eigenvalues import complete, growth
 from symid.analysis.forward import Drive, forward_rms
 from symid.analysis.points import grid
 from symid.codegen import compile_program
-from symid.codegen.rates import slopes_program, step_program
+from symid.codegen.equations.rates import slopes_program, step_program
 from symid.errors import CodegenError, ModelError
 from symid.identification import Solution
 from symid.mechanics import PD, Chain, DoubleLinkPendulum, FullStatePD, NeuralNetwork

@@ -22,7 +22,7 @@ from kernels import (
 )
 
 from symid.codegen import Program, compile_program, kernel
-from symid.codegen.interval import interval_program, objective_program
+from symid.codegen.equations.interval import interval_program, objective_program
 from symid.codegen.shipped import shipped_source
 from symid.codegen.source import generate
 from symid.errors import CodegenError

@@ -10,7 +10,7 @@ from scipy.signal import butter, filtfilt
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.fitting.normal_equations import normal_equations
+from symid.estimation.fitting.gauss_newton.normal_equations import normal_equations
 from symid.estimation.fitting.path import fitted_path
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.data import Data

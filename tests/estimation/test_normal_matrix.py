@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from symid.estimation.fitting.normal_equations import covariance_of
+from symid.estimation.fitting.gauss_newton.normal_equations import covariance_of
 
 UNITS = np.array([1e-9, 1.0, 1e120])
 

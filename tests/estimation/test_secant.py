@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from symid.estimation.fitting.secant import Secant
+from symid.estimation.fitting.gauss_newton.secant import Secant
 
 RNG = np.random.default_rng(2)
 TRUE = np.diag([5.0, 2.0, 1.0]) + 0.3

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from symid.estimation.fitting.step import damped_step
+from symid.estimation.fitting.gauss_newton.step import damped_step
 
 
 def normal(rng, shared, segments, states, unseen=0):

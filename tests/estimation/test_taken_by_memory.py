@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from symid.estimation.fitting.memory import Memory
+from symid.estimation.fitting.gauss_newton.memory import Memory
 from symid.estimation.sensors.whitening import past_of
 
 

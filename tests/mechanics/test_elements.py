@@ -6,7 +6,7 @@ import sympy as sm
 from hypothesis import given, strategies as st
 
 import symid as si
-from symid.mechanics.missing.laws import coordinate_unit
+from symid.mechanics.missing.laws.shared import coordinate_unit
 from symid.mechanics.places import with_places
 
 LEVER = 1.2

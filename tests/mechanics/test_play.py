@@ -5,8 +5,8 @@ import sympy as sm
 
 import symid as si
 from symid.mechanics import LIBRARY
-from symid.mechanics.missing.laws import port_at
-from symid.mechanics.missing.stop_laws import stiffness
+from symid.mechanics.missing.laws.shared import port_at
+from symid.mechanics.missing.laws.stop import stiffness
 from symid.mechanics.places import with_places
 
 

@@ -12,7 +12,7 @@ from symid.cases.case import parts_of, with_base_acceleration
 from symid.cli import main
 from symid.discrepancy import Suspect, diagnose, suspects
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.name.comb import comb
+from symid.discrepancy.name.trial.comb import comb
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data

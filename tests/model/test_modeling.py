@@ -6,7 +6,7 @@ from conftest import pendulum, pendulum_recording
 
 import symid as si
 from symid.errors import ModelError
-from symid.model.quantity import sympified
+from symid.model.expressions.quantity import sympified
 
 
 def test_a_freed_constant_is_identified_from_its_value_as_a_guess():

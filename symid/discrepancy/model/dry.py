@@ -9,7 +9,7 @@ import numpy as np
 
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.swings import swing
-from symid.mechanics.missing.laws import coordinate_unit
+from symid.mechanics.missing.laws.shared import coordinate_unit
 from symid.mechanics.places import coordinate
 from symid.model import Constant, Model, Port
 

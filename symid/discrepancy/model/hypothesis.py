@@ -19,7 +19,7 @@ from symid.estimation.fitting.path import along, fitted_signals
 from symid.estimation.sensors.independence import independent_share, price_of_one
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import period
-from symid.mechanics.missing.laws import port_at
+from symid.mechanics.missing.laws.shared import port_at
 from symid.model import LawParameter
 from symid.simulation import Simulator
 

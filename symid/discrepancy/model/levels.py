@@ -8,7 +8,7 @@ import numpy as np
 
 from symid.discrepancy.model.dry import WIDER, shown
 from symid.estimation.signals.segment import Segment
-from symid.mechanics.missing.flow_laws import level_unit
+from symid.mechanics.missing.laws.flow import level_unit
 from symid.model import Constant, Model, Port
 
 NEAR_ZERO = 2e-3

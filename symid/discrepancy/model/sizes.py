@@ -13,7 +13,7 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.path import fitted_path
 from symid.estimation.signals.data import Data
 from symid.mechanics.feedback import torques_along
-from symid.mechanics.missing.laws import coordinate_unit
+from symid.mechanics.missing.laws.shared import coordinate_unit
 from symid.model import Model, Port
 
 REACHES, REACH = (0.003, 3.0), 0.1

@@ -15,12 +15,12 @@ from symid.errors import ModelError
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.mechanics import CANONICAL, suspects as terms_of
-from symid.mechanics.missing.drive_laws import LAG_LAWS, OFFSET_LAWS, has_own_zero
-from symid.mechanics.missing.flow_laws import FLOW_LAWS
-from symid.mechanics.missing.late_laws import LOOP_LAWS
-from symid.mechanics.missing.sensor_laws import SENSOR_LAWS
-from symid.mechanics.missing.stated import STATED_LAWS
-from symid.mechanics.missing.world_laws import GEOMETRY_LAWS
+from symid.mechanics.missing.laws.drive import LAG_LAWS, OFFSET_LAWS, has_own_zero
+from symid.mechanics.missing.laws.flow import FLOW_LAWS
+from symid.mechanics.missing.laws.late import LOOP_LAWS
+from symid.mechanics.missing.laws.sensor import SENSOR_LAWS
+from symid.mechanics.missing.laws.stated import STATED_LAWS
+from symid.mechanics.missing.laws.world import GEOMETRY_LAWS
 from symid.mechanics.places import with_places
 from symid.model import Law, LawParameter, Model, Term
 

@@ -19,9 +19,9 @@ from math import inf, log
 
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
 from symid.discrepancy.name.equivalents import equivalents
-from symid.discrepancy.name.explore import by_score
 from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
+from symid.discrepancy.name.trial.explore import by_score
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of

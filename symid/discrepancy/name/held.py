@@ -14,7 +14,7 @@ from math import inf
 
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, is_near, most_believed
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.name.jump import with_jumps_again
+from symid.discrepancy.name.trial.jump import with_jumps_again
 from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of, input_groups, with_likeliest_holds
 from symid.estimation.fitting.cold_start import fit_model

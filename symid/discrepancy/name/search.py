@@ -12,14 +12,14 @@ from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
 from symid.discrepancy.model.families import LOSSES
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.name.explore import by_score, exact_where_leading, explore, least_near
 from symid.discrepancy.name.held import Holds
 from symid.discrepancy.name.instead import as_two, exchanges, simpler_than_best, without_halves
 from symid.discrepancy.name.judge import Judge
-from symid.discrepancy.name.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
-from symid.discrepancy.name.scan import promising
-from symid.discrepancy.name.starts import Start
 from symid.discrepancy.name.stated_together import is_stated, stated_together
+from symid.discrepancy.name.trial.explore import by_score, exact_where_leading, explore, least_near
+from symid.discrepancy.name.trial.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
+from symid.discrepancy.name.trial.scan import promising
+from symid.discrepancy.name.trial.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.between_samples import with_holds_of, with_likeliest_holds
 from symid.estimation.measurement import has_settled

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis, is_met
-from symid.discrepancy.name.jump import with_jumps_of
 from symid.discrepancy.name.search import Search
+from symid.discrepancy.name.trial.jump import with_jumps_of
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.between import otherwise, widened
 from symid.discrepancy.prove.certain import beyond_chance, honest

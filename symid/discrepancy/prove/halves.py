@@ -11,7 +11,7 @@ import numpy as np
 from symid.discrepancy.locate.remainder import remainder
 from symid.discrepancy.model.hypothesis import penalty, refit
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.name.explore import explore
+from symid.discrepancy.name.trial.explore import explore
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter

@@ -29,7 +29,7 @@ from symid.estimation.free_run import FreeRun
 from symid.estimation.signals.data import Data
 from symid.files import write_atomically
 from symid.identification.fit import common_unit
-from symid.mechanics.missing.laws import parameter_name
+from symid.mechanics.missing.laws.shared import parameter_name
 from symid.model import Model
 from symid.units import column_name
 

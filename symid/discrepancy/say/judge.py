@@ -12,8 +12,8 @@ from symid.discrepancy.locate.remainder import Test, located
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.equivalents import equivalents
-from symid.discrepancy.name.scan import moment_profile
 from symid.discrepancy.name.search import Search
+from symid.discrepancy.name.trial.scan import moment_profile
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.evidence import Evidence, near_noise
 from symid.discrepancy.say.diagnosis import Effect

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.fit import Fit
-from symid.mechanics.missing.laws import coordinate_unit
+from symid.mechanics.missing.laws.shared import coordinate_unit
 from symid.model import Model
 from symid.units import quantity
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.normal_equations import covariance_of, normal_equations
-from symid.estimation.fitting.secant import Secant
-from symid.estimation.fitting.step import damped_step
+from symid.estimation.fitting.gauss_newton.normal_equations import covariance_of, normal_equations
+from symid.estimation.fitting.gauss_newton.secant import Secant
+from symid.estimation.fitting.gauss_newton.step import damped_step
 from symid.estimation.fitting.unseen_forces import likelier_forces
 from symid.estimation.predicting.growth import growth, runs_away
 from symid.estimation.predicting.refining import Refining

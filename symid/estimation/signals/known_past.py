@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from symid.estimation.signals.segment import Segment
-from symid.mechanics.missing.drive_laws import INPUT_DELAY
+from symid.mechanics.missing.laws.drive import INPUT_DELAY
 from symid.model import Model
 
 LATEST = INPUT_DELAY.bounds[1]

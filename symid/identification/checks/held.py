@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symid.codegen.symbols import used_data
+from symid.codegen.equations.symbols import used_data
 from symid.errors import SymidError
 from symid.units import rough
 

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from symid.codegen import compile_program
-from symid.codegen.interval import output_program
+from symid.codegen.equations.interval import output_program
 from symid.errors import SolveError
 from symid.transcription import Transcription
 

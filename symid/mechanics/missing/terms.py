@@ -7,16 +7,16 @@ from collections.abc import Mapping
 from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.bodies import BODY_LAWS
-from symid.mechanics.missing.drive_laws import DRIVE_LAWS, LAG_LAWS, OFFSET_LAWS
-from symid.mechanics.missing.feedback_laws import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
-from symid.mechanics.missing.flow_laws import FLOW_LAWS
-from symid.mechanics.missing.joint_laws import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
-from symid.mechanics.missing.late_laws import LATE_LAWS
-from symid.mechanics.missing.pair_laws import PAIR_LAWS
-from symid.mechanics.missing.sensor_laws import SENSOR_LAWS
-from symid.mechanics.missing.stated import STATED_LAWS
-from symid.mechanics.missing.stop_laws import STOP_LAWS
-from symid.mechanics.missing.world_laws import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
+from symid.mechanics.missing.laws.drive import DRIVE_LAWS, LAG_LAWS, OFFSET_LAWS
+from symid.mechanics.missing.laws.feedback import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
+from symid.mechanics.missing.laws.flow import FLOW_LAWS
+from symid.mechanics.missing.laws.joint import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
+from symid.mechanics.missing.laws.late import LATE_LAWS
+from symid.mechanics.missing.laws.pair import PAIR_LAWS
+from symid.mechanics.missing.laws.sensor import SENSOR_LAWS
+from symid.mechanics.missing.laws.stated import STATED_LAWS
+from symid.mechanics.missing.laws.stop import STOP_LAWS
+from symid.mechanics.missing.laws.world import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
 from symid.model import Law, Model, Term
 
 CANONICAL: tuple[str, ...] = tuple(law.name for law in (*FEEDBACK_LAWS, *JOINT_LAWS, *LINK_LAWS, *WORLD_LAWS))

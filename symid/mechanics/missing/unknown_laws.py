@@ -10,7 +10,7 @@ from collections.abc import Mapping
 
 import sympy as sm
 
-from symid.mechanics.missing.laws import effort_law, port_at, time_derivative
+from symid.mechanics.missing.laws.shared import effort_law, port_at, time_derivative
 from symid.model import Equation, Law, LawParameter, Model, Port, State
 
 WAVE = 1.0

@@ -8,7 +8,7 @@ from scipy.signal import butter, filtfilt
 import symid as si
 from symid.discrepancy.model.dry import with_friction_speeds
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
-from symid.discrepancy.name.jump import with_sharp_jumps
+from symid.discrepancy.name.trial.jump import with_sharp_jumps
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between

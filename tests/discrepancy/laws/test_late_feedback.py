@@ -7,14 +7,14 @@ import sympy as sm
 import symid as si
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.hypothesis import hypothesis
-from symid.discrepancy.name.starts import starts_of
+from symid.discrepancy.name.trial.starts import starts_of
 from symid.errors import ModelError
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_of
 from symid.mechanics import LIBRARY
-from symid.mechanics.missing.late_laws import loop_force
-from symid.mechanics.missing.laws import port_at
+from symid.mechanics.missing.laws.late import loop_force
+from symid.mechanics.missing.laws.shared import port_at
 from symid.mechanics.places import with_places
 from symid.simulation import simulator
 

@@ -11,8 +11,8 @@ from scipy.ndimage import gaussian_filter1d
 
 import symid as si
 from symid.discrepancy.model.begun_anew import nowhere
-from symid.discrepancy.name import explore as exploring
-from symid.discrepancy.name.starts import Start
+from symid.discrepancy.name.trial import explore as exploring
+from symid.discrepancy.name.trial.starts import Start
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data

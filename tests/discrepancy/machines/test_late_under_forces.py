@@ -6,8 +6,8 @@ import pytest
 import symid as si
 from symid.discrepancy import Suspect
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.name.explore import explore
-from symid.discrepancy.name.starts import starts_of
+from symid.discrepancy.name.trial.explore import explore
+from symid.discrepancy.name.trial.starts import starts_of
 from symid.estimation.between_samples import with_likeliest_holds
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fit import Fit

@@ -14,7 +14,7 @@ from symid.conceal import conceal, draw_case, rig_facts, setup_from_facts
 from symid.discrepancy import suspects
 from symid.discrepancy.locate import flexible_law
 from symid.discrepancy.locate.flexible import flexible_fits, flexible_terms
-from symid.discrepancy.name.explore import explore
+from symid.discrepancy.name.trial.explore import explore
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fitter import Fitter

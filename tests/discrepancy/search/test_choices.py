@@ -7,8 +7,8 @@ import pytest
 from driven_cart import cart
 
 import symid.discrepancy.name.error_model as error_model
-import symid.discrepancy.name.explore as exploring
-import symid.discrepancy.name.scan as scanning
+import symid.discrepancy.name.trial.explore as exploring
+import symid.discrepancy.name.trial.scan as scanning
 from symid.discrepancy import Suspect
 from symid.discrepancy.name.error_model import _likeliest, _of_settled
 from symid.discrepancy.name.judge import Judge

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from driven_cart import cart, data_of, few, recorded
 
-import symid.discrepancy.name.explore as steps
-import symid.discrepancy.name.starts as begins
+import symid.discrepancy.name.trial.explore as steps
+import symid.discrepancy.name.trial.starts as begins
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.families import is_alike
 from symid.discrepancy.model.suspects import Suspect, suspects
-from symid.discrepancy.name.explore import explore
-from symid.discrepancy.name.scan import scan
+from symid.discrepancy.name.trial.explore import explore
+from symid.discrepancy.name.trial.scan import scan
 from symid.discrepancy.prove.nulls import false_alarm_probability, largest, null_maxima
 from symid.estimation.fitting.cold_start import fit_model
 from symid.mechanics import LIBRARY

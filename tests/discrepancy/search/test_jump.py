@@ -7,9 +7,9 @@ from driven_cart import SENSOR, TRUE, cart, data_of, recorded
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.dry import with_friction_speeds
 from symid.discrepancy.model.hypothesis import Hypothesis
-from symid.discrepancy.name import jump
-from symid.discrepancy.name.explore import explore
-from symid.discrepancy.name.jump import with_fitted_jumps
+from symid.discrepancy.name.trial import jump
+from symid.discrepancy.name.trial.explore import explore
+from symid.discrepancy.name.trial.jump import with_fitted_jumps
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between

@@ -8,8 +8,8 @@ from scipy.integrate import solve_ivp
 import symid as si
 from symid.discrepancy import Suspect
 from symid.discrepancy.model.dry import with_friction_speeds
-from symid.discrepancy.name.explore import explore
-from symid.discrepancy.name.short_pieces import ShortPieces
+from symid.discrepancy.name.trial.explore import explore
+from symid.discrepancy.name.trial.short_pieces import ShortPieces
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.pieces import cut

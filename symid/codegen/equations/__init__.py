@@ -1,0 +1,1 @@
+"""A model's equations as Programs: over one interval, at one moment, for many states, and its conditions."""

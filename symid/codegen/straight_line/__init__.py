@@ -1,0 +1,1 @@
+"""Straight-line programs: SymPy expressions as numbered operations, and these as C."""
