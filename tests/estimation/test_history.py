@@ -5,6 +5,8 @@ import pytest
 
 import symid as si
 from symid.estimation.predicting.history import states_before
+from symid.estimation.predicting.predictor import Predictor
+from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.simulation import simulator
 
@@ -12,14 +14,18 @@ STEP, LAG = 0.005, 0.06
 VALUES = {"k": 40.0, "d": 3.0}
 
 
-def late_arm(hold: str) -> si.Model:
+def late_arm(hold: str, gusts: bool = False) -> si.Model:
     """A mass that is pulled back by what its place and its speed were some time ago, towards an input."""
     m = si.Model("late arm")
     m.x, m.v = si.State(unit="m"), si.State(unit="m/s")
     m.to = si.Input(unit="m", hold=hold)
     m.k, m.d = si.Parameter(unit="1/s^2"), si.Parameter(unit="1/s")
     m.kinematics = si.Equation(m.x.dot - m.v)
-    m.balance = si.Equation(m.v.dot + m.k * (m.delayed(m.x, LAG) - m.to) + m.d * m.delayed(m.v, LAG) + m.v)
+    rate = m.v.dot + m.k * (m.delayed(m.x, LAG) - m.to) + m.d * m.delayed(m.v, LAG) + m.v
+    if gusts:
+        m.gusts = si.Noise(unit="m/s^2")
+        rate = rate - m.gusts
+    m.balance = si.Equation(rate)
     m.place = si.Output(m.x)
     return m
 
@@ -41,3 +47,19 @@ def test_a_jump_of_the_input_just_before_a_window_is_in_its_past(hold, begin):
     scale = np.abs(run.x).max(axis=0)
     np.testing.assert_array_less(np.abs(x - truth)[late] / scale, 2e-3)
     np.testing.assert_array_equal(x[-1], run.x[begin])
+
+
+def test_a_fast_motion_under_random_forces_has_a_past_too():
+    """Were it held at its first value, samples would miss by up to 0.46 m."""
+    model, time = late_arm("linear", gusts=True), np.arange(600) * STEP
+    to, gusts = 5 * np.sin(8 * time), np.random.default_rng(0).standard_normal(600)
+    sim = simulator(model)
+    run = sim.simulate(VALUES, np.zeros(2), time, {"to": to}, noise={"gusts": gusts}, substeps=4)
+    p = np.array([VALUES[k] for k in sim.parameters])
+    for begin in range(300, 400, 25):
+        segment = Segment(time, run.y, {"to": to}).part(slice(begin, begin + 36))
+        predictor = Predictor(model, Data((segment,), np.full(1, 1e-3), True), substeps=4)
+        start = run.x[[begin]]
+        gain = predictor.kalman_gain(p, np.array([STEP**0.5]), run.x)
+        (missed,) = predictor.innovations(predictor.run(p, start, gain, False))
+        assert np.abs(missed).max() < 0.03

@@ -105,10 +105,10 @@ class Predictor:
         return ((linear.C_late != 0) * of_states).max(axis=1, initial=0.0), of_states.max(initial=0.0)
 
     def _history(self, p, start, segment: Segment, lag: float):
-        """States just before a segment of a motion without random forces, where something reads them late."""
-        if self.driven or lag <= 0:
+        """States just before a segment, where something reads them late."""
+        if lag <= 0:
             return None
-        return states_before(self.sim, p, start, segment, lag, self.data.pace, self.steps)
+        return states_before(self.sim, p, start, segment, lag, self.data.pace, self.steps, self.driven)
 
     def segments(self, process) -> tuple[Segment, ...]:
         """The segments at the sharpness that stands behind the noises in `process`."""

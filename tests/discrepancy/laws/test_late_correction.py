@@ -62,20 +62,32 @@ def test_a_late_correction_delays_what_is_told_and_what_is_observed_and_no_loss(
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("law", "value", "seed"), [("late_correction", LATE_S, 3), ("correction_lag", 0.15, 2), ("", 0.0, 2)]
+    ("law", "value", "seed", "within"),
+    [
+        ("late_correction", LATE_S, 3, 1),
+        ("late_correction", LATE_S, 2, 10),
+        ("correction_lag", 0.15, 2, 1),
+        ("", 0.0, 2, 1),
+    ],
 )
-def test_the_reaction_time_of_a_person_who_follows_a_target_is_found(law, value, seed):
-    model, values, time = with_places(tracker()), {"gain": GAIN}, np.arange(DURATION_S * RATE_HZ) / RATE_HZ
+def test_the_reaction_time_of_a_person_who_follows_a_target_is_found(law, value, seed, within):
+    """Its random speeds last for a sample, or for a part of one: so many `within` it."""
+    model, values = with_places(tracker()), {"gain": GAIN}
+    time = np.arange(DURATION_S * RATE_HZ * within) / (RATE_HZ * within)
     if law:
         term = LIBRARY[law].at("cursor")
         model, values = model.with_term(term), values | {term.parameter_name(term.law.parameters[0].key): value}
     phases = np.random.default_rng(0).uniform(0, 2 * np.pi, len(FREQUENCIES_HZ))
     target = sum(np.sin(2 * np.pi * f * time + p) for f, p in zip(FREQUENCIES_HZ, phases, strict=True))
-    rng, gusts = np.random.default_rng(seed + 100), REMNANT * np.random.default_rng(seed).standard_normal(len(time))
+    rng, gusts = (
+        np.random.default_rng(seed + 100),
+        within**0.5 * REMNANT * np.random.default_rng(seed).standard_normal(len(time)),
+    )
     run = simulator(model).simulate(
         values, np.zeros(len(model.states)), time, {"target": target}, noise={"remnant": gusts}
     )
-    cursor = run.y[:, 0] + 2e-3 * rng.standard_normal(len(time))
+    time, target = time[::within], target[::within]
+    cursor = run.y[::within, 0] + 2e-3 * rng.standard_normal(len(time))
     recording = si.Recording(
         "tracker", time, {"cursor": cursor, "target": target}, units={"cursor": "m", "target": "m"}
     )
