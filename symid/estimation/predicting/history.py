@@ -39,7 +39,7 @@ def states_before(
     p, start : (q,) parameters and (n,) states where the segment begins, SI.
     lag : how late the states are read at most [s]. pace : of the motion [s], as of `Data`.
     steps : how the integrator steps, as `Simulator.simulate` takes it.
-    driven : whether random forces act: what they did before is not known, so neither is what is gained by care.
+    driven : whether random forces act. What they did before the segment is not known, so one step is as good as two.
     """
     x = segment.head(3).simulate(simulator, p, start, keep="states", **steps).x
     if not np.isfinite(x).all():
