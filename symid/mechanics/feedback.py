@@ -17,7 +17,7 @@ import sympy as sm
 from symid.errors import ModelError
 from symid.mechanics.chains.link import subscripts
 from symid.model import Equation, Expression, Model, Parameter, State
-from symid.model.parts.declare import Bounds
+from symid.model.parts.quantities import Bounds
 
 GAIN_BOUND = 5000.0
 """Bound of gains [N m/rad, N m s/rad] (Wang & van den Bogert 2020)."""

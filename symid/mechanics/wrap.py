@@ -12,7 +12,7 @@ from sympy.core.function import AppliedUndef
 from symid.checked import nearest
 from symid.errors import ModelError
 from symid.model import TIME, Component, Constant, Equation, Input, Model, Output, Parameter, Port, State
-from symid.model.parts.declare import Bounds
+from symid.model.parts.quantities import Bounds
 
 if TYPE_CHECKING:  # takes a quarter of a second to import, and whoever has such an object has it imported
     from sympy.physics.mechanics import KanesMethod, LagrangesMethod, System

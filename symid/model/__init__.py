@@ -6,24 +6,10 @@ from symid.model.expressions.table import table
 from symid.model.model import TIME, Model
 from symid.model.parts.component import Component
 from symid.model.parts.conditions import Boundary, Constraint, Objective, Row
-from symid.model.parts.declare import (
-    WHITE,
-    Algebraic,
-    Constant,
-    Control,
-    Delay,
-    Equation,
-    Expression,
-    Input,
-    Noise,
-    Output,
-    Parameter,
-    Port,
-    Process,
-    State,
-)
+from symid.model.parts.equations import Delay, Equation, Expression, Output, Port
 from symid.model.parts.kinds import parts_of, same_parts
 from symid.model.parts.prior import LogNormal, Normal, Prior
+from symid.model.parts.quantities import WHITE, Algebraic, Constant, Control, Input, Noise, Parameter, Process, State
 from symid.model.shown import as_shown, shown_states
 from symid.model.term import Law, LawParameter, Term
 from symid.model.variants import explicit

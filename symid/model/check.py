@@ -14,24 +14,21 @@ from symid.errors import ModelError, SymidError
 from symid.model.expressions.quantity import free_symbols, initial, terminal
 from symid.model.model import TIME, Model
 from symid.model.parts.conditions import Boundary, Constraint, Objective
-from symid.model.parts.declare import (
+from symid.model.parts.dimensions import Mismatch, dimension_of, dimensions_of_symbols
+from symid.model.parts.equations import Equation, Expression, Output, Port
+from symid.model.parts.prior import LogNormal, Normal, Prior
+from symid.model.parts.quantities import (
     HOLDS,
     NOISE_HOLDS,
     Algebraic,
     Constant,
     Control,
-    Equation,
-    Expression,
     Input,
     Noise,
-    Output,
     Parameter,
-    Port,
     Process,
     State,
 )
-from symid.model.parts.dimensions import Mismatch, dimension_of, dimensions_of_symbols
-from symid.model.parts.prior import LogNormal, Normal, Prior
 from symid.units import dimension, known_unit
 
 FAR = 5.0

@@ -13,7 +13,8 @@ from symid.errors import ModelError
 from symid.model import variants
 from symid.model.expressions.quantity import Operand, refuse_calculus, sympified
 from symid.model.parts.component import Component
-from symid.model.parts.declare import Bounds, Equation, Expression, Output, Port
+from symid.model.parts.equations import Equation, Expression, Output, Port
+from symid.model.parts.quantities import Bounds
 
 if TYPE_CHECKING:
     from symid.model.model import Model

@@ -17,7 +17,8 @@ import sympy as sm
 
 from symid.model.model import Model
 from symid.model.parts.conditions import Boundary, Objective
-from symid.model.parts.declare import Constant, Control, Equation, Parameter, State
+from symid.model.parts.equations import Equation
+from symid.model.parts.quantities import Constant, Control, Parameter, State
 
 RATE, TAKEN, EIGENVALUE = "sampling_rate", "samples_taken", "least_eigenvalue"
 SMALLEST = 1e-8

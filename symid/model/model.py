@@ -15,9 +15,10 @@ from symid.model.expressions.quantity import Operand, free_symbols, symbol, symp
 from symid.model.fingerprint import fingerprint_of
 from symid.model.parts.attach import completed, hint, refuse_wrong_types
 from symid.model.parts.component import Component
-from symid.model.parts.declare import Algebraic, Constant, Control, Delay, Equation, Input, Output, Parameter, State
+from symid.model.parts.equations import Delay, Equation, Output
 from symid.model.parts.kinds import KEPT, Kinds, kept
 from symid.model.parts.made import Copies
+from symid.model.parts.quantities import Algebraic, Constant, Control, Input, Parameter, State
 
 if TYPE_CHECKING:
     from symid.model.term import Term

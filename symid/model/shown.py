@@ -5,7 +5,7 @@ from __future__ import annotations
 import sympy as sm
 
 from symid.model.model import Model
-from symid.model.parts.declare import State
+from symid.model.parts.quantities import State
 
 
 def as_shown(model: Model) -> Model:

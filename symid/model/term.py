@@ -10,7 +10,7 @@ from types import SimpleNamespace
 from symid import checked
 from symid.errors import ModelError
 from symid.model.model import Model
-from symid.model.parts.declare import Bounds, Parameter
+from symid.model.parts.quantities import Bounds, Parameter
 
 
 @dataclass(frozen=True)

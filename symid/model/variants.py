@@ -12,19 +12,8 @@ import sympy as sm
 from symid import checked
 from symid.errors import ModelError
 from symid.model.parts.component import Component
-from symid.model.parts.declare import (
-    Algebraic,
-    Bounds,
-    Constant,
-    Control,
-    Equation,
-    Expression,
-    Input,
-    Noise,
-    Output,
-    Parameter,
-    State,
-)
+from symid.model.parts.equations import Equation, Expression, Output
+from symid.model.parts.quantities import Algebraic, Bounds, Constant, Control, Input, Noise, Parameter, State
 
 if TYPE_CHECKING:
     from symid.model.model import Model

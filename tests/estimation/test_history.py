@@ -41,7 +41,7 @@ def test_a_jump_of_the_input_just_before_a_window_is_in_its_past(hold, begin):
     segment = Segment(time, run.y, {"to": to}).part(slice(begin, None))
     p = np.array([VALUES[k] for k in sim.parameters])
     steps = {"substeps": 4, "method": "rk4"}
-    before, x = states_before(sim, p, run.x[begin], segment, LAG, 1.0, steps)
+    before, x = states_before(sim, p, run.x[begin], segment, LAG, 1.0, steps, driven=False)
     late = before > time[begin] - LAG
     truth = np.column_stack([np.interp(before, time, column) for column in run.x.T])
     scale = np.abs(run.x).max(axis=0)

@@ -6,7 +6,7 @@ import pytest
 import symid as si
 from symid.identification.checks.held import said_of_inputs
 from symid.identification.checks.verify import integrated
-from symid.model.parts.declare import HOLDS
+from symid.model.parts.quantities import HOLDS
 from symid.simulation import simulator
 
 TRUTH = {"gain": 3.0, "rate": 2.0, "stiffness": 40.0}

@@ -28,7 +28,7 @@ def states_before(
     lag: float,
     pace: float,
     steps: dict,
-    driven: bool = False,
+    driven: bool,
 ) -> History | None:
     """(K,) times before a segment and (K, n) states; None where its motion is not finite.
 

@@ -13,8 +13,9 @@ from symid.errors import ModelError
 from symid.model.expressions.quantity import AlongTime, refuse_calculus, sympified
 from symid.model.parts.component import Component
 from symid.model.parts.conditions import Constraint, Objective
-from symid.model.parts.declare import Constant, Equation, Expression, Input, Output, Port
+from symid.model.parts.equations import Equation, Expression, Output, Port
 from symid.model.parts.letters import why_no_letters
+from symid.model.parts.quantities import Constant, Input
 
 if TYPE_CHECKING:
     from symid.model.model import Model

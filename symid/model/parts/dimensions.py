@@ -13,7 +13,7 @@ from symid.errors import SymidError
 from symid.model.expressions.c_function import CFunction
 from symid.model.expressions.quantity import symbol
 from symid.model.expressions.table import Piecewise as Curve
-from symid.model.parts.declare import Port
+from symid.model.parts.equations import Port
 from symid.units import base_unit, dimension, known_unit
 
 if TYPE_CHECKING:

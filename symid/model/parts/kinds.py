@@ -8,20 +8,8 @@ from typing import Any, TypeVar, cast
 
 from symid.model.parts.component import Component
 from symid.model.parts.conditions import Boundary, Constraint, Objective
-from symid.model.parts.declare import (
-    Algebraic,
-    Constant,
-    Control,
-    Equation,
-    Expression,
-    Input,
-    Noise,
-    Output,
-    Parameter,
-    Port,
-    Process,
-    State,
-)
+from symid.model.parts.equations import Equation, Expression, Output, Port
+from symid.model.parts.quantities import Algebraic, Constant, Control, Input, Noise, Parameter, Process, State
 
 Part = TypeVar("Part", bound=Component)
 Made = TypeVar("Made")
