@@ -14,10 +14,8 @@ from symid.estimation.between_samples import with_likeliest_holds
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.sensors.first_order import is_first_order
 from symid.estimation.sensors.sensor_noise import noise_before
 from symid.estimation.sensors.smoothing import Smoothing
-from symid.estimation.sensors.whitening import CLEARLY, is_coloured, longest_memory, remembered, whitening_of
 from symid.estimation.sensors.zero_phase import ZeroPhase
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.known_past import with_known_past
@@ -34,12 +32,6 @@ factor of 1.4 at most."""
 ENDS = 2.0
 """Periods of the cutoff at either end of a run in which a filter of order 2 still feels, by 1e-4, that nothing was
 recorded beyond."""
-QUIETER = 0.2
-"""Random forces begin so much smaller where noise is given a memory: before, they had to explain that, too."""
-BROAD = 2.0
-"""Errors of a motion that nothing random drives are noise only where what a sample adds to what earlier ones foretell
-is no smaller than they are by this factor. Noise that is half white and half of a memory of 50 ms has 1.4 at 250 Hz,
-what is left of a motion that is not met 2.7 and more (a tank in tests/discrepancy)."""
 
 
 def fits_of(
@@ -141,48 +133,6 @@ def sharpened_filter(fit: Fit, data: Data) -> ZeroPhase:
 def has_settled(fit: Fit, data: Data) -> bool:
     """Whether the cutoff that a fit likes is the one with which the filter was undone."""
     return not data.cutoff_free or abs(log(fit.process[len(fit.model.noises)])) < log(SETTLED)
-
-
-def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
-    """The data with noise that remembers as much as leaves white innovations, and the fit to them.
-
-    The same data and fit where the innovations are white already, or move too smoothly for noise. How many samples are
-    remembered is told by innovations, and then by fits with one more each, as long as BIC (Schwarz 1978) asks for it.
-    Colour that is too weak to tell is fitted where chance does not explain it, and must then be clearly likelier.
-    """
-    given, price = data, len(data.sensor_noise) ** 2 * log(data.samples)
-    while (memory := remembered(fit.innovations)) > data.memory and _may_remember(fit, memory):
-        data, fit = _remembering(fit, data, memory)
-    if data is given and not (is_coloured(fit.innovations, data.memory) and _may_remember(fit, data.memory + 1)):
-        return data, fit
-    least = price + (CLEARLY if data is given else 0.0)
-    while data.memory < longest_memory(fit.innovations):
-        more, better = _remembering(fit, data, data.memory + 1)
-        if better.loglik2 - fit.loglik2 <= least:
-            break
-        data, fit, least = more, better, price
-    return data, fit
-
-
-def _may_remember(fit: Fit, memory: int) -> bool:
-    """Whether errors of free runs look like noise that remembers, and not like a motion that is not met."""
-    return fit.kalman_gain is not None or _is_broad(fit, memory) or is_first_order(fit.innovations)
-
-
-def _remembering(fit: Fit, data: Data, memory: int) -> tuple[Data, Fit]:
-    """The data with noise that remembers so many samples, and the fit to them."""
-    fitter = Fitter.of(fit, data)
-    more = replace(data.sharpened(fitter.sharpness(fit.process)), sensor_noise=fitter.sensors(fit.process))
-    more = more.remembering(memory)
-    # The fit that took its innovations for white leaves the model something to correct, and then more to remember.
-    process = fit.process[: fitter.noises] * (1.0 if data.memory else QUIETER)
-    return more, Fitter.of(fit, more).fit(fit.values, fit.initial, process)
-
-
-def _is_broad(fit: Fit, memory: int) -> bool:
-    """Whether each sample of the errors holds something new, as noise does and a motion that is not met does not."""
-    new = np.diag(whitening_of(fit.innovations, memory).covariance)
-    return bool(np.all(np.mean(np.vstack(fit.innovations) ** 2, axis=0) < BROAD**2 * new))
 
 
 def _undone(

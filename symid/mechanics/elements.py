@@ -19,6 +19,8 @@ EQUAL = 1e-9
 class _Element:
     """What a stiffness or a damping multiplies: a linear expression of joints' positions or rates, and of inputs.
 
+    A natural length that a parameter states is part of it.
+
     Attributes
     ----------
     size : the stiffness or the damping. along : by the balance of each joint, how much its motion stretches that.
@@ -67,9 +69,10 @@ def _elements(
     name = next(iter(slopes))
     stretch = sm.expand(slopes[name].subs(known) * -joints[name].into[name])
     inputs = [u.symbol for u in model.inputs.values()]
+    lengths = {p.symbol for p in model.parameters.values()}
     for is_spring in (True, False):
         moving = {n: p.position if is_spring else p.rate for n, p in joints.items() if p.position != 0 or not is_spring}
-        if not stretch.free_symbols <= {*moving.values(), *inputs}:
+        if not stretch.free_symbols - lengths <= {*moving.values(), *inputs}:
             continue
         along = {n: sm.diff(stretch, x) for n, x in moving.items()}
         if not all(k.is_number for k in (*along.values(), *(sm.diff(stretch, u) for u in inputs))):

@@ -9,13 +9,16 @@ from driven_cart import SENSOR, TRUE, cart, data_of, few, finding, recorded
 from noises import autoregressive
 from scipy.signal import butter, filtfilt, lfilter
 
-from symid.estimation import measurement
+from symid.estimation import noise_memory
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.measurement import _is_broad, fits_of, with_memory
+from symid.estimation.measurement import fits_of
+from symid.estimation.noise_memory import _is_broad, _swings, with_memory
 from symid.estimation.sensors.cutoff import estimated_filter
 from symid.estimation.sensors.sensor_noise import noise_before
 from symid.estimation.sensors.whitening import Whitening, is_coloured, remembered
 from symid.estimation.sensors.zero_phase import ZeroPhase
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
 from symid.simulation import simulator
 
 STEP = 0.01
@@ -211,12 +214,22 @@ def test_fits_tell_how_much_is_remembered_where_innovations_tell_too_little(monk
         replace(recording, channels=dict(recording.channels) | {"position": recording["position"] + 2e-3 * wave})
     )
     white = fit_model(cart(), data)
-    monkeypatch.setattr(measurement, "remembered", lambda innovations: 1)
+    monkeypatch.setattr(noise_memory, "remembered", lambda innovations: 1)
     coloured, fit = with_memory(white, data)
     assert coloured.memory >= 2 and remembered(fit.remaining) == 0
-    monkeypatch.setattr(measurement, "remembered", lambda innovations: 0)
-    monkeypatch.setattr(measurement, "is_coloured", lambda innovations, memory: False)
+    monkeypatch.setattr(noise_memory, "remembered", lambda innovations: 0)
+    monkeypatch.setattr(noise_memory, "is_coloured", lambda innovations, memory: False)
     assert with_memory(white, data) == (data, white)
+
+
+def test_lags_are_added_as_long_as_chance_does_not_explain_what_is_left(monkeypatch):
+    """Each of several may explain less than its price, and all together far more than chance does."""
+    recording, rng = recorded(0, gust=0.02), np.random.default_rng(0)
+    wave = 2e-3 * lfilter([1.0], [1.0, -0.6], rng.standard_normal(len(recording)))
+    data = data_of(replace(recording, channels=dict(recording.channels) | {"position": recording["position"] + wave}))
+    white, asked = fit_model(cart(), data), []
+    monkeypatch.setattr(noise_memory, "is_coloured", lambda innovations, memory: asked.append(memory) or memory < 4)
+    assert with_memory(white, data)[0].memory == 4 and 3 in asked
 
 
 @pytest.mark.slow
@@ -250,6 +263,27 @@ def test_free_motion_takes_noise_that_remembers_for_noise_and_a_motion_that_is_n
     assert _is_broad(errors, remembered(errors.innovations))
     missed = SimpleNamespace(kalman_gain=None, process=np.zeros(0), innovations=((noise + 0.1 * swing)[:, None],))
     assert not _is_broad(missed, remembered(missed.innovations))
+
+
+@pytest.mark.parametrize(
+    ("rings_hz", "noise"),
+    [(1.1, False), (7.3, True), (None, True)],
+    ids=["where it swings", "a hum beyond its swings", "first order"],
+)
+def test_errors_that_stand_out_where_the_motion_is_are_no_noise(rings_hz, noise):
+    rng, step = np.random.default_rng(5), 0.01
+    time = np.arange(0, 60, step)
+    if rings_hz is None:
+        errors = autoregressive(rng, len(time), 0.8, 1)[:, 0]
+    else:  # a resonance of that frequency that noise drives
+        radius = np.exp(-0.2 * step)
+        turns = np.array([1.0, -2 * radius * np.cos(2 * np.pi * rings_hz * step), radius**2])
+        errors = lfilter([1.0], turns, rng.standard_normal(len(time)))
+    swing = 300.0 * errors.std() * np.cos(2 * np.pi * 1.1 * time) * np.exp(-0.02 * time)
+    segment = Segment(time, (swing + errors)[:, None], {})
+    data = Data((segment,), np.array([0.1]), driven=False)
+    fit = SimpleNamespace(kalman_gain=None, innovations=(errors[:, None],))
+    assert _swings(fit, data, 4) is not noise
 
 
 def test_a_stated_filter_keeps_its_cutoff():

@@ -3,9 +3,10 @@
 import numpy as np
 import pytest
 from noises import autoregressive
+from scipy.linalg import solve_discrete_lyapunov
 from scipy.signal import lfilter
 
-from symid.estimation.sensors.whitening import remembered, whitening_of
+from symid.estimation.sensors.whitening import Whitening, remembered, spectra, whitening_of
 
 
 @pytest.mark.parametrize("seed", [0, 1, 2])
@@ -63,3 +64,20 @@ def test_white_noise_remembers_nothing_and_coloured_noise_something(seed):
     rng = np.random.default_rng(seed)
     assert remembered([rng.standard_normal((3000, 2))]) == 0
     assert remembered([autoregressive(rng, 3000, 0.3)]) >= 1
+
+
+def test_spectra_are_those_of_the_autoregression_and_hold_all_of_its_power():
+    lags, covariance = (
+        np.array([[[0.6, 0.1], [0.0, 0.3]], [[-0.2, 0.0], [0.1, 0.1]]]),
+        np.array([[1.0, 0.3], [0.3, 2.0]]),
+    )
+    whitening = Whitening(lags, covariance, np.ones(1))
+    found = spectra(whitening, 2001)
+    none = np.linalg.inv(np.eye(2) - lags.sum(axis=0))
+    assert found[0] == pytest.approx(np.diag(none @ covariance @ none.T))
+    companion = np.block([[lags[0], lags[1]], [np.eye(2), np.zeros((2, 2))]])
+    driven = np.zeros((4, 4))
+    driven[:2, :2] = covariance
+    lasting = solve_discrete_lyapunov(companion, driven)
+    power = 2 * np.trapezoid(found, np.linspace(0, 0.5, 2001), axis=0)
+    assert power == pytest.approx(np.diag(lasting)[:2], rel=1e-5)

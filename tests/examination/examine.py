@@ -15,6 +15,7 @@ from pathlib import Path
 from draws import DRAWS, Exam
 
 import symid as si
+from symid.conceal import Unsuitable
 
 
 def row(name: str, seed: int) -> dict:
@@ -89,7 +90,11 @@ def main(name: str, span: str, path: str) -> None:
             continue
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            found = row(name, seed)
+            try:
+                found = row(name, seed)
+            except Unsuitable as error:  # a draw that nobody would record
+                print(name, seed, f"no case: {error}", flush=True)
+                continue
         with file.open("a", encoding="utf-8") as out:
             out.write(json.dumps(found) + "\n")
         print(name, seed, judged(found), found["verdict"], *found["named"], f"{found['cpu_s']} s", flush=True)

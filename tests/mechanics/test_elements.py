@@ -100,6 +100,21 @@ def test_one_joint_against_a_moving_ground_and_not_against_a_fixed_one():
     assert struts(cart(True))["spring k"].unit == "N"
 
 
+@pytest.mark.parametrize("free", [True, False])
+def test_a_cord_is_stretched_beyond_its_natural_length_known_or_not(free):
+    m = si.Model("load on a cord")
+    m.x, m.v, m.hand, m.lift = (si.State(unit="m"), si.State(unit="m/s"), si.Input(unit="m"), si.Input(unit="m/s"))
+    m.natural = si.Parameter(unit="m", bounds=(0, 3)) if free else si.Constant(0.5, unit="m")
+    m.k, m.c = si.Parameter(unit="N/m", bounds=(0, 1e4)), si.Parameter(unit="N*s/m", bounds=(0, 100))
+    m.falls = si.Equation(m.x.dot - m.v)
+    m.load = si.Equation(2.0 * m.v.dot + m.k * (m.x - m.hand - m.natural) + m.c * (m.v - m.lift) - 19.62)
+    m.seen = si.Output(m.x, channel="camera")
+    port = struts(m)["spring k"]
+    length = m.natural.symbol if free else 0.5
+    assert sm.expand(port.position - (m.x.symbol - m.hand.symbol - length)) == 0
+    assert sm.expand(port.rate - (m.v.symbol - m.lift.symbol)) == 0
+
+
 def test_neighbours_that_a_spring_joins_have_their_place_already():
     m = si.Model("two masses")
     m.x, m.v = si.State(unit="m", index=range(2)), si.State(unit="m/s", index=range(2))

@@ -68,26 +68,30 @@ def _coarse(a: np.ndarray, every: int) -> np.ndarray:
 
 
 class _Slow:
-    """A projection that sees means of so many samples: slow forces lose nothing by it, and are scored sooner."""
+    """A projection that sees means of so many samples: slow forces lose nothing by it, and are scored sooner.
+
+    Its products are those of samples, of columns that keep each mean for so many of them. Means of what is left follow
+    those of the model's own unknowns, since an estimated motion moves with the errors of the same samples: projected
+    anew, these looked like a damping that comes and goes as often as the steps of a command.
+    """
 
     def __init__(self, projection: Projection, every: int):
         self.root = np.sqrt(every)
-        own, rest = (
+        self.own, self.rest = (
             _coarse(a.reshape(-1, projection.outputs, *a.shape[1:]), every) * self.root
             for a in (projection.own, projection.rest)
         )
-        self.own, _ = np.linalg.qr(own.reshape(-1, own.shape[-1]))
-        self.rest = self._project(rest.reshape(-1))
-
-    def _project(self, a: np.ndarray) -> np.ndarray:
-        return a - self.own @ (self.own.T @ a)
+        self.own, self.rest = self.own.reshape(-1, self.own.shape[-1]), self.rest.reshape(-1)
 
     def gains(self, columns: np.ndarray) -> list[float]:
         """Gain of twice the log-likelihood forecast for each of F sets of columns, (N m, F, q)."""
-        a = self._project(columns.reshape(len(columns), -1) * self.root)
-        a /= np.sqrt((a**2).sum(0)) + 1e-300
-        along, a = (a.T @ self.rest).reshape(columns.shape[1:]), a.reshape(columns.shape)
-        return [float(b @ np.linalg.lstsq(a[:, f].T @ a[:, f], b, rcond=1e-8)[0]) for f, b in enumerate(along)]
+        a = columns.reshape(len(columns), -1) * self.root
+        own = self.own.T @ a
+        new = np.sqrt(np.maximum((a**2).sum(0) - (own**2).sum(0), 0.0)) + 1e-300
+        along = (a.T @ self.rest / new).reshape(columns.shape[1:])
+        a, own = ((x / new).reshape(len(x), *columns.shape[1:]) for x in (a, own))
+        products = [a[:, f].T @ a[:, f] - own[:, f].T @ own[:, f] for f in range(len(along))]
+        return [float(b @ np.linalg.lstsq(p, b, rcond=1e-8)[0]) for p, b in zip(products, along, strict=True)]
 
 
 def _answer(projection: Projection, port: Port) -> np.ndarray | None:

@@ -69,15 +69,20 @@ class Projection:
     def project(self, a: np.ndarray) -> np.ndarray:
         return a - self.own @ (self.own.T @ a)
 
-    def score(self, columns: np.ndarray, rest: np.ndarray | None = None) -> tuple[float, np.ndarray]:
-        """Forecast gain of twice the log-likelihood for (N m, q) columns and their coefficients; of `rest` if given."""
-        rest = self.rest if rest is None else rest
+    def score(self, columns: np.ndarray) -> tuple[float, np.ndarray]:
+        """Forecast gain of twice the log-likelihood for (N m, q) columns, and their coefficients."""
+        gains, coefficients = self.scores(columns, self.rest[:, None])
+        return float(gains[0]), coefficients[:, 0]
+
+    def scores(self, columns: np.ndarray, rests: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """`score` of each of (N m, k) `rests`: (k,) gains and (q, k) coefficients."""
         a = self.project(columns)
         kept = (a**2).sum(0) > NOTHING_NEW * (columns**2).sum(0)
         scale = np.sqrt((a**2).sum(0)) + 1e-300
         a = np.where(kept, a / scale, 0.0)
-        c, *_ = np.linalg.lstsq(a.T @ a, a.T @ rest, rcond=1e-8)
-        return float(c @ (a.T @ rest)), c / scale
+        along = a.T @ rests
+        c, *_ = np.linalg.lstsq(a.T @ a, along, rcond=1e-8)
+        return (c * along).sum(0), c / scale[:, None]
 
     def forecast(self, columns: np.ndarray) -> tuple[float, np.ndarray]:
         """`score`, remembering in `bases` what it was that was tried: an orthonormal basis of what the columns add."""

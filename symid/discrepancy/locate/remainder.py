@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import gammaln, hyperu
 
+from symid.discrepancy.locate.chance import Chance, excess
 from symid.discrepancy.locate.flexible import flexible_terms
 from symid.discrepancy.locate.modulation import PARTS, modulated
 from symid.discrepancy.locate.projection import Projection
@@ -19,10 +20,6 @@ from symid.estimation.signals.data import Data
 from symid.model import Term
 from symid.simulation import Simulator, simulator
 
-ROUNDINGS = 12
-"""So often the rounding of encoders is simulated."""
-WHITENING = 0.6
-"""Noise of this part of an encoder's step makes its rounding errors random (Widrow 1961)."""
 WHITENESS_LAGS = 25
 """So many lags of the innovations' correlation enter the test of whiteness."""
 
@@ -64,7 +61,7 @@ class Test:
 def remainder(fit: Fit, data: Data) -> list[Test]:
     """All tests, the least probable first."""
     projection, found = Projection(fit, data), []
-    nulls = [projection.project(projection.whiten([s[:, :, None] for s in null])[:, 0]) for null in _rounded(fit, data)]
+    chance = Chance(projection)
     for term in flexible_terms(fit, data):
         try:
             sim = simulator(fit.model.with_term(term))
@@ -72,24 +69,16 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
             continue
         columns = _columns(projection, sim, term)
         if columns is not None:
-            gain, coefficients = projection.score(columns)
-            size = int(np.count_nonzero(coefficients))
-            found.append(
-                Test(
-                    term.location,
-                    _FLOW if term.law.acts_on == "balance" else _WHAT[term.name],
-                    gain / _excess([projection.score(columns, r)[0] for r in nulls], size),
-                    size,
-                )
-            )
+            gain, size = chance.scored(columns)
+            what = _FLOW if term.law.acts_on == "balance" else _WHAT[term.name]
+            found.append(Test(term.location, what, gain, size))
     found += [
         Test(place, "a stiffness or damping that comes and goes", gain, PARTS, tried=tried)
         for place, gain, tried in modulated(projection)
     ]
     for o, y in enumerate(fit.model.outputs.values()):
-        statistic = _ljung_box(projection, projection.rest, o) / _excess(
-            [_ljung_box(projection, r, o) for r in nulls], WHITENESS_LAGS
-        )
+        statistic = _ljung_box(projection, projection.rest, o)
+        statistic /= excess(np.array([_ljung_box(projection, r, o) for r in chance.rounded.T]), WHITENESS_LAGS)
         found.append(
             Test(y.at, "errors of prediction that follow from earlier ones", statistic, WHITENESS_LAGS, locates=False)
         )
@@ -125,9 +114,10 @@ def _ljung_box(projection: Projection, rest: np.ndarray, output: int) -> float:
     """Ljung-Box (1978) statistic of one output over all segments, of (N m,) white errors that are left of a fit.
 
     What the unknowns explain of white errors correlates the rest: each segment's initial states alone make those of a
-    short one follow from earlier ones. That is known beforehand and taken out.
+    short one follow from earlier ones. That is known beforehand and taken out. Errors that are larger at times make
+    correlations larger, each as much as the squares follow one another (Diebold 1986).
     """
-    total, by_fit, pairs = np.zeros((3, WHITENESS_LAGS))
+    total, by_fit, pairs, squares = np.zeros((4, WHITENESS_LAGS))
     count, power, explained = 0, 0.0, 0.0
     ends = np.cumsum([e.recorded.size for e in projection.data.segments])[:-1]
     for left, own in zip(np.split(rest, ends), np.split(projection.own, ends), strict=True):
@@ -137,38 +127,9 @@ def _ljung_box(projection: Projection, rest: np.ndarray, output: int) -> float:
             total[k - 1] += left[k:] @ left[:-k]
             by_fit[k - 1] -= np.sum(own[k:] * own[:-k])
             pairs[k - 1] += len(left) - k
+            squares[k - 1] += left[k:] ** 2 @ left[:-k] ** 2
     if power == 0 or explained >= count:
         return 0.0
     r = total / power - by_fit / (count - explained)
-    return count * (count + 2) * float(np.sum(r**2 / np.maximum(pairs, 1)))  # where there is no pair r is 0
-
-
-# ---- what rounding does to the tests -----------------------------------------------------------
-def _rounded(fit: Fit, data: Data) -> list[list[np.ndarray]]:
-    """Surprises of encoders that show the fitted motion and nothing else; none where steps are small beside the noise.
-
-    Where an encoder hardly jitters, its rounding errors follow each other in slow motion.
-    """
-    step = data.rounding
-    if fit.kalman_gain is not None or not np.any(step):
-        return []
-    jitters = [
-        np.sqrt(np.maximum(np.diag(fit.covariance) * size**2 - step**2 / 12, 0.0)) for size in fit.whitening.sizes
-    ]
-    if np.all(np.array(jitters) > WHITENING * step):
-        return []
-    found = []
-    for seed in range(ROUNDINGS):
-        rng, safe, null = np.random.default_rng(seed), np.where(step > 0, step, 1.0), []
-        offset = rng.uniform(0, 1, len(step)) * step
-        for e, s, jitter in zip(data.segments, fit.innovations, jitters, strict=True):
-            shown = e.recorded - s + offset
-            noisy = shown + jitter * rng.standard_normal(s.shape)
-            null.append(np.where(step > 0, np.round(noisy / safe) * safe, noisy) - shown)
-        found.append(null)
-    return found
-
-
-def _excess(nulls: list[float], size: int) -> float:
-    """How many times larger than by chance a statistic is because of rounding alone."""
-    return max(1.0, float(np.mean(nulls)) / max(size, 1)) if nulls else 1.0
+    spread = np.maximum(squares / (power / count) ** 2, pairs)  # where there is no pair r is 0
+    return count * (count + 2) * float(np.sum(r**2 / np.maximum(spread, 1)))

@@ -22,13 +22,15 @@ from symid.discrepancy.name.equivalents import equivalents
 from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.name.trial.explore import by_score
+from symid.discrepancy.name.trial.jump import with_jumps_of
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of
 from symid.estimation.fitting.correlated import begun_correlated, is_correlated, with_correlated_forces
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
-from symid.estimation.measurement import has_settled, with_memory
+from symid.estimation.measurement import has_settled
+from symid.estimation.noise_memory import with_memory
 from symid.estimation.sensors.whitening import is_coloured, remembered
 from symid.estimation.signals.data import Data
 from symid.model.variants import CORRELATION_TIME
@@ -256,9 +258,11 @@ def _likeliest(searches: list[Search]) -> Search:
 def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
     """The model as given under another error model, from its own values or from those that go with what was found.
 
-    Its inputs do between their samples what they do there, and its random forces are as correlated.
+    Its inputs do between their samples what they do there, its random forces are as correlated, and dry friction sets
+    in as abruptly: what was found loses what it explains where it is refitted with another jump.
     """
     base = replace(base, model=base.model.with_holds(**holds_of(explained, base)))
+    base = with_jumps_of(explained, base, list(base.model.constants))
     if is_correlated(explained) and not is_correlated(base):
         base = begun_correlated(base, data, explained.values[CORRELATION_TIME])
     kept = [explained.simulator.states.index(s) for s in base.simulator.states]

@@ -36,19 +36,16 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
         return "adequate", (), ()
     if rest is not None and not found.suspects:
         return "unexplained", (_unnamed(rest),), ()
+    told = tuple(_as_survived(e, evidence, found.surprise(s)) for e, s in zip(effects, found.suspects, strict=True))
     if not found.established:
         unestablished = next(s for s in found.suspects if not found.is_named(s))
-        effects = tuple(
-            sorted(
-                effects, key=lambda e: (e.name, e.location) != (unestablished.term.name, unestablished.term.location)
-            )
-        )
+        key = (unestablished.term.name, unestablished.term.location)
+        effects = tuple(sorted(told, key=lambda e: (e.name, e.location) != key))
         place = unestablished.term.location if rest is None else _voted(flexible(), effects[0], rest)
         unknown = () if place == unestablished.term.location else (_unknown(place, left, rest, found),)
         return "unexplained", (*unknown, *effects), equivalent
     if rest is not None:
         unknown = _unknown(_voted(flexible(), effects[0], rest), left, rest, found)
-        told = (_as_survived(e, evidence, found.surprise(s)) for e, s in zip(effects, found.suspects, strict=True))
         return "unexplained", (unknown, *told), equivalent
     return "missing_physics", effects, equivalent
 
@@ -60,11 +57,12 @@ def _unnamed(test: Test) -> Effect:
 def _as_survived(effect: Effect, evidence: Evidence, surprise: float) -> Effect:
     """The effect, not established where it may only imitate the rest.
 
-    That is where the halves of the recording or its held-out part contradict it, or its size surprises as much as a law
-    without a name does.
+    That is where the halves of the recording or its held-out part contradict it, where its size surprises as much as a
+    law without a name does, or where as many laws as a search takes leave something: what has no law looks like them.
     """
     fallen = {(v.name, v.location) for v in evidence.survived if v.reason}
-    kept = (effect.name, effect.location) not in fallen and surprise <= POLICY.doubt and _helps(evidence)
+    few = len(evidence.found.suspects) < POLICY.most_effects
+    kept = (effect.name, effect.location) not in fallen and surprise <= POLICY.doubt and few and _helps(evidence)
     return replace(effect, established=effect.established and kept)
 
 

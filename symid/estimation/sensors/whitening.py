@@ -119,6 +119,15 @@ def whitening_of(innovations: Sequence[np.ndarray], memory: int, possible: np.nd
     return Whitening(lags, left.T @ left / len(left), sizes, _starts(innovations, memory))
 
 
+def spectra(whitening: Whitening, frequencies: int) -> np.ndarray:
+    """(F, m) power at as many frequencies, from none to half of the samples, of innovations that this makes white."""
+    turns = np.exp(-2j * np.pi * np.linspace(0.0, 0.5, frequencies))
+    m = len(whitening.covariance)
+    left = np.eye(m) - sum(A * (turns**k)[:, None, None] for k, A in enumerate(whitening.lags, 1))
+    answer = np.linalg.inv(np.broadcast_to(left, (frequencies, m, m)))
+    return np.einsum("fij,jk,fik->fi", answer, whitening.covariance, answer.conj()).real
+
+
 def _starts(innovations: Sequence[np.ndarray], memory: int) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
     """`Whitening.starts` of innovations as correlated as these, by the Yule-Walker equations of each order."""
     m, samples = innovations[0].shape[1], sum(map(len, innovations))

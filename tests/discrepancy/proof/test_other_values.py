@@ -2,9 +2,16 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
+import sympy as sm
 
-from symid.discrepancy.prove.elsewhere import _changed
+import symid as si
+from symid.discrepancy.prove.elsewhere import _begun, _changed
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_of
+from symid.simulation import simulator
 
 
 @pytest.mark.parametrize(
@@ -26,3 +33,20 @@ def test_of_two_values_that_differ_both_are_told_and_without_errors_none():
     other = SimpleNamespace(values={"a": 20.0, "b": 5.0}, errors={"a": 1.0, "b": 1.0})
     assert _changed(fit, other) == ["a", "b"]
     assert _changed(SimpleNamespace(values=fit.values, errors={}), other) == []
+
+
+@pytest.mark.parametrize(("tilt", "pieces"), [(0.3, 1), (np.pi - 1e-6, 2)], ids=["hangs", "stands"])
+def test_held_out_motion_that_small_differences_change_is_compared_in_pieces(tilt, pieces):
+    model = si.Model("pendulum")
+    model.q, model.w = si.State(unit="rad"), si.State(unit="rad/s")
+    model.k = si.Parameter(unit="1/s^2", bounds=(0.1, 100))
+    model.kinematics = si.Equation(model.q.dot - model.w)
+    model.balance = si.Equation(model.w.dot + model.k * sm.sin(model.q))
+    model.seen = si.Output(model.q, channel="angle")
+    time = np.arange(0, 6, 0.02)
+    swing = simulator(model).simulate({"k": 9.0}, [tilt, 0.0], time, {}).y
+    recording = si.Recording("swing", time, {"angle": swing[:, 0]}, units={"angle": "rad"})
+    data = Data(segments_of(model, recording, (0, 6), None), np.array([1e-3]), driven=False)
+    begin, held = _begun(fit_model(model, data, {"k": 9.0}), data)
+    assert len(held.segments) >= pieces and (len(held.segments) > 1) == (pieces > 1)
+    assert len(begin.initial) == len(held.segments)

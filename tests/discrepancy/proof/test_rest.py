@@ -10,7 +10,9 @@ from rigs import ROD, law_of
 from scipy.signal import lfilter
 
 import symid as si
+from symid.discrepancy.locate.chance import Chance
 from symid.discrepancy.locate.flexible_law import flexible_law
+from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import WHITENESS_LAGS, _ljung_box
 from symid.discrepancy.locate.rest import rest_of
 from symid.discrepancy.say.rest import noun, rest_words
@@ -216,3 +218,44 @@ def test_errors_that_follow_from_earlier_ones_are_told_in_short_segments():
     coloured = lfilter([1], [1, -0.3], np.random.default_rng(3).standard_normal((2400, 2)), axis=0).ravel()
     coloured -= projection.own @ (projection.own.T @ coloured)
     assert _ljung_box(projection, coloured, 0) > 4 * WHITENESS_LAGS
+
+
+def larger_where_it_moves(seed: int, samples: int = 3000) -> tuple[np.ndarray, np.ndarray]:
+    """A motion, and errors that are up to five times larger where it is fast."""
+    rng = np.random.default_rng(seed)
+    motion = lfilter([1], [1, -1.9, 0.93], rng.standard_normal(samples))
+    motion /= motion.std()
+    errors = (0.3 + np.abs(motion)) * rng.standard_normal(samples)
+    return motion, errors / errors.std()
+
+
+def test_errors_that_are_larger_at_times_pass_for_white():
+    projection = SimpleNamespace(
+        own=np.zeros((3000, 0)),
+        outputs=1,
+        data=SimpleNamespace(segments=[SimpleNamespace(recorded=np.zeros((3000, 1)))]),
+    )
+    found = [_ljung_box(projection, larger_where_it_moves(seed)[1], 0) for seed in range(40)]
+    assert 0.8 * WHITENESS_LAGS < np.mean(found) < 1.1 * WHITENESS_LAGS
+
+
+def test_what_follows_the_motion_is_weighed_against_errors_that_grow_with_it():
+    """The gain of a true law stays; that by chance, 11 of errors that grow with the motion, is as of others."""
+
+    def scored(errors: np.ndarray, columns: np.ndarray) -> float:
+        projection = Projection.__new__(Projection)
+        segment = SimpleNamespace(recorded=np.zeros((len(errors), 1)))
+        projection.data = SimpleNamespace(segments=[segment], rounding=0.0)
+        projection.fit = SimpleNamespace(kalman_gain=None)
+        projection.own, projection.rest, projection.outputs = np.zeros((len(errors), 0)), errors, 1
+        return Chance(projection).scored(columns)[0]
+
+    same, growing = [], []
+    for seed in range(60):
+        motion, errors = larger_where_it_moves(seed)
+        columns = np.column_stack([motion, motion**2, motion**3])
+        growing.append(scored(errors, columns))
+        even = np.random.default_rng(seed).standard_normal(len(errors))
+        same.append(scored(even + 0.3 * motion, columns))
+    assert 2.0 < np.mean(growing) < 4.2  # chi-square of three degrees
+    assert 200 < np.mean(same) < 290  # 0.09 of 3000 samples, less what chance has
