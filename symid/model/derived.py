@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from math import inf
 from typing import TYPE_CHECKING, cast
 
 import sympy as sm
@@ -119,7 +120,7 @@ class Derived:
         """A new model with a Noise `<input>_noise` added to each input in its equations: that of a recorded input."""
         return variants.with_input_noise(self._model)
 
-    def with_correlated_noise(self, shortest: float) -> Model:
+    def with_correlated_noise(self, shortest: float, longest: float = inf) -> Model:
         """A new model whose process noise is correlated, as the random forces of wind, roads and muscles are.
 
         Each Noise w acts by a State x with T dx/dt + x = w: Gauss-Markov noise of first order, whose correlation is
@@ -127,13 +128,13 @@ class Derived:
 
         Parameters
         ----------
-        shortest : the least T [s]; the Parameter `noise_correlation_time` is that of all noises.
+        shortest, longest : the bounds of T [s]; the Parameter `noise_correlation_time` is that of all noises.
 
         Raises
         ------
-        ModelError : no Noise, one that is correlated already, or a time that is not positive.
+        ModelError : no Noise, one that is correlated already, a time that is not positive, or bounds that cross.
         """
-        return variants.with_correlated_noise(self._model, shortest)
+        return variants.with_correlated_noise(self._model, shortest, longest)
 
     def undisturbed(self, bound: bool) -> Model:
         """A new model whose controls are zero, and without its Boundary parts unless they are `bound` to hold.

@@ -93,16 +93,20 @@ def with_input_noise(model: Model) -> Model:
     return new
 
 
-def with_correlated_noise(model: Model, shortest: float) -> Model:
-    """With each Noise w replaced by a State x of T dx/dt + x = w, of which T is a Parameter of at least `shortest`."""
+def with_correlated_noise(model: Model, shortest: float, longest: float) -> Model:
+    """With each Noise w replaced by a State x of T dx/dt + x = w, of which T is a Parameter between these [s]."""
     if not model.noises:
         raise ModelError(
             f"with_correlated_noise: model '{model.name}' has no process noise; add a Noise to an equation"
         )
     if not 0 < (shortest := _number("with_correlated_noise: shortest", shortest)) < inf:
         raise ModelError(f"with_correlated_noise: shortest={shortest:g}: give a positive number of seconds")
+    if not (longest := _number("with_correlated_noise: longest", longest)) > shortest:
+        raise ModelError(
+            f"with_correlated_noise: longest={longest:g}: give more seconds than {shortest:g}, the shortest"
+        )
     new, standing = model.copy(), {}
-    time = Parameter(unit="s", bounds=(shortest, inf), meaning="time over which process noise is correlated")
+    time = Parameter(unit="s", bounds=(shortest, longest), meaning="time over which process noise is correlated")
     setattr(new, CORRELATION_TIME, time)
     for name, w in model.noises.items():
         setattr(new, correlated(name), State(unit=w.unit, meaning=w.meaning, at=w.at))

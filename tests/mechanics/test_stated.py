@@ -1,6 +1,7 @@
 """Constants of a plain model that may be stated wrongly."""
 
 import pytest
+import sympy as sm
 
 import symid as si
 from symid.mechanics.places import with_places
@@ -21,6 +22,16 @@ def slide(**role: str) -> si.Model:
 def test_what_is_stated_may_be_wrong_but_not_gravity():
     assert [c.at for c in with_places(slide()).find("stated")] == ["mass", "slope"]
     assert "stated_value_error@mass" in {str(s.term) for s in si.suspects(slide())}
+
+
+def test_where_a_sensor_stands_may_be_stated_wrongly():
+    m = slide()
+    m.height = si.Constant(1.5, unit="m")
+    m.beacon = si.Output(sm.sqrt(m.x**2 + m.height**2), channel="beacon", unit="m")
+    assert [c.at for c in with_places(m).find("stated")] == ["mass", "slope", "height"]
+    more = with_places(m).with_term(si.mechanics.LIBRARY["stated_value_error"].at("height"))
+    factor = more.stated_value_error_height_factor.symbol
+    assert more["beacon"].expr == m["beacon"].expr.xreplace({m.height.symbol: factor * m.height.symbol})
 
 
 def test_a_constant_with_a_role_has_laws_of_its_own():

@@ -39,14 +39,19 @@ def with_correlated_forces(fit: Fit, data: Data) -> Fit | None:
 
 
 def begun_correlated(fit: Fit, data: Data, seconds: float) -> Fit:
-    """Where a fit with forces that are correlated over so many seconds begins. Below a sample they would be white."""
-    model = fit.model.with_correlated_noise(data.segments[0].step)
+    """Where a fit with forces that are correlated over so many seconds begins.
+
+    Below a sample they would be white, and beyond the recording constant: a spring whose rest was stated wrongly became
+    a random force of next to nothing that lasts for ever.
+    """
+    longest = float(max(e.time[-1] for e in data.segments) - min(e.time[0] for e in data.segments))
+    model = fit.model.with_correlated_noise(data.segments[0].step, longest)
     states = dict(zip(fit.simulator.states, fit.initial.T, strict=True))
     initial = [states.get(x, np.zeros(len(fit.initial))) for x in simulator(model).states]
     return replace(
         fit,
         model=model,
-        values=fit.values | {CORRELATION_TIME: seconds},
+        values=fit.values | {CORRELATION_TIME: min(seconds, longest)},
         initial=np.column_stack(initial),
         kalman_gain=None,
     )

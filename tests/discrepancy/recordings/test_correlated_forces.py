@@ -7,6 +7,10 @@ from scipy.signal import lfilter
 
 import symid as si
 from symid.errors import ModelError
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.fitting.correlated import begun_correlated
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_of
 from symid.model.variants import CORRELATION_TIME
 from symid.simulation import Simulator
 
@@ -80,6 +84,22 @@ def test_a_law_beside_forces_that_last_is_found():
 def test_a_correlation_time_that_is_none_is_refused(shortest):
     with pytest.raises(ModelError, match="shortest"):
         sail().with_correlated_noise(shortest)
+
+
+@pytest.mark.parametrize("longest", [0.01, 0.0, np.nan, "long"])
+def test_a_longest_correlation_time_that_is_none_is_refused(longest):
+    with pytest.raises(ModelError, match="longest"):
+        sail().with_correlated_noise(0.01, longest)
+
+
+def test_forces_that_last_are_correlated_for_no_longer_than_was_recorded():
+    time = np.arange(0, 10, 0.02)
+    swing = 0.3 * np.exp(-0.4 * time) * np.cos(6.3 * time) + 0.01 * np.sin(0.4 * time)
+    channels = {"position": swing, "push": np.zeros(len(time))}
+    plate = si.Recording("plate", time, channels, {"position": "m", "push": "N"})
+    data = Data(segments_of(sail(), plate, (0.0, 9.9), 2.0), np.array([1e-3]), driven=True)
+    begin = begun_correlated(fit_model(sail(), data, VALUES), data, seconds=1e3)
+    assert begin.values[CORRELATION_TIME] == begin.model[CORRELATION_TIME].bounds[1] == pytest.approx(9.9, abs=0.1)
 
 
 def test_noise_is_correlated_once_and_only_where_there_is_some():

@@ -15,8 +15,9 @@ GRAVITY = 9.76, 9.84
 
 
 def stated(model: Model) -> Mapping[str, Constant]:
-    """The constants in a model's equations that nobody gave a role, by name, with that of what may be wrong."""
-    used = set().union(*(model.inline(e.expr).free_symbols for e in model.equations.values()))
+    """The constants in a model's equations and outputs without a role, by name, with that of what may be wrong."""
+    parts = [*model.equations.values(), *model.outputs.values()]
+    used = set().union(*(model.inline(part.expr).free_symbols for part in parts))
     return {
         c.name: replace(c, role=ROLE, at=c.at or c.name)
         for c in model.constants.values()
