@@ -22,18 +22,31 @@ SIZES = (1.0, 2.0, 4.0)
 what they move it within a sample (tests/estimation/test_white_forces.py)."""
 
 
-def with_likeliest_holds(fit: Fit, data: Data) -> Fit:
+def with_likeliest_holds(fit: Fit, data: Data, taken: Sequence[str] = ()) -> Fit:
     """The same fit, or that of the model with inputs that are curved between samples, or white forces, where likelier.
 
     Straight lines lose the part (w h)^2 / 12 of an input of angular frequency w that is sampled every h: 0.4 % at 30
     samples a period; cubics 6 % at three. With good sensors that is enough to look like a wrong gain or mass.
+
+    taken : inputs that an earlier fit may have taken for curved. A model that lacks something may like curves: of a
+        head on a seat, whose accelerometer showed 4 % too much, they left another gain and a mass.
     """
+    if (straight := _with_straight_lines(fit, data, taken)) is not fit:
+        return _with_likeliest_forces(straight, data)
     unstated = [k for k, u in fit.model.inputs.items() if u.hold == "either"]
     for before, hold in pairwise(("either", *CURVES)):
         for names in input_groups(fit.model, [k for k in unstated if fit.model.inputs[k].hold == before]):
             if all(fit.model.inputs[k].hold == before for k in names):
                 fit = _likelier(fit, data, names, hold)
     return _with_likeliest_forces(fit, data)
+
+
+def _with_straight_lines(fit: Fit, data: Data, taken: Sequence[str]) -> Fit:
+    """The same fit, or that of the model with inputs on straight lines that were `taken` for curved, where likelier."""
+    for names in input_groups(fit.model, [k for k in taken if fit.model.inputs[k].hold in CURVES]):
+        if all(fit.model.inputs[k].hold in CURVES for k in names):
+            fit = _likelier(fit, data, names, "either")
+    return fit
 
 
 def _with_likeliest_forces(fit: Fit, data: Data) -> Fit:

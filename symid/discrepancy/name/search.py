@@ -100,7 +100,7 @@ class Search(Judge):
             best = with_jumps_beside(begun_anew(polished(more), self.regression), self.jumps, best)
             if (otherwise := holds.asked_again(best)) is not best:
                 return otherwise, single
-            curved = with_likeliest_holds(best.fit, self.data)
+            curved = with_likeliest_holds(best.fit, self.data, self.unstated)
             if curved is not best.fit:
                 best = replace(best, fit=curved)
                 if not self.quiet(best):

@@ -92,7 +92,7 @@ def test_a_search_ends_where_the_best_of_several_pairs_is_a_clock_that_imitates(
 
 
 def test_a_search_ends_where_it_comes_back_to_what_it_had(monkeypatch):
-    monkeypatch.setattr(module, "with_likeliest_holds", lambda fit, data: fit)
+    monkeypatch.setattr(module, "with_likeliest_holds", lambda fit, data, taken: fit)
     data = data_of(recorded(4, FRICTION.term, {"torque_Nm": 0.35}))
     dry = alone(FRICTION, data, {"torque_Nm": 0.3})
     search = Search(dry.base, data, [FRICTION], lambda: Hypothesis((), dry.base, dry.base, data))
