@@ -33,7 +33,8 @@ def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
     """The data with noise that remembers as much as leaves white innovations, and the fit to them.
 
     The same data and fit where the innovations are white already, or move too smoothly for noise. How many samples are
-    remembered is told by innovations, and then by fits with one more each, as long as BIC (Schwarz 1978) asks for it.
+    remembered is told by innovations, and then by fits with one more each, as long as BIC (Schwarz 1978) asks for it
+    or chance does not explain what is left: ten lags may explain much, and each less than its price.
     Colour that is too weak to tell is fitted where chance does not explain it, and must then be clearly likelier.
     """
     price = len(data.sensor_noise) ** 2 * log(data.samples)
@@ -45,7 +46,8 @@ def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
     least = price + (CLEARLY if found is data else 0.0)
     while found.memory < longest_memory(better.innovations):
         more, further = _remembering(better, found, found.memory + 1)
-        if further.loglik2 - better.loglik2 <= least and not is_coloured(better.innovations, found.memory):
+        done = found is data or not is_coloured(better.innovations, found.memory)
+        if done and further.loglik2 - better.loglik2 <= least:
             break
         found, better, least = more, further, price
     return (found, better) if _may_remember(better, data, found.memory) else (data, fit)

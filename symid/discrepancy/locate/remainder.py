@@ -115,7 +115,7 @@ def _ljung_box(projection: Projection, rest: np.ndarray, output: int) -> float:
 
     What the unknowns explain of white errors correlates the rest: each segment's initial states alone make those of a
     short one follow from earlier ones. That is known beforehand and taken out. Errors that are larger at times make
-    correlations larger, each as much as the squares follow one another (Diebold 1986).
+    correlations larger (Francq, Roy & Zakoian 2004), each as much as their squares follow one another.
     """
     total, by_fit, pairs, squares = np.zeros((4, WHITENESS_LAGS))
     count, power, explained = 0, 0.0, 0.0
