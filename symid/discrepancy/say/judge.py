@@ -9,6 +9,7 @@ import numpy as np
 
 from symid.discrepancy.locate.audit import Audit
 from symid.discrepancy.locate.remainder import Test, located
+from symid.discrepancy.model.families import LOSSES
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.equivalents import equivalents
@@ -59,10 +60,12 @@ def _as_survived(effect: Effect, evidence: Evidence, surprise: float) -> Effect:
 
     That is where the halves of the recording or its held-out part contradict it, where its size surprises as much as a
     law without a name does, or where as many laws as a search takes leave something: what has no law looks like them.
+    Losses are not in doubt for that, since something takes the energy.
     """
     fallen = {(v.name, v.location) for v in evidence.survived if v.reason}
-    few = len(evidence.found.suspects) < POLICY.most_effects
-    kept = (effect.name, effect.location) not in fallen and surprise <= POLICY.doubt and few and _helps(evidence)
+    one_of_few = len(evidence.found.suspects) < POLICY.most_effects or effect.name in LOSSES
+    stands = (effect.name, effect.location) not in fallen and surprise <= POLICY.doubt
+    kept = stands and one_of_few and _helps(evidence)
     return replace(effect, established=effect.established and kept)
 
 

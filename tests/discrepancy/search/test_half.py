@@ -76,15 +76,33 @@ def test_rubber_that_never_yields_is_tried_as_a_spring():
     assert instead.suspects == (spring,)
 
 
+def with_laws(count: int, margin: float | None = None) -> SimpleNamespace:
+    """Evidence for so many laws that both halves bear out."""
+    proof = None if margin is None else SimpleNamespace(margin=margin)
+    return SimpleNamespace(survived=(), proof=proof, found=SimpleNamespace(suspects=range(count)))
+
+
+@pytest.mark.parametrize(
+    ("law", "count", "stays"),
+    [
+        ("sensor_gain", POLICY.most_effects - 1, True),
+        ("sensor_gain", POLICY.most_effects, False),
+        ("joint_drag", POLICY.most_effects, True),  # something takes the energy
+    ],
+)
+def test_as_many_laws_as_a_search_takes_beside_a_rest_imitate_it(law, count, stays):
+    assert _as_survived(Effect(law, "cart", {}, None, 1.0, ""), with_laws(count), surprise=0.0).established is stays
+
+
 def test_a_size_that_surprises_beside_a_rest_is_what_it_looks_like_only():
-    evidence, effect = SimpleNamespace(survived=(), proof=None), Effect("sensor_gain", "sensor:cart", {}, None, 1.0, "")
+    evidence, effect = with_laws(1), Effect("sensor_gain", "sensor:cart", {}, None, 1.0, "")
     assert _as_survived(effect, evidence, surprise=0.5 * POLICY.doubt).established
     assert not _as_survived(effect, evidence, surprise=2 * POLICY.doubt).established
 
 
 @pytest.mark.parametrize(("margin", "stays"), [(0.1, True), (-0.1, False)])
 def test_a_name_beside_a_rest_that_the_held_out_data_contradict_is_what_it_looks_like_only(margin, stays):
-    evidence = SimpleNamespace(survived=(), proof=SimpleNamespace(margin=margin))
+    evidence = with_laws(1, margin)
     effect = Effect("cubic_stiffness", "motor", {}, None, 1.0, "")
     assert _as_survived(effect, evidence, surprise=0.0).established is stays
 
