@@ -9,9 +9,10 @@ import numpy as np
 
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect
+from symid.discrepancy.name.search import Search
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.halves import survivals
-from symid.discrepancy.prove.nulls import false_alarm_probability
+from symid.discrepancy.prove.nulls import false_alarm_probability, null_maxima
 from symid.estimation.fitting.bias import unbiased
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.robust_errors import with_robust_errors
@@ -92,6 +93,27 @@ def beyond_chance(found: Hypothesis, maxima: np.ndarray, best: float, white: boo
             return found, lost
         found = less
     return found, false_alarm_probability(best, maxima)
+
+
+def far_beyond_chance(search: Search, best: float) -> tuple[Hypothesis, float | None]:
+    """Nothing, or the best suspect alone where chance hardly ever makes as much; and the probability of that.
+
+    The price of a suspect counts a moment or a frequency by the samples (BIC), and again by how seldom clocks are: a
+    push that chance makes once in a million recordings did not pay for itself. What chance makes is asked of what the
+    suspect leaves, since an event is as large when its block has another sign.
+
+    Parameters
+    ----------
+    best : the largest log-likelihood ratio that the recording gives to any one suspect, forecast.
+    """
+    nothing = search.nothing
+    one = search.single[0] if search.single else nothing
+    maxima = null_maxima(search.projection, one.fit)
+    chance = false_alarm_probability(min(best, one.log_ratio), maxima)
+    pays = one.established and one.score > max(one.belief() - POLICY.odds["clock"], 0.0) and not search.unsteady(one)
+    if chance is None or chance > POLICY.certain or not pays:
+        return nothing, false_alarm_probability(best, maxima)
+    return polished(one), chance
 
 
 def _without(kept: Sequence[Suspect], found: Hypothesis, white: bool) -> Hypothesis | None:

@@ -11,7 +11,7 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.name.trial.jump import with_jumps_of
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.between import otherwise, widened
-from symid.discrepancy.prove.certain import beyond_chance, honest
+from symid.discrepancy.prove.certain import beyond_chance, far_beyond_chance, honest
 from symid.discrepancy.prove.elsewhere import elsewhere
 from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
 from symid.discrepancy.prove.held_out import Proof, compare, compare_predictions
@@ -88,6 +88,8 @@ def tested(found: Hypothesis, search: Search) -> Tested:
     before, found = found.suspects, honest(found, white)
     best = float(largest(search.projection, search.projection.rest[:, None])[0])
     found, chance = beyond_chance(found, null_maxima(search.projection, found.fit), best, white)
+    if not found.suspects and white and search.quiet(found):
+        found, chance = far_beyond_chance(search, best)
     if found.suspects != before:
         left = search.remainder(found)
     other = otherwise(found, search.unstated)

@@ -156,6 +156,17 @@ def test_a_push_is_found_with_its_time():
     assert abs(first.window[0] - 23.0) < 0.5
 
 
+@pytest.mark.slow
+def test_a_weak_push_that_chance_hardly_ever_makes_is_found_among_all_suspects():
+    """Its moment was paid for twice: 'nothing is missing' at a log-likelihood ratio of 31 that chance makes once in ten
+    thousand recordings."""
+    push = {"peak_Nm": 0.15, "start_s": 17.3, "duration_s": 0.3}
+    found = finding(recorded(7, LIBRARY["external_push"].at("cart"), push), suspects(cart()))
+    (effect,) = found.effects
+    assert (effect.name, effect.location) == ("external_push", "cart") and abs(effect.window[0] - 17.3) < 0.5
+    assert finding(recorded(7), suspects(cart())).verdict == "adequate"
+
+
 def test_laws_that_need_more_than_the_model_declares_are_no_suspects():
     m = Model("swing")
     m.g_down = si.Expression(9.81, unit="m/s^2", role="gravity", at="global")

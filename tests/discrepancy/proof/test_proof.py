@@ -148,6 +148,32 @@ def test_effects_that_cannot_be_left_out_stay(monkeypatch):
     assert kept is found and chance > POLICY.chance
 
 
+@pytest.mark.parametrize(
+    ("observed", "score", "odds", "established", "unsteady", "stays"),
+    [
+        (40.0, 5.0, 10.0, True, [], True),  # a push
+        (40.0, 5.0, 0.0, True, [], True),
+        (24.0, 5.0, 10.0, True, [], False),  # chance makes as much once in a thousand recordings
+        (40.0, -1.0, 0.0, True, [], False),  # its unknowns explain no more than they cost
+        (40.0, 5.0, 1000.0, True, [], False),  # a channel that is late by a hundredth of a sample
+        (40.0, 5.0, 10.0, False, [], False),
+        (40.0, 5.0, 10.0, True, ["a clock that half of the recording contradicts"], False),
+    ],
+)
+def test_what_chance_hardly_ever_makes_is_found_though_it_does_not_pay(
+    observed, score, odds, established, unsteady, stays, monkeypatch
+):
+    noise = 15.0 + 1.5 * np.random.default_rng(1).gumbel(size=POLICY.nulls)
+    monkeypatch.setattr(certain, "null_maxima", lambda projection, fit: noise if fit == "what a push leaves" else None)
+    monkeypatch.setattr(certain, "polished", lambda found: found)
+    one = SimpleNamespace(log_ratio=observed, score=score, established=established, fit="what a push leaves")
+    one.belief = lambda: odds
+    search = SimpleNamespace(nothing="nothing", single=[one], projection=None, unsteady=lambda found: unsteady)
+    found, chance = certain.far_beyond_chance(search, best=50.0)
+    assert found is (one if stays else "nothing")
+    assert chance == pytest.approx(false_alarm_probability(observed if stays else 50.0, noise))
+
+
 def test_a_push_within_a_short_segment_is_no_constant():
     segment = SimpleNamespace(time=np.arange(600) * 0.001)  # a fifth of a block
     signs = _signs(np.random.default_rng(0), segment, pace=1.0).reshape(POLICY.fewest_blocks, -1, POLICY.nulls)
