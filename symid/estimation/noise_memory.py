@@ -24,7 +24,7 @@ PEAK = 10.0
 of noise of first order has no peak; of swings whose drag is left out it is 180 to 420 (a pendulum that swings two ways,
 tests/discrepancy/machines/test_two_ways.py)."""
 MOTION = 0.99
-"""Part of the power of an output that its motion has: what is faster than that is no peak of it, as a hum is none."""
+"""Part of the power of an output below whose highest frequency its motion is: a hum that is faster may be noise."""
 FREQUENCIES = 512
 """Of a spectrum: of an autoregression of ten samples it has five peaks at most."""
 
@@ -38,19 +38,20 @@ def with_memory(fit: Fit, data: Data) -> tuple[Data, Fit]:
     Colour that is too weak to tell is fitted where chance does not explain it, and must then be clearly likelier.
     """
     price = len(data.sensor_noise) ** 2 * log(data.samples)
-    found, better = data, fit
-    while (memory := remembered(better.innovations)) > found.memory and _may_remember(better, data, memory):
-        found, better = _remembering(better, found, memory)
-    if found is data and not (is_coloured(fit.innovations, data.memory) and _may_remember(fit, data, data.memory + 1)):
+    coloured, better = data, fit
+    while (memory := remembered(better.innovations)) > coloured.memory and _may_remember(better, data, memory):
+        coloured, better = _remembering(better, coloured, memory)
+    weak = coloured is data
+    if weak and not (is_coloured(fit.innovations, data.memory) and _may_remember(fit, data, data.memory + 1)):
         return data, fit
-    least = price + (CLEARLY if found is data else 0.0)
-    while found.memory < longest_memory(better.innovations):
-        more, further = _remembering(better, found, found.memory + 1)
-        done = found is data or not is_coloured(better.innovations, found.memory)
+    least = price + CLEARLY * weak
+    while coloured.memory < longest_memory(better.innovations):
+        more, further = _remembering(better, coloured, coloured.memory + 1)
+        done = coloured is data or not is_coloured(better.innovations, coloured.memory)
         if done and further.loglik2 - better.loglik2 <= least:
             break
-        found, better, least = more, further, price
-    return (found, better) if _may_remember(better, data, found.memory) else (data, fit)
+        coloured, better, least = more, further, price
+    return (coloured, better) if _may_remember(better, data, coloured.memory) else (data, fit)
 
 
 def _may_remember(fit: Fit, data: Data, memory: int) -> bool:
@@ -90,13 +91,7 @@ def _swings(fit: Fit, data: Data, memory: int) -> bool:
 def _fastest(data: Data) -> np.ndarray:
     """(m,) frequencies [Hz] below which the outputs have all but a hundredth of their power."""
     longest = max(data.segments, key=lambda e: len(e.time))
-    power = (
-        np.abs(
-            np.fft.rfft(
-                np.hanning(len(longest.time))[:, None] * (longest.recorded - longest.recorded.mean(axis=0)), axis=0
-            )
-        )
-        ** 2
-    )
-    shares = np.cumsum(power, axis=0) / power.sum(axis=0)
-    return np.fft.rfftfreq(len(longest.time), longest.step)[np.argmax(shares >= MOTION, axis=0)]
+    moves = longest.recorded - longest.recorded.mean(axis=0)
+    power = np.abs(np.fft.rfft(np.hanning(len(moves))[:, None] * moves, axis=0)) ** 2
+    below = np.cumsum(power, axis=0)
+    return np.fft.rfftfreq(len(moves), longest.step)[np.argmax(below >= MOTION * below[-1], axis=0)]

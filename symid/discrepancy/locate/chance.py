@@ -13,7 +13,7 @@ ROUNDINGS = 12
 WHITENING = 0.6
 """Noise of this part of an encoder's step makes its rounding errors random (Widrow 1961)."""
 SIGNS = 48
-"""So often the errors are given random signs: their mean spreads by a fifth of what one test does."""
+"""So often the errors are given random signs: their mean spreads by a seventh of what one test does."""
 
 
 class Chance:

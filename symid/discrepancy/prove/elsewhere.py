@@ -47,9 +47,8 @@ def _begun(fit: Fit, held_out: Data) -> tuple[Fit | None, Data]:
     """
     begin = with_states_of(fit, held_out)
     length = max(e.time[-1] - e.time[0] for e in held_out.segments) / 2
-    while begin is not None and length > FEWEST * held_out.segments[0].step:
-        if largest_growth(begin, held_out) <= MOST_GROWTH:
-            break
+    shortest = FEWEST * held_out.segments[0].step
+    while begin is not None and length > shortest and largest_growth(begin, held_out) > MOST_GROWTH:
         held_out = held_out.with_segments(part for e in held_out.segments for part in cut(e, length))
         begin, length = with_states_of(fit, held_out), length / 2
     return begin, held_out
