@@ -95,6 +95,17 @@ def test_a_new_release_begins_a_new_piece(jump):
     assert len(free_pieces(cut([600], x=x), 2)) == 2
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_hides_no_new_release_from_means_of_samples(seed):
+    """Of single samples the largest bend inside is about 0.2, and three times that is allowed."""
+    time = np.arange(0, 26, STEP / 4)
+    rng = np.random.default_rng(seed)
+    x = np.exp(-0.03 * time) * np.cos(2 * np.pi * time / PERIOD) + 0.02 * rng.standard_normal(len(time))
+    anew = np.where(np.arange(len(time)) < 2400, x, x + 0.4)
+    assert len(free_pieces(cut([2400], time=time, x=x), 2)) == 1
+    assert len(free_pieces(cut([2400], time=time, x=anew), 2)) == 2
+
+
 def test_time_that_begins_anew_or_a_long_gap_begins_a_new_piece():
     again = cut([600], time=np.where(np.arange(len(TIME)) < 600, TIME, TIME - 12.0))
     later = cut([600], time=np.where(np.arange(len(TIME)) < 600, TIME, TIME + 5.0))

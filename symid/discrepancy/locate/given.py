@@ -15,9 +15,10 @@ from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.sensitive import SHORTEST, followed, lost
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.pieces import cut
-from symid.estimation.signals.segment import FEWEST
+from symid.estimation.signals.segment import FEWEST, Segment
 from symid.identification import Identification
 from symid.identification.starts.default import default_start
+from symid.recording import Recording
 
 FAR = 10.0
 """Seconds, at the pace of one, of the pieces in which a motion is compared that the model as given is far from, or half
@@ -133,8 +134,9 @@ def regressed(task: Task, plain: Data, solved: bool = False) -> Start:
         nowhere from one state.
     """
     longest = sorted(plain.segments, key=lambda e: -len(e.time))[:PIECES]
-    windows = [(float(e.time[0]), float(e.time[-1])) for e in longest]
-    problem = Identification(task.model, [task.recording] * len(windows), window=windows)
+    runs = [_run_of(task, e) for e in longest]
+    windows = [(float(e.time[0]), float(min(e.time[-1], r.time[-1]))) for e, r in zip(longest, runs, strict=True)]
+    problem = Identification(task.model, runs, window=windows)
     z, _ = default_start(problem.transcription)
     if solved:
         with suppress(SymidError):
@@ -143,3 +145,16 @@ def regressed(task: Task, plain: Data, solved: bool = False) -> Start:
     states = np.median(np.vstack([layout.states(z, k) for k in range(len(windows))]), axis=0)
     names, values = (*task.model.states, *layout.parameter_names), (*states, *layout.parameters(z))
     return {**dict(zip(names, map(float, values), strict=True)), **task.start}
+
+
+def _run_of(task: Task, segment: Segment) -> Recording:
+    """The run of the recording in which a segment begins; times of runs may overlap, their samples differ."""
+    label = task.fit_window if isinstance(task.fit_window, str) else None
+    outputs = [y.channel for y in task.model.outputs.values()]
+
+    def begins_in(run: Recording) -> bool:
+        at = np.flatnonzero(run.time == segment.time[0])
+        first = [run.channels[c][at] for c in outputs]
+        return len(at) == 1 and np.array_equal(np.ravel(first), segment.recorded[0], equal_nan=True)
+
+    return next(run for run in task.recording.segments(label) if begins_in(run))

@@ -19,6 +19,9 @@ FEW, MANY = 3.0, 15.0
 """Pieces of more than one coordinate keep their length between so many swings."""
 JUMP = 3.0
 """Pieces follow each other where the bend between them is less than so many times the largest inside."""
+BLOCKS = 16
+"""Bends are looked at of single samples and of means, up to those that divide a swing into so many: noise hides the
+jump between two runs of a bob on a twisting spring from single samples (tests/estimation/test_pieces.py)."""
 GAP = 0.5
 """Free motion is followed through a gap of this part of a swing."""
 
@@ -57,9 +60,27 @@ def _follows(before: Segment, after: Segment) -> bool:
     longest = 1.5 * step if before.inputs else max(1.5 * step, GAP * swing(before))
     if not 0 < gap <= longest or min(len(before.time), len(after.time)) < FEWEST:
         return False
-    ends = np.concatenate([before.time[-3:], after.time[:3]]), np.vstack([before.recorded[-3:], after.recorded[:3]])
-    inside = np.maximum(*(np.abs(_bends(e.time, e.recorded)).max(axis=0) for e in (before, after)))
-    return bool(np.all(np.abs(_bends(*ends)) <= JUMP * inside))
+    least, coarsest = min(len(before.time), len(after.time)) // FEWEST, swing(before) / step / BLOCKS
+    widths = [2**i for i in range(int(np.log2(max(1, min(least, coarsest)))) + 1)]
+    return all(_smooth_between(_means(before, w, -1), _means(after, w, 1)) for w in widths)
+
+
+def _means(segment: Segment, width: int, order: int) -> tuple[np.ndarray, np.ndarray]:
+    """Times and outputs averaged over so many samples each, from the first sample on or, for order -1, up to the last.
+
+    What sensors add to a bend falls faster with the width than what a jump does.
+    """
+    count = len(segment.time) // width
+    rows = slice(0, count * width) if order > 0 else slice(len(segment.time) - count * width, None)
+    time, y = segment.time[rows], segment.recorded[rows]
+    return time.reshape(count, width).mean(1), y.reshape(count, width, -1).mean(1)
+
+
+def _smooth_between(before: tuple[np.ndarray, np.ndarray], after: tuple[np.ndarray, np.ndarray]) -> bool:
+    """Whether outputs bend no more between two stretches than inside them, but for the factor `JUMP`."""
+    time, y = (np.concatenate([a[-3:], b[:3]]) for a, b in zip(before, after, strict=True))
+    inside = np.maximum(*(np.abs(_bends(*e)).max(axis=0) for e in (before, after)))
+    return bool(np.all(np.abs(_bends(time, y)) <= JUMP * inside))
 
 
 def _bends(time: np.ndarray, x: np.ndarray) -> np.ndarray:

@@ -91,3 +91,23 @@ def test_what_cannot_be_fitted_from_anywhere_says_how_its_start_ended(monkeypatc
 def test_a_recorded_input_keeps_a_motion_in_its_pieces_without_random_forces_too():
     task = task_of(pendulum(), pendulum_recording(duration=4.0), (0, 4), None, held_out=None, driven=False)
     assert task.model.inputs and task.moved and not task.random
+
+
+@pytest.mark.parametrize("again", [False, True], ids=["times go on", "times begin anew"])
+def test_runs_of_one_recording_are_regressed_each_by_itself(again):
+    """From the middle of the bounds, which were all that was left of an error, a bob on a spring led nowhere."""
+    whole = pendulum_recording(duration=24.0)
+    half = len(whole.time) // 2
+    rows = np.concatenate([np.arange(half), np.arange(half + 40, len(whole.time))])
+    run = (rows >= half).astype(int)
+    recording = si.Recording(
+        "two runs",
+        whole.time[rows] - again * run * 10.0,
+        {k: v[rows] for k, v in whole.channels.items()},
+        whole.units,
+        segment=run,
+        split=np.repeat("fit", len(rows)),
+    )
+    task = task_of(pendulum(), recording, "fit", None, held_out=None, driven=False)
+    plain = Data(segments_of(task.model, recording, "fit", None), np.array([5e-4]), driven=False)
+    assert given.regressed(task, plain)["damping"] == pytest.approx(0.4, rel=0.01)
