@@ -17,6 +17,7 @@ from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.model.levels import with_level_widths
 from symid.discrepancy.model.sizes import sizes_of
 from symid.discrepancy.model.suspects import Suspect, suspects as suspects_of
+from symid.discrepancy.model.switching import with_switching_time
 from symid.discrepancy.name.error_model import with_error_model
 from symid.discrepancy.name.held import held_as_given
 from symid.discrepancy.name.search import Search
@@ -133,6 +134,7 @@ def _under(
 ) -> Explained:
     """The laws that explain a recording of which the audit is right."""
     sized = with_level_widths(with_friction_speeds(given.model, pieces, checked.noise), pieces)
+    sized = with_switching_time(sized, pieces)
     unstated = [k for k, u in sized.inputs.items() if u.hold == "either"]
     stepped = [k for k in unstated if is_stepped(np.concatenate([e.inputs[k] for e in pieces]))]
     task = replace(given, model=sized.with_holds(**dict.fromkeys(stepped, "zero")))

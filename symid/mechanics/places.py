@@ -18,7 +18,7 @@ from symid.mechanics.elements import element_ports
 from symid.mechanics.flows import flow_ports
 from symid.mechanics.missing.laws.pair import ROLE as PAIR
 from symid.mechanics.missing.laws.shared import force_unit
-from symid.mechanics.missing.laws.stated import stated
+from symid.mechanics.missing.laws.stated import fitted, stated
 from symid.model import Input, Model, Output, Port, State
 from symid.model.parts.dimensions import unit_of
 from symid.units import dimension
@@ -40,17 +40,17 @@ NOTHING = 1e-300
 def with_places(model: Model) -> Model:
     """The model with every place named at which something may be missing, where its user named none.
 
-    Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a ``joint``
-    at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed is all that
-    the model knows, as of a motor; the position of such a port is 0. A force that drives several joints at once is a
-    ``joint``, too, between them, and so is what would join two neighbours, and a spring or a damper that acts on
-    several by levers, or against what inputs move. In another equation of first order, such as that of a tank, a
-    force has no rate of its own, and moves the state: a ``balance``; between two of one kind, or such a state and an
-    input of its kind, something may flow: an ``exchange``; and a state that is not in it may act on it, as each of
-    several inputs may on a balance that does not have it: a ``coupling``. Where no port is declared at all, a mass
-    that moves as no coordinate does is a ``body``, two neighbours of one kind are a ``pair``, and a constant without
-    a role is ``stated``. Outputs without a role become sensors, inputs without one excitations. A port of which no
-    unit is known gets that of a force or a torque.
+    Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a
+    ``joint`` at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed
+    is all that the model knows, as of a motor; the position of such a port is 0. A force that drives several joints
+    at once is a ``joint``, too, between them, and so is what would join two neighbours, and a spring or a damper
+    that acts on several by levers, or against what inputs move. In another equation of first order, such as that of
+    a tank, a force has no rate of its own, and moves the state: a ``balance``; between two of one kind, or such a
+    state and an input of its kind, something may flow: an ``exchange``; and a state that is not in it may act on
+    it, as each of several inputs may on a balance that does not have it: a ``coupling``. Where no port is declared
+    at all, a mass that moves as no coordinate does is a ``body``, two neighbours of one kind are a ``pair``, and a
+    constant without a role is ``stated`` and a parameter without one ``fitted``. Outputs without a role become
+    sensors, inputs without one excitations. A port of which no unit is known gets that of a force or a torque.
 
     Examples
     --------
@@ -69,7 +69,7 @@ def with_places(model: Model) -> Model:
     if not model.ports:
         for name, part in {**bodies(model, ports), **_pairs(model, ports)}.items():
             setattr(new, name, part)
-        new.components.update(stated(model))
+        new.components.update({**stated(model), **fitted(model)})
     for name, port in new.ports.items():
         if not port.unit and port.role in ROLES:
             new.components[name] = replace(port, unit=force_unit(new, port.at))

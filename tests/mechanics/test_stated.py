@@ -1,4 +1,4 @@
-"""Constants of a plain model that may be stated wrongly."""
+"""Values of a plain model that may be stated wrongly, or change while it is recorded."""
 
 import pytest
 import sympy as sm
@@ -49,3 +49,25 @@ def test_a_user_of_ports_says_where_things_may_be_wrong():
     m = slide()
     m.slider = si.Port(position=m.x, rate=m.v, into={"balance": -1.0}, role="joint", at="slide", unit="N")
     assert not with_places(m).find("stated") and with_places(m)["mass"].value == pytest.approx(0.8)
+
+
+def test_what_is_fitted_may_change_while_it_is_recorded():
+    m = with_places(slide())
+    assert [q.at for q in m.find("fitted")] == ["value:k"]
+    ageing = m.with_term(si.mechanics.LIBRARY["changing_value"].at("value:k"))
+    rate, k = ageing.changing_value_value_k_rate_1_s.symbol, m.k.symbol
+    assert ageing["balance"].expr == m["balance"].expr.xreplace({k: k * (1 + rate * m.time)})
+    broken = m.with_term(si.mechanics.LIBRARY["value_step"].at("value:k"))
+    factor, at = (broken[f"value_step_value_k_{key}"].symbol for key in ("factor", "time_s"))
+    values = {factor: 0.5, at: 3.0, broken.value_step_value_k_switching_time.symbol: 0.02}
+    for time, part in ((0.0, 1.0), (3.0, 0.75), (6.0, 0.5)):
+        now = broken["balance"].expr.xreplace(values | {m.time: time}) - m["balance"].expr
+        assert float(sm.expand(now / (m.x.symbol * k))) == pytest.approx(part - 1, abs=1e-12)
+
+
+def test_a_sudden_change_takes_as_long_as_the_model_states():
+    m = slide()
+    m.switching = si.Constant(2.0, unit="s", role="switching_time", at="global")
+    broken = with_places(m).with_term(si.mechanics.LIBRARY["value_step"].at("value:k"))
+    assert "value_step_value_k_switching_time" not in broken.constants
+    assert broken["balance"].expr.has(m.switching.symbol)

@@ -35,8 +35,10 @@ KINDS = {
     "inertia": "geometry",
     "length": "geometry",
     "stated": "geometry",
+    "fitted": "clock",
 }
-"""Role of the parts that a law changes -> kind of suspect; "state" where it is none of these, nor follows a clock."""
+"""Role of the parts that a law changes -> kind of suspect, "state" where it is none of these; a parameter that changes
+follows a clock, as does what is looked for over the recording."""
 HIGHEST_FREQUENCY = 5.0
 """Up to here a periodic suspect is looked for in a motion with the pace of a second [Hz]."""
 

@@ -21,6 +21,8 @@ def place_name(location: str) -> str:
     return (
         f"the {kind} {rest}"
         if kind in ("input", "body")
+        else f"the value of {rest}"
+        if kind == "value"
         else f"the {kind} of {noun}"
         if kind
         else {"the global": "the whole system", "the ": "the whole system"}.get(noun, noun)

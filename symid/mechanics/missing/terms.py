@@ -14,7 +14,7 @@ from symid.mechanics.missing.laws.joint import FURTHER_JOINT_LAWS, FURTHER_LINK_
 from symid.mechanics.missing.laws.late import LATE_LAWS
 from symid.mechanics.missing.laws.pair import PAIR_LAWS
 from symid.mechanics.missing.laws.sensor import SENSOR_LAWS
-from symid.mechanics.missing.laws.stated import STATED_LAWS
+from symid.mechanics.missing.laws.stated import AGEING_LAWS, STATED_LAWS
 from symid.mechanics.missing.laws.stop import STOP_LAWS
 from symid.mechanics.missing.laws.world import FURTHER_WORLD_LAWS, GEOMETRY_LAWS, WORLD_LAWS
 from symid.model import Law, Model, Term
@@ -44,6 +44,7 @@ LIBRARY: dict[str, Law] = {
         *SENSOR_LAWS,
         *FLOW_LAWS,
         *STATED_LAWS,
+        *AGEING_LAWS,
     )
 }
 """Every law by name: the canonical ones first, then what else the field knows."""

@@ -12,16 +12,14 @@ from symid.mechanics.missing.laws.shared import (
     LAG,
     dry,
     fit_units,
-    fixed,
     parameter_name,
     port_at,
     switched_on,
+    switching_time,
     time_derivative,
 )
 from symid.model import Equation, Law, LawParameter, Model, State
 
-_SWITCH = 0.02
-"""A sudden change is smoothed over this time [s]."""
 _BACKLASH_EDGE = 0.1
 """Part of the gap over which the contact of a backlash is smoothed."""
 
@@ -116,8 +114,7 @@ def _torque_feedback(model: Model, place: str, p: SimpleNamespace) -> None:
 
 
 def _gain_change(model: Model, place: str, p: SimpleNamespace) -> None:
-    name = parameter_name("gain_change", place, "switching_time")
-    width = fixed(model, name, _SWITCH, "s", "time that the change takes")
+    width = switching_time(model, "gain_change", place)
     for torque in model.find("feedback_torque", place):
         model.redefine(torque.name, torque.expr * (1 + (p.factor - 1) * switched_on(model, p.time_s, width)))
 

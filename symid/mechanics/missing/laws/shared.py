@@ -15,6 +15,9 @@ from symid.units import reduced
 FRICTION_SPEED = 0.05
 """Width [rad/s or m/s] of the smoothed jump of dry friction where a model states none."""
 
+SWITCHING_TIME = 0.02
+"""A sudden change is smoothed over this time [s] where a model states none, at the pace of a second."""
+
 LAG = LawParameter("time_constant_s", "s", (0.0, 1.0), 0.0, (0.03, 0.08, 0.2), 0.1)
 """Of a first-order lag."""
 
@@ -115,6 +118,15 @@ def friction_speed(model: Model, port: Port, law: str) -> sm.Symbol:
 def switched_on(model: Model, time, width) -> sm.Expr:
     """0 before `time` and 1 after it [s], smoothed over `width` [s]."""
     return (1 + sm.tanh((model.time - time) / width)) / 2
+
+
+def switching_time(model: Model, law: str, place: str) -> sm.Symbol:
+    """What a sudden change takes [s], as stated for all places or declared for `law`."""
+    stated = model.find("switching_time", "global")
+    if stated:
+        return stated[0].symbol
+    name = parameter_name(law, place, "switching_time")
+    return fixed(model, name, SWITCHING_TIME, "s", "time that the change takes")
 
 
 def effort_law(
