@@ -9,6 +9,7 @@ import numpy as np
 from scipy.special import gammaln, hyperu
 
 from symid.discrepancy.locate.chance import Chance, excess
+from symid.discrepancy.locate.fine import followed
 from symid.discrepancy.locate.flexible import flexible_terms
 from symid.discrepancy.locate.modulation import PARTS, modulated
 from symid.discrepancy.locate.projection import Projection
@@ -76,7 +77,12 @@ def remainder(fit: Fit, data: Data) -> list[Test]:
         Test(place, "a stiffness or damping that comes and goes", gain, PARTS, tried=tried)
         for place, gain, tried in modulated(projection)
     ]
-    for o, y in enumerate(fit.model.outputs.values()):
+    outputs = list(fit.model.outputs.values())
+    found += [
+        Test(outputs[o].at, "a force that changes within a small part of the motion", gain, size, False, tried)
+        for o, gain, size, tried in followed(projection, chance)
+    ]
+    for o, y in enumerate(outputs):
         statistic = _ljung_box(projection, projection.rest, o)
         statistic /= excess(np.array([_ljung_box(projection, r, o) for r in chance.rounded.T]), WHITENESS_LAGS)
         found.append(

@@ -21,6 +21,10 @@ REACHES, REACH = (0.003, 3.0), 0.1
 TORQUES, TORQUE = (1.0, 1000.0), 30.0
 """Likewise of feedback torques [N m or N]."""
 
+TURNING = np.pi / 4
+"""A joint that turns so far passes a few of the teeth or magnets, ten and more in a turn, of which each holds it. A
+judgement."""
+
 
 @dataclass(frozen=True)
 class Sizes:
@@ -31,7 +35,7 @@ class Sizes:
     pace : seconds. reach, torque : by place, where they are not as usual. ranges : by place, the middle of recorded
         positions and half of how far these reach, where outputs show them.
     only : places, by name, of laws that need more than their port: a torque that comes back in each turn a joint that
-        turns by more than one, a loss that follows a level's sign a level that changes it, a speed that is felt late a
+        turns far enough, a loss that follows a level's sign a level that changes it, a speed that is felt late a
         machine without a controller, which has laws of its own for that.
     """
 
@@ -80,10 +84,10 @@ def _joints_without_controller(model: Model) -> list[str]:
 
 
 def _turning(fit: Fit, data: Data) -> list[str]:
-    """Places of joints that outputs show to turn by more than one turn within a segment."""
+    """Places of joints that outputs show to turn so far within a segment that something can come back."""
     joints = [p for p in fit.model.ports.values() if p.role == "joint" and coordinate_unit(fit.model, p.at) == "rad"]
     moved = {p.at: shown(fit.model, p.position, data.segments) for p in joints}
-    return [place for place, pieces in moved.items() if pieces and max(map(np.ptp, pieces)) > 2 * np.pi]
+    return [place for place, pieces in moved.items() if pieces and max(map(np.ptp, pieces)) > TURNING]
 
 
 def _reaches(fit: Fit, data: Data, path: np.ndarray) -> dict[str, float]:

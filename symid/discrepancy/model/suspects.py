@@ -28,6 +28,8 @@ SCANNED = ("frequency", "start", "moment", "turn")
 """What is looked for on a grid: of a clock over the recording, of a turn over whole numbers."""
 MOST_PER_TURN = 48
 """Up to here a torque that comes back in each turn is looked for: magnets and teeth of small motors. A judgement."""
+FEWEST_WAVES = 1.5
+"""Of such a torque are looked for within a joint's range: what comes back less often is a bent spring. A judgement."""
 KINDS = {
     "sensor": "sensor",
     "gravity": "geometry",
@@ -153,7 +155,7 @@ class Suspect:
                     max(q.bounds[0], 1.5 / span), min(q.bounds[1], HIGHEST_FREQUENCY / data.pace), 0.75 / span
                 )
             elif q.clock == "turn":
-                places = np.arange(1, MOST_PER_TURN + 1)
+                places = np.arange(max(1, np.ceil(q.bounds[0])), MOST_PER_TURN + 1)
             elif q.clock == "moment":
                 places = np.linspace(t0 + 0.04 * span, t1 - 0.04 * span, 40)
             else:
@@ -208,6 +210,8 @@ def _sized(law: Law, sizes: Sizes, place: str) -> Law:
         parameters=tuple(
             _within(q, *sizes.ranges[place])
             if q.clock == "range"
+            else _seen(q, sizes.ranges[place][1])
+            if q.clock == "turn" and place in sizes.ranges
             else _scaled(q, 1.0 if q.clock == "phase" else factors.get(q.unit, 1.0))
             for q in law.parameters
         ),
@@ -219,6 +223,11 @@ def _within(q: LawParameter, middle: float, half: float) -> LawParameter:
     low, high = (middle + half * v for v in q.bounds)
     starts = tuple(middle + half * v for v in q.starts)
     return replace(q, bounds=(low, high), starts=starts, typical=middle + half * q.typical)
+
+
+def _seen(q: LawParameter, half: float) -> LawParameter:
+    """The waves in a turn of which a joint passes enough while it moves by so much [rad] about its middle."""
+    return replace(q, bounds=(max(q.bounds[0], FEWEST_WAVES * np.pi / half), q.bounds[1]))
 
 
 def _scaled(q: LawParameter, by: float) -> LawParameter:

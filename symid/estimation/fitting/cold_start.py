@@ -25,6 +25,9 @@ states, and by what factor they grow: from 1.5 s to 150 s at once, the period of
 for good (tests/discrepancy/machines/test_other_machines.py)."""
 CONFIDENT = 10.0
 """The first process noise moves the outputs by this many sensor noises: the fit then leans on the data."""
+LESS_CONFIDENT = (30 * CONFIDENT, 1000 * CONFIDENT)
+"""And by so many where fits from there end before they converge: without its controller a standing person falls so fast
+that forces a thousandth of those that acted would do (`person` 705 of tests/examination)."""
 FEWEST_STEPS = 10
 """Steps in which the first size of a force is looked for. After a single one of Euler it has moved no position yet:
 that of a ball on a beam, sampled at 10 Hz, began at 10^13 rad (tests/discrepancy/machines/test_ball_and_beam.py)."""
@@ -52,11 +55,12 @@ def fit_model(model: Model, data: Data, start: dict[str, float] | None = None, e
     fitter = Fitter(model, data)
     if not fitter.driven:
         return _grow(model, data, values, initial, values.keys() <= start.keys(), exact)
-    found, problem = [], None
-    for confident in (CONFIDENT, 0.2 * CONFIDENT):
-        process = confident * _equivalent_noise(sim, values, initial, data)
+    found, problem, smallest = [], None, _equivalent_noise(sim, values, initial, data)
+    for confident in (CONFIDENT, 0.2 * CONFIDENT, *LESS_CONFIDENT):
+        if confident in LESS_CONFIDENT and found and max(found, key=lambda f: f.loglik2).converged:
+            break
         try:
-            found.append(fitter.fit(values, initial, process, exact=exact))
+            found.append(fitter.fit(values, initial, confident * smallest, exact=exact))
         except SymidError as error:
             problem = error
     if not found:

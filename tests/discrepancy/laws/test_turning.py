@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.ndimage import gaussian_filter1d
 
 import symid as si
 from symid.discrepancy.model.sizes import Sizes
@@ -42,7 +43,58 @@ def found_in(recording: si.Recording) -> si.Diagnosis:
     return si.diagnose(motor(), recording, fit_window=(0, 6), held_out=(6, 11.9), threads=2)
 
 
-def test_it_is_a_suspect_of_joints_that_turn_by_more_than_a_turn():
+def held_by_a_spring(teeth: int = 8) -> tuple[si.Model, si.Recording]:
+    """A geared motor that a spring holds within 2 rad, smoothly driven; so many teeth in a turn."""
+    m, inertia, friction, spring = si.Model("motor"), 0.06, 0.05, 1.5
+    m.angle, m.speed, m.u = si.State(unit="rad"), si.State(unit="rad/s"), si.Input(unit="N*m")
+    m.J = si.Constant(inertia, unit="kg*m^2")
+    m.b, m.k = si.Parameter(unit="N*m*s/rad", bounds=(0, 10)), si.Parameter(unit="N*m/rad", bounds=(0, 100))
+    m.kinematics = si.Equation(m.angle.dot - m.speed)
+    m.balance = si.Equation(m.J * m.speed.dot + m.b * m.speed + m.k * m.angle - m.u)
+    m.seen = si.Output(m.angle)
+    rng = np.random.default_rng(4)
+    t = np.arange(0, 30, 0.01)
+    u = gaussian_filter1d(rng.standard_normal(len(t)), 6)
+    u *= 1.2 / u.std()
+
+    def rate(now, x):
+        torque = np.interp(now, t, u) - friction * x[1] - spring * x[0] - 0.12 * np.sin(teeth * x[0])
+        return x[1], torque / inertia
+
+    x = solve_ivp(rate, (0, t[-1]), [0, 0], t_eval=t, rtol=1e-8, atol=1e-10, max_step=0.005).y[0]
+    shown = {"angle": x + 1e-3 * rng.standard_normal(len(t)), "u": u}
+    return m, si.Recording("motor", t, shown, {"angle": "rad", "u": "N*m"})
+
+
+@pytest.mark.slow
+def test_less_than_a_turn_shows_it_too():
+    model, recording = held_by_a_spring()
+    found = si.diagnose(model, recording, fit_window=(0, 18), held_out=(18, 29.9), threads=2)
+    (effect,) = found.effects
+    assert effect.name == "cogging_torque" and found.verdict == "missing_physics" and found.confirmed
+    assert effect.parameters["waves_1_rad"][0] == pytest.approx(8, abs=0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("teeth", [6, 8])
+def test_where_no_suspect_explains_it_it_is_no_noise_of_the_drive(teeth):
+    """Splines do not follow so many waves, and as white noise of the torque it would be likely."""
+    model, recording = held_by_a_spring(teeth)
+    asked = [si.Suspect(si.mechanics.LIBRARY["joint_drag"].at("angle"))]
+    found = si.diagnose(model, recording, fit_window=(0, 18), held_out=(18, 29.9), suspects=asked, threads=2)
+    assert found.verdict == "unexplained"
+
+
+def test_of_a_smaller_range_waves_are_looked_for_that_come_back_in_it():
+    (suspect,) = (
+        s
+        for s in si.suspects(motor(), Sizes(only={"cogging_torque": ["angle"]}, ranges={"angle": (0.2, 1.0)}))
+        if s.term.name == "cogging_torque"
+    )
+    assert suspect.scanned.bounds[0] == pytest.approx(1.5 * np.pi)
+
+
+def test_it_is_a_suspect_of_joints_that_turn_far_enough():
     def names(sizes: Sizes | None) -> set[str]:
         return {str(s.term) for s in si.suspects(motor(), sizes)}
 
