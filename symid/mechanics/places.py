@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from itertools import pairwise, permutations
+from itertools import permutations
 
 import numpy as np
 import scipy
@@ -14,23 +14,19 @@ import sympy as sm
 from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.bodies import bodies
+from symid.mechanics.coordinates import is_speed
 from symid.mechanics.elements import element_ports
 from symid.mechanics.flows import flow_ports
-from symid.mechanics.missing.laws.pair import ROLE as PAIR
+from symid.mechanics.joined import between, of_drives, pairs, twists, within
 from symid.mechanics.missing.laws.shared import force_unit
 from symid.mechanics.missing.laws.stated import fitted, stated
 from symid.model import Input, Model, Output, Port, State
 from symid.model.parts.dimensions import unit_of
-from symid.units import dimension
 
 ROLES = ("joint", "link", "balance")
 """Of places where a force, or a flow in a balance, can act."""
 AT_REST = 0.1
 """Of every state, where what stands beside the rates is compared: near rest, and not where an angle's sine vanishes."""
-FORCES = "N", "N*m"
-"""Of inputs that drive: an acceleration of the ground pushes all floors of a building, and is no drive between them."""
-TURNS = ("rad", "deg", "rpm", "rev")
-"""Words in units of angular speed, which has the dimension of any rate."""
 MOST_BODIES = 6
 """Of so many the orders of their equations are tried one by one: 720."""
 NOTHING = 1e-300
@@ -67,7 +63,7 @@ def with_places(model: Model) -> Model:
     for name, port in ports.items():
         setattr(new, f"{name}_place", port)
     if not model.ports:
-        for name, part in {**bodies(model, ports), **_pairs(model, ports)}.items():
+        for name, part in {**bodies(model, ports), **pairs(model, ports)}.items():
             setattr(new, name, part)
         new.components.update({**stated(model), **fitted(model)})
     for name, port in new.ports.items():
@@ -85,7 +81,9 @@ def _ports_of_balances(model: Model) -> dict[str, Port]:
     rates = model.rates()
     kinematic = {model[x].dot: model[v].symbol for v, x in rates.items()}
     residuals = {name: model.inline(e.expr) for name, e in model.equations.items()}
-    moving = [s for s in model.states.values() if s.role != "memory" and s.dot not in kinematic]
+    relative = twists(model, residuals)
+    told = kinematic.keys() | {twist.dot for twist in relative}
+    moving = [s for s in model.states.values() if s.role != "memory" and s.dot not in told]
     balances = [
         name
         for name, r in residuals.items()
@@ -96,73 +94,12 @@ def _ports_of_balances(model: Model) -> dict[str, Port]:
         port = _port(model, name, residuals[name], state, rates)
         if name not in entered and port.unit:
             found[name] = port
-    among = _between(model, found, residuals) | flow_ports(model, found, residuals)
-    found |= among | _of_drives(model, found, residuals)
+    along = within(found, relative)
+    known = {p.rate for p in along.values()}
+    among = along | {k: p for k, p in between(model, found, residuals).items() if p.rate not in known}
+    among |= flow_ports(model, found, residuals)
+    found |= among | of_drives(model, found, residuals)
     return found | element_ports(model, found, residuals)
-
-
-def _between(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
-    """Ports between neighbours (in order of declaration) with coordinates of one kind.
-
-    A force between two bodies acts on both, against each other: of a spring or a joint that joins them. Where one of
-    them was declared there is one if nothing in the model joins them: else their user has said where forces act.
-    """
-    declared = {e: p for p in model.ports.values() if p.role == "joint" and len(p.into) == 1 for e in p.into}
-    joints = declared | {n: p for n, p in ports.items() if p.role == "joint"}
-    joints = {n: joints[n] for n in residuals if n in joints}
-    together = [set(p.into) for p in model.ports.values()]
-    found = {}
-    for (a, p), (b, q) in pairwise(joints.items()):
-        met = [residuals[x].has(*y.rate.free_symbols, *y.position.free_symbols) for x, y in ((a, q), (b, p))]
-        told = (a in declared or b in declared) and (any(met) or any({a, b} <= t for t in together))
-        alike = dimension(signal_unit(model, coordinate(p))) == dimension(signal_unit(model, coordinate(q)))
-        if not told and alike and p.unit == q.unit and (p.position == 0) == (q.position == 0):
-            found[f"{a}_{b}"] = replace(
-                p,
-                position=p.position - q.position,
-                rate=p.rate - q.rate,
-                into={**p.into, **{k: -v for k, v in q.into.items()}},
-                at=f"{p.at}-{q.at}",
-            )
-    return found
-
-
-def _pairs(model: Model, ports: Mapping[str, Port]) -> dict[str, Port]:
-    """Ports from the motion of a joint to the balance of its neighbour (in order of declaration) of the same kind."""
-    joints = {n: p for n, p in ports.items() if p.role == "joint" and len(p.into) == 1 and p.rate.is_Symbol}
-    return {
-        f"{a}_{b}_pair": replace(q, into=p.into, role=PAIR, at=f"{p.at} and {q.at}")
-        for (a, p), (b, q) in pairwise(joints.items())
-        if p.unit == q.unit and dimension(signal_unit(model, p.rate)) == dimension(signal_unit(model, q.rate))
-    }
-
-
-def _of_drives(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> dict[str, Port]:
-    """Ports along the forces and torques that push several joints at once, by factors that nothing changes.
-
-    A motor between a wheel and the body that it carries turns with neither: its friction follows the speed that is
-    conjugate to its torque (virtual power; Lanczos 1970, section 1.7).
-    """
-    joints = {n: p for n, p in ports.items() if p.role == "joint"}
-    found = {}
-    forces = [dimension(unit) for unit in FORCES]
-    for u in [u for u in model.inputs.values() if u.unit and dimension(u.unit) in forces]:
-        slopes = {n: sm.diff(residuals[n], u.symbol) for n in joints}
-        into = {n: slope.subs({c.symbol: c.value for c in model.constants.values()}) for n, slope in slopes.items()}
-        into = {n: slope for n, slope in into.items() if slope != 0}
-        if len(into) < 2 or not all(slope.is_number for slope in into.values()):
-            continue
-        along = {n: float(slope) * joints[n].into[n] for n, slope in into.items()}
-        if len({joints[n].position == 0 for n in along}) == 1:
-            found[f"{u.name}_drive"] = Port(
-                position=sum(k * joints[n].position for n, k in along.items()),
-                rate=sum(k * joints[n].rate for n, k in along.items()),
-                into={n: float(slope) for n, slope in into.items()},
-                unit=u.unit,
-                role="joint",
-                at=f"drive of {u.channel or u.name}",
-            )
-    return found
 
 
 def _own_states(
@@ -209,17 +146,6 @@ def _port(model: Model, name: str, residual: sm.Expr, state: State, rates: Mappi
     )
 
 
-def is_speed(unit: str) -> bool:
-    """Whether a state with this unit is a speed [m/s or rad/s]."""
-    found = dimension(unit)
-    return found == dimension("m/s") or found == dimension("rad/s") and any(word in unit for word in TURNS)
-
-
-def coordinate(port: Port) -> sm.Expr:
-    """Its position or, where the model does not know that, its rate."""
-    return port.position if port.position != 0 else port.rate
-
-
 def _unit(model: Model, residual: sm.Expr, about: sm.Expr) -> str:
     """Of an equation: that of most of its terms without a number in front, which may stand for a mass."""
     terms = [t for t in sm.Add.make_args(sm.expand(residual)) if abs(t.as_coeff_Mul()[0]) == 1]
@@ -258,12 +184,6 @@ def other_signals(model: Model, port: Port) -> list[sm.Symbol]:
             rows.append(_row(s, states))
             found.append(s)
     return found
-
-
-def signal_unit(model: Model, signal: sm.Expr) -> str:
-    """Unit of a linear expression of the states, as the model calls that of the first state that no lever turns."""
-    found = [s for s in model.states.values() if signal.has(s.symbol)]
-    return next((s.unit for s in found if abs(signal.coeff(s.symbol)) == 1), found[0].unit)
 
 
 def _row(expr: sm.Expr, states: list[sm.Symbol]) -> list[float]:

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from symid.discrepancy.say.rest import noun, power_unit, signal_name
-from symid.mechanics.places import signal_unit
+from symid.mechanics.coordinates import signal_unit
 from symid.plots.style import INK, MODEL, QUIET, WARN, Picture, opened
 from symid.units import prefix_for, shown_unit, time_unit, unit_symbol
 

@@ -15,8 +15,9 @@ from symid.estimation.fitting.path import along, fitted_signals
 from symid.estimation.sensors.independence import independent_share
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.swings import swing
+from symid.mechanics.coordinates import coordinate
 from symid.mechanics.missing.spline_law import Block
-from symid.mechanics.places import coordinate, places
+from symid.mechanics.places import places
 from symid.model import Model, Port
 
 STRETCHES = 3

@@ -9,8 +9,8 @@ import numpy as np
 
 from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.swings import swing
+from symid.mechanics.coordinates import coordinate
 from symid.mechanics.missing.laws.shared import coordinate_unit
-from symid.mechanics.places import coordinate
 from symid.model import Constant, Model, Port
 
 PARTS = 1e-4, 0.005

@@ -12,8 +12,8 @@ from symid.discrepancy.name.closed_form import Proposal
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.nameless import Nameless
 from symid.discrepancy.say.names import place_name
+from symid.mechanics.coordinates import coordinate, signal_unit
 from symid.mechanics.missing.dictionary import law_text
-from symid.mechanics.places import coordinate, signal_unit
 from symid.model import Model, Port
 from symid.units import quantity, reduced, same_dimension
 

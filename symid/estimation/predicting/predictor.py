@@ -86,6 +86,7 @@ class Predictor:
                 initial_sensitivity=self.sim.states if sensitivities else (),
                 history=self._history(p, start, e, lag),
                 late=late,
+                unknown=lag if self.driven else 0.0,
                 **self.steps,
             )
             if t.diverged:

@@ -10,7 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 import sympy as sm
 
-from symid.mechanics.places import signal_unit
+from symid.mechanics.coordinates import signal_unit
 from symid.model import Law, LawParameter, Model, Port
 
 HIGHEST_POWER = 5

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import sympy as sm
 
-from symid.mechanics.places import signal_unit
+from symid.mechanics.coordinates import signal_unit
 from symid.model import Law, LawParameter, Model, Port
 from symid.units import reduced
 
