@@ -71,3 +71,16 @@ def test_a_sudden_change_takes_as_long_as_the_model_states():
     broken = with_places(m).with_term(si.mechanics.LIBRARY["value_step"].at("value:k"))
     assert "value_step_value_k_switching_time" not in broken.constants
     assert broken["balance"].expr.has(m.switching.symbol)
+
+
+def test_weights_and_lags_do_not_age():
+    m = slide()
+    m.lag = si.Parameter(unit="s", bounds=(0, 1))
+    m.late = si.Equation(m.mass * m.v.dot + m.k * m.delayed(m.x, m.lag) - m.lag * m.v - m.push)
+    assert [q.at for q in with_places(m).find("fitted")] == ["value:k"]
+    total = 0
+    for i in range(25):
+        setattr(m, f"weight_{i}", si.Parameter(unit="1"))
+        total += getattr(m, f"weight_{i}") * sm.tanh(i * m.x.symbol)
+    m.net = si.Output(total, channel="net", unit="1")
+    assert with_places(m).find("fitted") == []

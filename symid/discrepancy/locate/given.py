@@ -149,12 +149,12 @@ def regressed(task: Task, plain: Data, solved: bool = False) -> Start:
 
 def _run_of(task: Task, segment: Segment) -> Recording:
     """The run of the recording in which a segment begins; times of runs may overlap, their samples differ."""
-    label = task.fit_window if isinstance(task.fit_window, str) else None
+    label, begin = task.fit_window if isinstance(task.fit_window, str) else None, segment.time[0]
     outputs = [y.channel for y in task.model.outputs.values()]
+    runs = [run for run in task.recording.segments(label) if run.time[0] <= begin <= run.time[-1]]
 
     def begins_in(run: Recording) -> bool:
-        at = np.flatnonzero(run.time == segment.time[0])
-        first = [run.channels[c][at] for c in outputs]
-        return len(at) == 1 and np.array_equal(np.ravel(first), segment.recorded[0], equal_nan=True)
+        at = int(np.searchsorted(run.time, begin))
+        return np.array_equal([run.channels[c][at] for c in outputs], segment.recorded[0], equal_nan=True)
 
-    return next(run for run in task.recording.segments(label) if begins_in(run))
+    return next((run for run in runs if begins_in(run)), runs[0])

@@ -15,6 +15,8 @@ from symid.units import dimension
 
 ROLE = "stated"
 FITTED = "fitted"
+MOST_FITTED = 20
+"""Of so many parameters each may be a property of something that ages; of more they are weights. A judgement."""
 GRAVITY = 9.76, 9.84
 """Of the Earth [m/s^2], from the equator to the poles at sea level: who states it is right."""
 
@@ -30,13 +32,15 @@ def stated(model: Model) -> Mapping[str, Constant]:
 
 
 def fitted(model: Model) -> Mapping[str, Parameter]:
-    """The parameters in a model's equations and outputs without a role, by name, with that of what may change."""
-    used = _used(model)
-    return {
+    """The parameters in a model's equations and outputs without a role, by name, with that of what may change; none
+    of more than `MOST_FITTED`, and none that says how late something is."""
+    used = _used(model) - set().union(*(delay.lag.free_symbols for delay in model.delays.values()))
+    found = {
         q.name: replace(q, role=FITTED, at=q.at or f"value:{q.name}")
         for q in model.parameters.values()
         if not q.role and q.symbol in used
     }
+    return found if len(found) <= MOST_FITTED else {}
 
 
 def _used(model: Model) -> set[sm.Basic]:
