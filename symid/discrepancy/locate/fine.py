@@ -15,7 +15,7 @@ from symid.estimation.fitting.path import along, fitted_signals
 BINS = 48
 """Parts of a signal with as many samples each: ten waves of a force in its range have five each."""
 FEWEST = 20
-"""Samples of a part."""
+"""Samples of a part, so that a few large errors are no mean."""
 STEPS = 8
 """Of an encoder, that a part is wide: in one step its rounding errors follow the position."""
 
@@ -30,8 +30,8 @@ def followed(projection: Projection, chance: Chance) -> list[tuple[int, float, i
     if not data.driven:
         return []
     signals = fitted_signals(projection.fit, data)
-    followed = {e for p in model.ports.values() if p.role == "joint" for e in (p.position, p.rate) if e != 0}
-    courses = [along(signals, e, model) for e in sorted(followed, key=str)]
+    motions = {e for p in model.ports.values() if p.role == "joint" for e in (p.position, p.rate) if e != 0}
+    courses = [along(signals, e, model) for e in sorted(motions, key=str)]
     rounding, found = np.broadcast_to(data.rounding, projection.outputs), []
     for output, step in enumerate(rounding):
         gains = [chance.scored(_means(projection, x, output, step)) for x in courses if np.ptp(x) > 0]

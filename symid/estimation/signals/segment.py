@@ -142,7 +142,7 @@ class Segment:
         """(m,) first samples of each output that show what was before the segment; None where none does."""
         return None if late is None or not np.any(late > 0) else self._rows(late)
 
-    def _rows(self, seconds):
+    def _rows(self, seconds: float | np.ndarray) -> np.ndarray:
         """Samples in so many seconds from the first on, fewer than there are."""
         return np.minimum(np.ceil(seconds / self.step - MET).astype(int), len(self.time) - 1)
 
