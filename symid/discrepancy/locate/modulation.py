@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.fft import irfft, next_fast_len, rfft
+from scipy.special import gammaincinv
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.suspects import Suspect
@@ -57,8 +58,18 @@ def modulated(projection: Projection) -> list[tuple[str, float, int]]:
             waves = [wave(2 * np.pi * np.outer(time, some)) for wave in (np.sin, np.cos)]
             columns = push.convolved(np.stack([x[:, None] * w for x in motion for w in waves], axis=2))
             gains += slow.gains(columns)
-        found.append((port.at, max(gains), len(frequencies)))
+        found.append((port.at, max(gains) / _inflation(gains), len(frequencies)))
     return found
+
+
+def _inflation(gains: list[float]) -> float:
+    """How much larger gains are than by chance, at least 1, as the median of all frequencies tells.
+
+    Answers that ring for long, as of a loop that is hardly damped, are those to a short push only nearly; and a change
+    at one frequency leaves most others as they are. Gains of persons were 7 % larger in the mean, of one 21 %.
+    """
+    by_chance = 2 * float(gammaincinv(PARTS / 2, 0.5))
+    return max(1.0, float(np.median(gains)) / by_chance)
 
 
 def _coarse(a: np.ndarray, every: int) -> np.ndarray:

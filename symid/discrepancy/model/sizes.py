@@ -65,16 +65,18 @@ def sizes_of(fit: Fit, data: Data) -> Sizes:
         "late_damping": _joints_without_controller(fit.model),
     }
     path = fitted_path(fit, data)
-    return Sizes(data.pace, _reaches(fit, data, path), _torques(fit, data, path), _ranges(fit.model, data), only)
+    return Sizes(data.pace, _reaches(fit, data, path), _torques(fit, data, path), _ranges(fit, data), only)
 
 
-def _ranges(model: Model, data: Data) -> dict[str, tuple[float, float]]:
-    """Of the joints whose position outputs show."""
-    found = {}
+def _ranges(fit: Fit, data: Data) -> dict[str, tuple[float, float]]:
+    """Of the joints whose position outputs show, from where the fit has the zero of those that have a length."""
+    model, found = fit.model, {}
+    still = {x.symbol: 0.0 for x in (*model.states.values(), *model.inputs.values())}
+    values = {p.symbol: fit.values[name] for name, p in model.parameters.items()}
     for port in (p for p in model.ports.values() if p.role == "joint"):
         pieces = shown(model, port.position, data.segments)
         if pieces is not None:
-            moved = np.concatenate(pieces)
+            moved = np.concatenate(pieces) + float(port.position.subs(still).subs(values))
             found[port.at] = (float(moved.max() + moved.min()) / 2, float(np.ptp(moved)) / 2)
     return found
 

@@ -8,6 +8,7 @@ from symid import checked
 from symid.errors import ModelError
 from symid.mechanics.bodies import BODY_LAWS
 from symid.mechanics.missing.laws.drive import DRIVE_LAWS, LAG_LAWS, OFFSET_LAWS
+from symid.mechanics.missing.laws.element import ELEMENT_LAWS
 from symid.mechanics.missing.laws.feedback import FEEDBACK_LAWS, FURTHER_FEEDBACK_LAWS
 from symid.mechanics.missing.laws.flow import FLOW_LAWS
 from symid.mechanics.missing.laws.joint import FURTHER_JOINT_LAWS, FURTHER_LINK_LAWS, JOINT_LAWS, LINK_LAWS
@@ -33,6 +34,7 @@ LIBRARY: dict[str, Law] = {
         *FURTHER_FEEDBACK_LAWS,
         *FURTHER_JOINT_LAWS,
         *STOP_LAWS,
+        *ELEMENT_LAWS,
         *LATE_LAWS,
         *FURTHER_LINK_LAWS,
         *FURTHER_WORLD_LAWS,

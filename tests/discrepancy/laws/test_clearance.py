@@ -2,14 +2,15 @@
 
 import numpy as np
 import pytest
+import sympy as sm
 from scipy.signal import butter, sosfiltfilt
 
 import symid as si
 
 
-def simulated(rates, states: int, drive: np.ndarray, rate_hz: float, substeps: int = 20) -> np.ndarray:
-    """(N, n) states by Runge-Kutta 4 under a drive that is held between samples, from rest."""
-    x, h, path = np.zeros(states), 1 / rate_hz / substeps, []
+def simulated(rates, states: int, drive: np.ndarray, rate_hz: float, substeps: int = 20, start=None) -> np.ndarray:
+    """(N, n) states by Runge-Kutta 4 under a drive that is held between samples, from rest or a start (n,)."""
+    x, h, path = np.zeros(states) if start is None else start, 1 / rate_hz / substeps, []
     for u in drive:
         path.append(x)
         for _ in range(substeps):
@@ -28,13 +29,14 @@ def beyond(z: float, gap: float) -> float:
     return max(z - gap, 0.0) - max(-z - gap, 0.0)
 
 
-def shaft(play: float, seed: int, size: float = 1.0) -> tuple[si.Model, si.Recording]:
-    """size : of the torques, and so of all motion."""
+def shaft(play: float, seed: int, size: float = 1.0, lets_go: bool = False) -> tuple[si.Model, si.Recording]:
+    """size : of the torques, and so of all motion. lets_go : whether the damper, too, does nothing within the play."""
     rng, time = np.random.default_rng(seed), np.arange(0, 16, 1 / 250)
     torque = noise(len(time), 6, 250, 18 * size, rng)
 
     def rates(x: np.ndarray, u: float) -> np.ndarray:
-        pull = 180 * beyond(x[0] - x[1], play) + 0.25 * (x[2] - x[3])
+        holds = not lets_go or abs(x[0] - x[1]) > play
+        pull = 180 * beyond(x[0] - x[1], play) + 0.25 * (x[2] - x[3]) * holds
         return np.array([x[2], x[3], (u - pull - 0.08 * x[2]) / 0.05, (pull - 0.1 * x[3]) / 0.12])
 
     speeds = simulated(rates, 4, torque, 250)[:, 2:] + 0.01 * size * rng.standard_normal((len(time), 2))
@@ -51,6 +53,32 @@ def shaft(play: float, seed: int, size: float = 1.0) -> tuple[si.Model, si.Recor
     m.seen1, m.seen2 = si.Output(m.v, channel="motor"), si.Output(m.w, channel="load")
     values, units = {"motor": speeds[:, 0], "load": speeds[:, 1], "torque": torque}, {"motor": "rad/s", "load": "rad/s"}
     return m, si.Recording("shaft", time, values, {**units, "torque": "N*m"})
+
+
+def cord(angle: float, seed: int) -> tuple[si.Model, si.Recording]:
+    """Two pendulums that swing freely, four times, joined by a cord that is slack below an angle between them."""
+    rng, runs = np.random.default_rng(seed), []
+
+    def rates(x: np.ndarray, _: float) -> np.ndarray:
+        pull = 0.35 * max(x[0] - x[1], angle)
+        return np.array([x[2], x[3], -19.6 * np.sin(x[0]) - pull - 0.01 * x[2], -19.6 * np.sin(x[1]) + pull])
+
+    for start in ((0.3, 0, 0, 0), (0.2, -0.25, 0, 0), (0, 0.35, 0, 0), (0.25, 0.3, 0, 0)):
+        path = simulated(rates, 4, np.zeros(1200), 60, 5, np.array(start, float))[:, :2]
+        runs.append(path + 1.5e-3 * rng.standard_normal(path.shape))
+    m = si.Model("cord")
+    m.a, m.b, m.v, m.w = *(si.State(unit="rad") for _ in "ab"), *(si.State(unit="rad/s") for _ in "vw")
+    m.k, m.c = si.Parameter(unit="1/s^2", bounds=(0, 10)), si.Parameter(unit="1/s", bounds=(0, 1))
+    pull = m.k * (m.a - m.b)
+    m.kinematics1, m.kinematics2 = si.Equation(m.a.dot - m.v), si.Equation(m.b.dot - m.w)
+    m.balance1 = si.Equation(m.v.dot + 19.6 * sm.sin(m.a) + pull + m.c * m.v)
+    m.balance2 = si.Equation(m.w.dot + 19.6 * sm.sin(m.b) - pull)
+    m.seen1, m.seen2 = si.Output(m.a, channel="left"), si.Output(m.b, channel="right")
+    angles, run = np.concatenate(runs), np.repeat(np.arange(4), 1200)
+    channels = {"left": angles[:, 0], "right": angles[:, 1]}
+    split = ["validation" if i == 3 else "train" for i in run]
+    time = np.arange(len(run)) / 60
+    return m, si.Recording("cord", time, channels, dict.fromkeys(channels, "rad"), segment=run, split=split)
 
 
 def table(stiffness: float, gap: float, cubic: float, seed: int) -> tuple[si.Model, si.Recording]:
@@ -105,6 +133,25 @@ def test_the_spring_of_a_shaft_has_play(size):
     value, error = law.parameters["gap_rad"]
     assert value == pytest.approx(0.01 * size, abs=4 * error + 2e-4 * size)
     assert found.confirmed
+
+
+@pytest.mark.slow
+def test_a_shaft_lets_go_within_its_play():
+    found = diagnosed(*shaft(0.01, 1, lets_go=True))
+    (law,) = [e for e in found.effects if e.name == "backlash"]
+    value, error = law.parameters["gap_rad"]
+    assert value == pytest.approx(0.01, abs=4 * error + 2e-4)
+    assert found.confirmed
+
+
+@pytest.mark.slow
+def test_a_cord_only_pulls():
+    model, recording = cord(-0.05, 1)
+    found = si.diagnose(model, recording, fit_window="train", held_out="validation", threads=1)
+    assert found.confirmed and "as a cord that only pulls" in found.words, str(found)
+    (law,) = [e for e in found.effects if e.name == "slack_below"]
+    value, error = law.parameters["angle_rad"]
+    assert value == pytest.approx(-0.05, abs=4 * error)
 
 
 @pytest.mark.slow

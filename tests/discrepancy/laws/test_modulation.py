@@ -10,7 +10,7 @@ from driven_cart import cart, data_of, finding, recorded
 from scipy.linalg import expm
 
 import symid as si
-from symid.discrepancy.locate.modulation import PARTS, modulated
+from symid.discrepancy.locate.modulation import PARTS, _inflation, modulated
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.locate.remainder import Test as Left, remainder
 from symid.discrepancy.policy import POLICY
@@ -101,3 +101,11 @@ def test_the_steps_of_a_command_are_no_damping_that_comes_and_goes(seed):
     data = Data(window, np.array([3e-3, 1e-2]), driven=True)
     ((place, gain, tried),) = modulated(Projection(fit_model(model, data), data))
     assert Left(place, "", gain, PARTS, tried=tried).minus_log10_p < 2
+
+
+@pytest.mark.parametrize(("by", "most"), [(1.3, 1.3), (0.6, 1.0)])
+def test_gains_that_are_larger_at_all_frequencies_tell_by_how_much(by, most):
+    """Of a loop that is hardly damped all are; one frequency at which something comes and goes does not count."""
+    gains = by * np.random.default_rng(1).chisquare(PARTS, 2000)
+    gains[700] = 500.0
+    assert _inflation(list(gains)) == pytest.approx(most, rel=0.05)
