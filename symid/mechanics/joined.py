@@ -107,13 +107,32 @@ def of_drives(model: Model, ports: Mapping[str, Port], residuals: Mapping[str, s
         if len(into) < 2 or not all(slope.is_number for slope in into.values()):
             continue
         along = {n: float(slope) * joints[n].into[n] for n, slope in into.items()}
-        if len({joints[n].position == 0 for n in along}) == 1:
-            found[f"{u.name}_drive"] = Port(
-                position=sum(k * joints[n].position for n, k in along.items()),
-                rate=sum(k * joints[n].rate for n, k in along.items()),
-                into={n: float(slope) for n, slope in into.items()},
-                unit=u.unit,
-                role="joint",
-                at=f"drive of {u.channel or u.name}",
-            )
+        rate = sm.expand(sum(k * _moved(model, n, joints, residuals) for n, k in along.items()))
+        positions = {p.rate: p.position for p in joints.values() if rate.has(p.rate)}
+        found[f"{u.name}_drive"] = Port(
+            position=rate.subs(positions) if all(x != 0 for x in positions.values()) else sm.S.Zero,
+            rate=rate,
+            into={n: float(slope) for n, slope in into.items()},
+            unit=u.unit,
+            role="joint",
+            at=f"drive of {u.channel or u.name}",
+        )
     return found
+
+
+def _moved(model: Model, name: str, joints: Mapping[str, Port], residuals: Mapping[str, sm.Expr]) -> sm.Expr:
+    """The speed of what a balance moves: its own, or the sum whose rate stands there if that is no other's, too.
+
+    Newton's law of a wheel has its whole speed, and a state may be that against the body which carries it; Lagrange's
+    equations, of which the matrix beside the rates is symmetric, are each of one coordinate.
+    """
+    own, speeds = joints[name].rate, {n: p.rate for n, p in joints.items() if p.rate.is_Symbol}
+    rates = {x.symbol: x.dot for x in model.states.values()}
+    values = {c.symbol: c.value for c in model.constants.values()}
+
+    def beside(n: str, v: sm.Expr) -> sm.Expr:
+        return sm.diff(residuals[n], rates[v]).subs(values)
+
+    carried = {v: beside(name, v) for n, v in speeds.items() if n != name and beside(n, own) == 0}
+    parts = {v: sm.simplify(x / beside(name, own)) for v, x in carried.items() if x != 0}
+    return own + sum(float(k) * v for v, k in parts.items()) if all(k.is_number for k in parts.values()) else own

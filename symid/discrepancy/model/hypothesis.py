@@ -104,12 +104,17 @@ class Hypothesis:
 
         A law that became half beside what was added after it only loses its name: what it stands for may come later.
         """
-        return sum(
-            POLICY.doubt * (not self.is_named(s))
-            + POLICY.never
-            * (self._is_harmonic(s) or self._is_skew(s) or self._is_ahead(s) or s is self.suspect and self.is_half(s))
-            for s in self.suspects
-        )
+        unnamed = sum(POLICY.doubt * (not self.is_named(s)) for s in self.suspects)
+        return unnamed + POLICY.never * sum(self._is_no_answer(s) or self._is_skew(s) for s in self.suspects)
+
+    @property
+    def may_be(self) -> bool:
+        """Whether it may be the answer, beside another one: a skew between channels is never named, but may be all."""
+        return not any(map(self._is_no_answer, self.suspects))
+
+    def _is_no_answer(self, suspect: Suspect) -> bool:
+        half = suspect is self.suspect and self.is_half(suspect)
+        return self._is_harmonic(suspect) or self._is_ahead(suspect) or half
 
     def is_named(self, suspect: Suspect) -> bool:
         """Whether the suspect's law has a name, and is what that says."""

@@ -21,12 +21,7 @@ def equivalents(found: Hypothesis, tried: Sequence[Hypothesis]) -> list[Hypothes
     terms, others = {s.term for s in found.suspects}, {}
     for h in tried:
         new = [s for s in h.suspects if s.term not in terms]
-        if (
-            len(h.suspects) == len(found.suspects)
-            and len(new) == 1
-            and h.doubt() < POLICY.never
-            and not _only_clock(new[0], found)
-        ):
+        if len(h.suspects) == len(found.suspects) and len(new) == 1 and h.may_be and not _only_clock(new[0], found):
             like = h if _is_near(h, found) else _on_the_same_base(h, found, tried) or _to_the_end(h, found, tried)
             if like is not None:
                 kept = [s for s in h.suspects if s.term in terms]

@@ -27,6 +27,23 @@ def test_friction_of_a_motor_between_two_bodies_follows_the_speed_that_is_conjug
         assert float(sm.diff(more, m.w.symbol, lossy[list(lossy.parameters)[-1]].symbol)) == pytest.approx(-part)
 
 
+@pytest.mark.parametrize("knows_turns", [True, False])
+def test_a_wheel_whose_speed_is_that_against_its_body_is_carried_by_it(knows_turns):
+    """A pendulum with a reaction wheel: Newton's law has its whole speed, its friction the relative one."""
+    m = si.Model("reaction wheel")
+    m.q, m.w, m.r, m.torque = si.State(unit="rad"), si.State(unit="rad/s"), si.State(unit="rad/s"), si.Input(unit="N*m")
+    m.k1, m.inertia = si.Equation(m.q.dot - m.w), si.Parameter(unit="kg*m^2", bounds=(1e-5, 1))
+    m.pendulum = si.Equation(0.02 * m.w.dot + 0.8 * sm.sin(m.q) + m.torque)
+    m.wheel = si.Equation(m.inertia * (m.r.dot + m.w.dot) - m.torque)
+    if knows_turns:
+        m.turns = si.State(unit="rad")
+        m.k2 = si.Equation(m.turns.dot - m.r)
+    m.y1, m.y2 = si.Output(m.q), si.Output(m.r)
+    port = with_places(m).find("joint", "drive of torque")[0]
+    assert sm.nsimplify(port.rate) == m.r.symbol and port.into == {"pendulum": 1.0, "wheel": -1.0}
+    assert sm.nsimplify(port.position) == (m.turns.symbol if knows_turns else 0)
+
+
 def test_an_input_that_shakes_the_ground_is_no_drive_between_the_floors_of_a_house():
     m = si.Model("house")
     m.a, m.b, m.v, m.w = (si.State(unit=u) for u in ("m", "m", "m/s", "m/s"))
@@ -54,3 +71,12 @@ def test_a_zero_error_is_tried_where_it_is_no_constant_force():
         cart.balance = si.Equation((2.0 if unit == "N" else 1.0) * cart.v.dot - cart.push)
         cart.seen = si.Output(cart.x)
         assert "input_offset" not in {s.term.name for s in si.suspects(cart)}
+
+
+def test_a_zero_error_of_a_length_is_tried_since_it_multiplies_the_motion():
+    """Of a pendulum on a winch."""
+    m = si.Model("winch")
+    m.q, m.w, m.length = si.State(unit="rad"), si.State(unit="rad/s"), si.Input(unit="m")
+    m.turns, m.swings = si.Equation(m.q.dot - m.w), si.Equation(m.length * m.w.dot + 9.81 * sm.sin(m.q))
+    m.seen = si.Output(m.q)
+    assert "input_offset@input:length" in {str(s.term) for s in si.suspects(m)}

@@ -13,6 +13,7 @@ from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, refit
 from symid.discrepancy.name import equivalents as equals
 from symid.discrepancy.name.equivalents import equivalents
+from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between
@@ -65,6 +66,15 @@ def test_neither_of_them_is_told_without_the_other(late):
     assert abs(a.log_ratio - b.log_ratio) < 1
     for found, other in ((a, b), (b, a)):
         assert [h.suspects for h in equivalents(found, list(late.values()))] == [other.suspects]
+
+
+def test_channels_that_are_less_than_a_sample_apart_are_told_as_an_equal_and_never_named(late):
+    """What a multiplexer does is no finding, but may be all that another one is."""
+    delay = late["sensor_delay"]
+    values = delay.fit.values | SENSOR.named({"delay_s": 0.5 * POLICY.skew * STEP_s})
+    skew = replace(delay, fit=replace(delay.fit, values=values))
+    assert skew.may_be and skew.doubt() >= POLICY.never > delay.doubt()
+    assert [h.suspects for h in equivalents(late["input_delay"], [skew])] == [skew.suspects]
 
 
 def test_what_explains_less_of_all_samples_is_no_equal(late):

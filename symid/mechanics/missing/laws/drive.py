@@ -45,13 +45,18 @@ def _input_offset(model: Model, place: str, p: SimpleNamespace) -> None:
 
 
 def has_own_zero(model: Model, place: str) -> bool:
-    """Whether a zero error of the excitations there is no constant force or flow in one balance, and no tilt."""
+    """Whether a zero error of the excitations there is no constant force or flow in one balance, and no tilt.
+
+    One of a length that a winch changes is none, since it multiplies what else stands in the balance.
+    """
     inputs = model.find("excitation", place)
     forces = [dimension(unit) for unit in PUSHES]
     if any(dimension(u.unit or "1") in forces for u in inputs):
         return False
     symbols = [s for u in inputs for s in (u.symbol, *late_symbols(model, u.symbol))]
-    return sum(r.has(*symbols) for r in model.residual()) > 1
+    moving = [s for x in model.states.values() for s in (x.symbol, x.dot)] + [u.symbol for u in model.inputs.values()]
+    told = [r for r in model.residual() if r.has(*symbols)]
+    return len(told) > 1 or any(sm.diff(r, s).has(*moving) for r in told for s in symbols)
 
 
 def _input_lag(model: Model, place: str, p: SimpleNamespace) -> None:
