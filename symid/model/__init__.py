@@ -11,6 +11,7 @@ from symid.model.parts.kinds import parts_of, same_parts
 from symid.model.parts.prior import LogNormal, Normal, Prior
 from symid.model.parts.quantities import WHITE, Algebraic, Constant, Control, Input, Noise, Parameter, Process, State
 from symid.model.shown import as_shown, shown_states
+from symid.model.solved import solved
 from symid.model.term import Law, LawParameter, Term
 from symid.model.variants import explicit
 
@@ -52,6 +53,7 @@ __all__ = [
     "parts_of",
     "same_parts",
     "shown_states",
+    "solved",
     "symbol",
     "table",
     "terminal",

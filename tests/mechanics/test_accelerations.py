@@ -58,6 +58,20 @@ def test_a_friction_that_is_added_is_felt():
     assert run.y[0, 0] == pytest.approx(-(1e3 + 640.0) * 0.5 / 320.0)
 
 
+@pytest.mark.parametrize("shown", [lambda m: m.vs.dot, lambda m: 0.5 * m.vs.dot + 9.81 * m.s])
+def test_an_accelerometer_that_is_late_shows_all_of_it_late(shown):
+    """A delay of 10 ms was told as 1.9 ms, where the rate was shown at once and only the rest late."""
+    m = with_places(car(shown))
+    late = m.with_term(LIBRARY["sensor_delay"].at("sensor:felt"))
+    time, steps = np.arange(0, 1, 1e-3), 10
+    values, inputs = {"wheel": 40.0, "k": 2e4, "c": 1e3}, {"road": 0.01 * np.sin(9 * time) ** 2}
+    start = np.array([0.0, 0.01, 0.0, 0.5])
+    prompt = simulator(m).simulate(values, start, time, inputs).y[:, 0]
+    delay = {"sensor_delay_sensor_felt_delay_s": steps * 1e-3}
+    seen = simulator(late).simulate(values | delay, start, time, inputs).y[:, 0]
+    assert np.abs(seen[2 * steps :] - prompt[steps:-steps]).max() < 1e-3 * np.abs(prompt).max()
+
+
 @pytest.mark.slow
 def test_an_output_with_a_rate_is_identified_as_what_the_equations_give_for_it():
     time = np.arange(0, 3, 0.01)

@@ -9,7 +9,7 @@ import sympy as sm
 
 from symid.codegen.equations.program import Program
 from symid.errors import CodegenError
-from symid.model import TIME, Model
+from symid.model import TIME, Model, solved
 
 STEP, SQUARES = sm.Symbol("(step)", real=True), sm.Symbol("(squares)", real=True)
 
@@ -27,7 +27,7 @@ def step_program(model: Model) -> Program:
         If the equations cannot be solved for x', in which they must be linear.
     """
     states, rates = [s.symbol for s in model.states.values()], [s.dot for s in model.states.values()]
-    solution = _solved(model, list(model.residual()), rates)
+    solution = _solved(model)
     recorded = [sm.Symbol(f"(recorded {name})", real=True) for name in model.outputs]
     errors = [y.xreplace(solution) - r for y, r in zip(model.observed(), recorded, strict=True)]
     rows = (*(x + STEP * solution[r] for x, r in zip(states, rates, strict=True)), SQUARES + sum(e**2 for e in errors))
@@ -62,7 +62,7 @@ def with_rates_solved(model: Model) -> Model:
     shown = {name: y for name, y in model.outputs.items() if model.inline(y.expr).free_symbols & set(rates)}
     if not shown:
         return model
-    solution, new = _solved(model, list(model.residual()), rates), model.copy()
+    solution, new = _solved(model), model.copy()
     new.components.update({n: replace(y, expr=model.inline(y.expr).xreplace(solution)) for n, y in shown.items()})
     return new
 
@@ -87,40 +87,10 @@ def uniform_symbols(model: Model) -> tuple[sm.Symbol, ...]:
     return (*(c.symbol for c in parts), TIME)
 
 
-def _solved(model: Model, residuals: list[sm.Expr], rates: list[sm.Symbol]) -> dict[sm.Symbol, sm.Expr]:
-    """Rates one by one where an equation holds a single one, the rest together by elimination."""
-    solution: dict[sm.Symbol, sm.Expr] = {}
-    waiting = list(residuals)
-    found = True
-    while found:
-        found = False
-        for equation in waiting:
-            unknown = equation.free_symbols & set(rates) - solution.keys()
-            if len(unknown) == 1:
-                (rate,) = unknown
-                slope = sm.diff(equation, rate)
-                solution[rate] = (-equation.xreplace({rate: sm.S.Zero}) / slope).xreplace(solution)
-                waiting.remove(equation)
-                found = True
-                break
-    together = [r for r in rates if r not in solution]
-    if together:
-        matrix = sm.Matrix([[sm.diff(e, r) for r in together] for e in waiting])
-        if matrix.rows != matrix.cols or matrix.free_symbols & set(rates):
-            raise CodegenError(
-                f"model '{model.name}' cannot be solved for its rates: each state needs one equation, "
-                "linear in the rates"
-            )
-        rest = sm.Matrix([e.xreplace(dict.fromkeys(together, sm.S.Zero)).xreplace(solution) for e in waiting])
-        solution |= dict(zip(together, _eliminated(matrix, -rest), strict=True))
+def _solved(model: Model) -> dict[sm.Symbol, sm.Expr]:
+    solution = solved(model)
+    if solution is None:
+        raise CodegenError(
+            f"model '{model.name}' cannot be solved for its rates: each state needs one equation, linear in the rates"
+        )
     return solution
-
-
-def _eliminated(matrix: sm.Matrix, right: sm.Matrix) -> list[sm.Expr]:
-    """Solution of matrix x = right, written with symbols for its entries so that it stays small."""
-    n = matrix.rows
-    a = sm.Matrix(n, n, lambda i, j: sm.Dummy() if matrix[i, j] != 0 else 0)
-    b = sm.Matrix([sm.Dummy() for _ in range(n)])
-    table = {a[i, j]: matrix[i, j] for i in range(n) for j in range(n) if matrix[i, j] != 0}
-    table |= dict(zip(b, right, strict=True))
-    return [x.xreplace(table) for x in a.LUsolve(b)]

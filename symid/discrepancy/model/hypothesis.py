@@ -235,7 +235,7 @@ def refit(
     """
     model = base.model
     try:
-        for s in suspects:
+        for s in sorted(suspects, key=lambda s: s.law.acts_on == "sensor"):  # which show what all others made of it
             model = model.with_term(s.term)
     except ModelError:
         return None

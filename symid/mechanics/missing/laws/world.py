@@ -11,7 +11,7 @@ import sympy as sm
 from symid.errors import ModelError
 from symid.mechanics.missing.laws.drive import INPUT_DELAY, make_late
 from symid.mechanics.missing.laws.shared import give_unit, late_symbols, parameter_name, time_derivative
-from symid.model import Equation, Expression, Law, LawParameter, Model, Port, State
+from symid.model import Equation, Expression, Law, LawParameter, Model, Port, State, solved
 
 _OFFSET = LawParameter("offset_rad", "rad", (-inf, inf), typical=0.01, plausible=0.01)
 _PERIODIC = (
@@ -84,8 +84,12 @@ def _sensor_offset(model: Model, place: str, p: SimpleNamespace) -> None:
 
 
 def _sensor_delay(model: Model, place: str, p: SimpleNamespace) -> None:
+    """An accelerometer shows late what the equations give for its acceleration: rates have no past of their own."""
+    rates = {x.dot for x in model.states.values()}
     for sensor in model.find("sensor", place):
-        model.redefine(sensor.name, model.delayed(sensor.expr, p.delay_s))
+        shown = model.inline(sensor.expr)
+        given = solved(model) if shown.free_symbols & rates else {}
+        model.redefine(sensor.name, model.delayed(shown.xreplace(given or {}), p.delay_s))
 
 
 def _gravity(model: Model) -> list[Expression]:
