@@ -193,12 +193,17 @@ class Model(Kinds, Derived):
         """`expr` with each state, control and input taken at time t - lag.
 
         `lag` [s] is a number, a Constant or a Parameter of this model; a signal that is late
-        already becomes later by `lag`.
+        already becomes later by `lag`. ModelError if the lag is negative, or `expr` holds a rate.
         """
         expr, lag = self.inline(sympified(expr)), sympified(lag)
         if lag.is_number and not (lag.is_finite and lag.is_real and lag >= 0):
             raise ModelError(
                 f"model '{self.name}': delayed by {str(lag)[:80]} s; give a lag of at least 0: no signal is early"
+            )
+        if rates := free_symbols(expr) & {x.dot for x in self.states.values()}:
+            raise ModelError(
+                f"model '{self.name}': delayed({str(expr)[:80]}) holds the rate {min(map(str, rates))}, and only "
+                "states, controls and inputs have a past: write what the equations give for it"
             )
         late = {c.symbol for c in self._of((State, Control, Input)).values()}
         table = {}

@@ -261,6 +261,7 @@ FRAME, SOLVE = pd.DataFrame(), si.Solve(si.Identification(pendulum(), RECORDING)
         (lambda: si.mechanics.suspects(pendulum(), laws=3), "suspects: laws: give a Mapping, not 3"),
         (lambda: si.mechanics.suspects(pendulum(), laws={"a": 3}), "one of the laws: give a Law, not 3"),
         (lambda: pendulum().delayed(pendulum().rate, 1j), "delayed by .*I s; give a lag of at least 0"),
+        (lambda: (m := pendulum()).delayed(m.rate.dot, 0.1), "holds the rate .*write what the equations give for it"),
         (lambda: pendulum().copy(np.zeros(2)), "the name of a Model: give a str, not a ndarray"),
         (lambda: pendulum().check(np.zeros(2)), "check: units: give a bool, not a ndarray"),
         (lambda: SOLVE.problem.solve().refined("2"), "refined: factor='2': give a number"),
