@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import sympy as sm
 from scipy.integrate import solve_ivp
+from scipy.ndimage import gaussian_filter1d
 
 import symid as si
 from symid.discrepancy import Suspect
@@ -73,3 +74,62 @@ def test_a_force_at_a_cart_whose_pole_falls_when_followed_from_one_state(law, si
     if law == "coulomb_friction":
         assert found.fit.model.constants[JUMP].value == pytest.approx(5e-3, rel=0.1)
         assert found.base.model.constants[JUMP].value == found.fit.model.constants[JUMP].value
+
+
+# ---- three discs on a shaft, with play between two ---------------------------------------------
+INERTIA, SHAFT, LOSS, PLAY = np.array([0.0024, 0.0019, 0.0019]), (2.8, 2.6), np.array([0.008, 0.0009, 0.0011]), 0.02
+
+
+def discs() -> si.Model:
+    m = si.Model("three discs")
+    m.torque = si.Input(unit="N*m", hold="linear")
+    m.k1, m.k2 = (si.Parameter(unit="N*m/rad", bounds=(0.1, 50)) for _ in "12")
+    for i in range(3):
+        setattr(m, f"q{i}", si.State(unit="rad"))
+        setattr(m, f"w{i}", si.State(unit="rad/s"))
+        setattr(m, f"c{i}", si.Parameter(unit="N*m*s/rad", bounds=(0, 1)))
+    pulls = [m.torque.symbol, m.k1 * (m.q0 - m.q1), m.k2 * (m.q1 - m.q2), 0]
+    for i in range(3):
+        setattr(m, f"turns{i}", si.Equation(m[f"q{i}"].dot - m[f"w{i}"]))
+        net = pulls[i] - pulls[i + 1] - m[f"c{i}"] * m[f"w{i}"]
+        setattr(m, f"disc{i}", si.Equation(INERTIA[i] * m[f"w{i}"].dot - net))
+        setattr(m, f"seen{i}", si.Output(m[f"q{i}"]))
+    return m
+
+
+def turned() -> Data:
+    """19 s of the discs under a random torque, in which the play is met many times."""
+    rng, rate, fine = np.random.default_rng(1), 100, 10
+    torque = gaussian_filter1d(rng.standard_normal(19 * rate + 1), 6)
+    torque *= 0.25 / torque.std()
+    time, at = np.arange(len(torque)) / rate, np.arange(19 * rate * fine) / (rate * fine)
+
+    def rates(t, x):
+        slack = x[1] - x[2] - np.clip(x[1] - x[2], -PLAY, PLAY)
+        first, second = SHAFT[0] * (x[0] - x[1]), SHAFT[1] * slack
+        pulls = np.array([np.interp(t, time, torque) - first, first - second, second])
+        return np.concatenate([x[3:], (pulls - LOSS * x[3:]) / INERTIA])
+
+    x, path, h = np.zeros(6), [], 1 / (rate * fine)
+    for t in at:
+        path.append(x)
+        k1 = rates(t, x)
+        k2 = rates(t + h / 2, x + h / 2 * k1)
+        k3 = rates(t + h / 2, x + h / 2 * k2)
+        x = x + h / 6 * (k1 + 2 * (k2 + k3) + rates(t + h, x + h * k3))
+    seen = np.array(path)[::fine, :3]
+    seen += 4e-4 * rng.standard_normal(seen.shape)
+    return Data((Segment(time[:-1], seen, {"torque": torque[:-1]}),), np.full(3, 4e-4), driven=False)
+
+
+@pytest.mark.slow
+def test_a_play_that_is_met_many_times_is_fitted_by_way_of_short_parts():
+    """No step of the whole gained any more at a quarter of what the play explains."""
+    data, model = turned(), si.mechanics.with_places(discs())
+    base = fit_model(model, data)
+    (suspect,) = [s for s in si.suspects(model) if str(s.term) == "play@q1-q2"]
+    short = ShortPieces(base, data, [])
+    assert short.fitted(suspect, {"gap_rad": 0.01}, 0.0) is None
+    found = short.fitted(suspect, {"gap_rad": 0.01}, 0.0, rugged=True)
+    assert found.fit.values[suspect.term.parameter_name("gap_rad")] == pytest.approx(PLAY, rel=0.02)
+    assert found.fit.values["k2"] == pytest.approx(SHAFT[1], rel=0.02) and abs(base.values["k2"] / SHAFT[1] - 1) > 0.1
