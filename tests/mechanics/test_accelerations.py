@@ -4,6 +4,11 @@ import numpy as np
 import pytest
 
 import symid as si
+from symid.discrepancy import Suspect
+from symid.discrepancy.model.hypothesis import refit
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
 from symid.mechanics import LIBRARY, with_places
 from symid.mechanics.accelerations import with_accelerations
 from symid.simulation import simulator
@@ -70,6 +75,19 @@ def test_an_accelerometer_that_is_late_shows_all_of_it_late(shown):
     delay = {"sensor_delay_sensor_felt_delay_s": steps * 1e-3}
     seen = simulator(late).simulate(values | delay, start, time, inputs).y[:, 0]
     assert np.abs(seen[2 * steps :] - prompt[steps:-steps]).max() < 1e-3 * np.abs(prompt).max()
+
+
+def test_a_late_accelerometer_feels_a_friction_that_was_found_after_it():
+    m = with_places(car(lambda m: m.vs.dot))
+    time = np.arange(0, 0.5, 0.01)
+    segment = Segment(time, np.zeros((len(time), 2)), {"road": 0.01 * np.sin(30 * time)})
+    data = Data((segment,), np.array([0.1, 0.01]), driven=False)
+    base = fit_model(m, data, {"wheel": 40.0, "k": 2e4, "c": 1e3})
+    late = Suspect(LIBRARY["sensor_delay"].at("sensor:felt"))
+    rubs = Suspect(LIBRARY["viscous_friction"].at(next(p.at for p in m.ports.values() if p.position == m.s.symbol)))
+    fits = [refit(s, base, base, data, late.off | rubs.off, iterations=1) for s in ([late, rubs], [rubs, late])]
+    assert fits[0].model["felt"].expr == fits[1].model["felt"].expr
+    assert any(name.startswith("viscous") for name in map(str, fits[0].model["felt"].expr.free_symbols))
 
 
 @pytest.mark.slow
