@@ -8,8 +8,10 @@ import symid as si
 from symid.discrepancy.model.sizes import sizes_of
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
+from symid.estimation.signals.segment import Segment
 from symid.estimation.signals.windows import segments_of
 from symid.mechanics.places import with_places
+from symid.simulation import simulator
 
 RATE_HZ, SECONDS, FINE = 100, 6, 10
 STOPS = "upper_stop", "lower_stop"
@@ -76,3 +78,23 @@ def test_a_stop_is_described(name, side, angle, stiffness):
     for key, true in (("angle_rad", angle), ("k_Nm_rad", stiffness)):
         value, error = found.effects[0].parameters[key]
         assert value == pytest.approx(true, abs=4 * error)
+
+
+def test_the_range_of_a_cord_counts_from_its_natural_length():
+    """What outputs and inputs show is the distance of its ends."""
+    m = si.Model("cord")
+    m.x, m.v, m.hand, m.pace = si.State(unit="m"), si.State(unit="m/s"), si.Input(unit="m"), si.Input(unit="m/s")
+    m.k, m.length = si.Parameter(unit="N/m", bounds=(1, 1e3)), si.Parameter(unit="m", bounds=(0, 3))
+    m.c, m.motion = si.Constant(2.0, unit="N*s/m"), si.Equation(m.x.dot - m.v)
+    m.mass = si.Equation(m.v.dot + m.k * (m.x - m.hand - m.length) + m.c * (m.v - m.pace) - 9.81)
+    m.seen = si.Output(m.x, channel="camera")
+    time = np.arange(0, 6, 0.02)
+    hand, pace = 0.1 * np.sin(5 * time), 0.5 * np.cos(5 * time)
+    start, values = np.array([0.5 + 9.81 / 60, 0.0]), {"k": 60.0, "length": 0.5}
+    path = simulator(m).simulate(values, start, time, {"hand": hand, "pace": pace}).y[:, 0]
+    data = Data((Segment(time, path[:, None], {"hand": hand, "pace": pace}),), np.array([1e-3]), driven=False)
+    fit = fit_model(with_places(m), data, values)
+    ((middle, half),) = [r for place, r in sizes_of(fit, data).ranges.items() if place != "camera"]
+    stretch = path - hand - 0.5
+    assert middle == pytest.approx((stretch.max() + stretch.min()) / 2, abs=2e-3)
+    assert half == pytest.approx(np.ptp(stretch) / 2, abs=2e-3)
