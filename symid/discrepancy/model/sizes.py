@@ -73,6 +73,7 @@ def _ranges(fit: Fit, data: Data) -> dict[str, tuple[float, float]]:
     model, found = fit.model, {}
     still = {x.symbol: 0.0 for x in (*model.states.values(), *model.inputs.values())}
     values = {p.symbol: fit.values[name] for name, p in model.parameters.items()}
+    values |= {c.symbol: c.value for c in model.constants.values()}
     for port in (p for p in model.ports.values() if p.role == "joint"):
         pieces = shown(model, port.position, data.segments)
         if pieces is not None:

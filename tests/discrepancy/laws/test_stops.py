@@ -80,17 +80,23 @@ def test_a_stop_is_described(name, side, angle, stiffness):
         assert value == pytest.approx(true, abs=4 * error)
 
 
-def test_the_range_of_a_cord_counts_from_its_natural_length():
+@pytest.mark.parametrize("known", [False, True])
+def test_the_range_of_a_cord_counts_from_its_natural_length(known):
     """What outputs and inputs show is the distance of its ends."""
     m = si.Model("cord")
     m.x, m.v, m.hand, m.pace = si.State(unit="m"), si.State(unit="m/s"), si.Input(unit="m"), si.Input(unit="m/s")
-    m.k, m.length = si.Parameter(unit="N/m", bounds=(1, 1e3)), si.Parameter(unit="m", bounds=(0, 3))
+    m.k = si.Parameter(unit="N/m", bounds=(1, 1e3))
+    m.length = si.Constant(0.5, unit="m") if known else si.Parameter(unit="m", bounds=(0, 3))
     m.c, m.motion = si.Constant(2.0, unit="N*s/m"), si.Equation(m.x.dot - m.v)
     m.mass = si.Equation(m.v.dot + m.k * (m.x - m.hand - m.length) + m.c * (m.v - m.pace) - 9.81)
     m.seen = si.Output(m.x, channel="camera")
+    if known:
+        m.cord = si.Port(
+            position=m.x - m.hand - m.length, rate=m.v - m.pace, into={"mass": -1.0}, role="joint", at="cord", unit="N"
+        )
     time = np.arange(0, 6, 0.02)
     hand, pace = 0.1 * np.sin(5 * time), 0.5 * np.cos(5 * time)
-    start, values = np.array([0.5 + 9.81 / 60, 0.0]), {"k": 60.0, "length": 0.5}
+    start, values = np.array([0.5 + 9.81 / 60, 0.0]), {"k": 60.0} | ({} if known else {"length": 0.5})
     path = simulator(m).simulate(values, start, time, {"hand": hand, "pace": pace}).y[:, 0]
     data = Data((Segment(time, path[:, None], {"hand": hand, "pace": pace}),), np.array([1e-3]), driven=False)
     fit = fit_model(with_places(m), data, values)
