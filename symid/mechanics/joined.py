@@ -133,6 +133,7 @@ def _moved(model: Model, name: str, joints: Mapping[str, Port], residuals: Mappi
     def beside(n: str, v: sm.Expr) -> sm.Expr:
         return sm.diff(residuals[n], rates[v]).subs(values)
 
+    size = beside(name, own)
     carried = {v: beside(name, v) for n, v in speeds.items() if n != name and beside(n, own) == 0}
-    parts = {v: sm.simplify(x / beside(name, own)) for v, x in carried.items() if x != 0}
+    parts = {v: sm.simplify(x / size) for v, x in carried.items() if x != 0 and size != 0}
     return own + sum(float(k) * v for v, k in parts.items()) if all(k.is_number for k in parts.values()) else own

@@ -274,7 +274,7 @@ def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], shor
     best = max(found, key=lambda c: c.log_ratio)
     if not best.fit.converged and best.suspect.scanned is None:
         own = {q.key: best.fit.values[best.suspect.term.parameter_name(q.key)] for q in best.suspect.law.parameters}
-        eased = short.fitted(best.suspect, own, best.forecast, [best.fit], rugged=True)
+        eased = short.fitted(best.suspect, own, best.forecast, [best.fit])
         best = eased if eased and eased.log_ratio > best.log_ratio else best
     moved = _profiled(best, data)
     again = _refit(fit, data, moved) if moved is not None else None

@@ -30,8 +30,9 @@ EASY = 5.0
 friction of a cart under a pendulum was found in pieces of 0.2 and 0.4 s, and in those of 0.8 s, where they grow 25
 times, its width was 1.7 times too large."""
 RUGGED = 8
-"""Likewise where a law has kinks, as that of a play, and the motion meets them many times: of three discs on a shaft
-play explained a fifth of what it does, and in 4 to 16 parts of 19 s three quarters, from where fits went on."""
+"""Parts of a piece where no step of the whole gains, though differences do not grow: a law has kinks, as of a play,
+and the motion meets them many times. Of three discs on a shaft play explained a fifth of what it does, and by way of 4
+to 16 parts of 19 s two fifths to three quarters (tests/discrepancy/search/test_short_pieces.py)."""
 
 
 @dataclass(eq=False)
@@ -51,22 +52,18 @@ class ShortPieces:
     without: dict[int, Hypothesis | None] = field(default_factory=dict)
 
     def fitted(
-        self,
-        suspect: Suspect,
-        values: dict[str, float],
-        forecast: float,
-        leading: Sequence[Fit] = (),
-        rugged: bool = False,
+        self, suspect: Suspect, values: dict[str, float], forecast: float, leading: Sequence[Fit] = ()
     ) -> Hypothesis | None:
         """The suspect fitted from `values` in the short pieces, and from there in whole.
 
         None where a fit can follow the whole pieces, or the short ones cannot be fitted. Neither fit is exact (see
         `Fitter.fit`).
 
-        leading : fits with more than the base has: a model far off may not know that it would fall over.
-        rugged : whether a fit of the whole pieces came to an end where no step gains, though differences do not grow.
+        leading : fits with more than the base has that came to an end where no step gains: a model far off may not know
+            that it would fall over, or the motion meets kinks.
         """
-        parts = max(self.parts(leading), RUGGED if rugged and self.base.kalman_gain is None else 1)
+        rugged = leading and self.base.kalman_gain is None
+        parts = max(self.parts(leading), RUGGED if rugged else 1)
         if parts < 2:
             return None
         if parts not in self.without:

@@ -53,13 +53,13 @@ def _has_both(model: Model, place: str) -> bool:
     return _has_spring(model, place) and damping(model, port_at(model, "joint", place)) != 0
 
 
-def within(position: sm.Expr, gap: sm.Symbol) -> sm.Expr:
+def part_within(position: sm.Expr, gap: sm.Symbol) -> sm.Expr:
     """The part of a position within a gap either way."""
     return (sm.Abs(position + gap) - sm.Abs(position - gap)) / 2
 
 
 def _play(m: Model, port: Port, p: SimpleNamespace) -> sm.Expr:
-    return stiffness(m, port) * within(port.position, p.gap_rad)
+    return stiffness(m, port) * part_within(port.position, p.gap_rad)
 
 
 def _backlash(m: Model, port: Port, p: SimpleNamespace) -> sm.Expr:

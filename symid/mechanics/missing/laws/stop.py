@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import sympy as sm
 
-from symid.mechanics.missing.laws.element import within
+from symid.mechanics.missing.laws.element import part_within
 from symid.mechanics.missing.laws.shared import effort_law
 from symid.model import Law, LawParameter, Model, Port
 
@@ -18,7 +18,7 @@ swing."""
 
 
 def _clearance(m: Model, port: Port, p: SimpleNamespace) -> sm.Expr:
-    return -p.k_Nm_rad * (port.position - within(port.position, p.gap_rad))
+    return -p.k_Nm_rad * (port.position - part_within(port.position, p.gap_rad))
 
 
 def _preload(m: Model, port: Port, p: SimpleNamespace) -> sm.Expr:
