@@ -11,7 +11,7 @@ from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.noise_sizes import likeliest_sizes
-from symid.estimation.predicting.kalman import held
+from symid.estimation.predicting.forces import held
 from symid.estimation.predicting.refining import seen
 from symid.estimation.signals.data import Data
 from symid.model import WHITE, Model

@@ -13,7 +13,7 @@ from symid.codegen.ode import TABLE, OdeSource
 from symid.simulation.run import Run
 
 _SIZES = ("N", "early", "substeps", "method", "nq", "nqp", "nqx", "nh", "npast")
-_ARRAYS = ("t", "u", "du", "ddu", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "dgain", "ht", "hx")
+_ARRAYS = ("t", "u", "du", "ddu", "w", "p", "c", "x0", "qp", "qx", "gain", "recorded", "dgain", "ht", "hx", "hs")
 _RESULTS = ("X", "Y", "SX", "SY")
 
 

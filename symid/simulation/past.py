@@ -158,8 +158,10 @@ class Past:
             return hx[0, i], 0.0, 0.0
         k = min(max(int(np.searchsorted(ht, time)) - 1, 0), len(ht) - 2)
         h, a, b = ht[k + 1] - ht[k], hx[k, i], hx[k + 1, i]
-        f = max((time - ht[k]) / h, 0.0)
-        return a + f * (b - a), (b - a) / h if f > 0 else 0.0, 0.0
+        f, hs, row = max((time - ht[k]) / h, 0.0), self.run.hs, np.zeros(self.run.nq)
+        if hs is not None:
+            row[: hs.shape[2]] = hs[k, i] + f * (hs[k + 1, i] - hs[k, i])
+        return a + f * (b - a), (b - a) / h if f > 0 else 0.0, row
 
     def correct(self, now: float, interval: float, e: np.ndarray, Sy: np.ndarray) -> None:
         """A fixed-lag smoother on the stored steps (Anderson & Moore 1979, 7.3), linear within each."""

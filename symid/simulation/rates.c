@@ -103,6 +103,11 @@ static void state_at(Work *v, int j, int i, double s, double *value, double *rat
         double a = r->hx[k*NX+i], b = r->hx[(k+1)*NX+i];
         *value = a + f * (b - a);
         *rate = f > 0 ? (b - a) / h : 0;
+        if (r->hs) {
+            long known = r->nqp + r->nqx;
+            const double *A = r->hs + (k*NX+i)*known, *B = A + NX*known;
+            for (long m = 0; m < known; m++) S[m] = A[m] + f * (B[m] - A[m]);
+        }
         return;
     }
     long n = v->hint[j], oldest = v->steps > v->kept ? v->steps - v->kept : 0, k;

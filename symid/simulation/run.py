@@ -42,7 +42,7 @@ class Run:
         depends on.
     gain : (npast + 1, n, m) or (n, m) corrections at the samples and recorded : (N, m), or None.
     dgain : (npast + 1, n, m, nq) or (n, m, nq) slopes of the gain, or None where it depends on nothing.
-    ht, hx : (nh,) and (nh, n) history before the start, or None.
+    ht, hx : (nh,) and (nh, n) history before the start, or None. hs : (nh, n, nqp + nqx) its slopes, or None.
     X : (N, n), Y : (N, m), SX : (N, n, nq), SY : (N, m, nq): results; None where not wanted.
     stiff : result: steps of the integrator in which something was stiff.
     """
@@ -61,6 +61,7 @@ class Run:
     recorded: np.ndarray | None
     ht: np.ndarray | None
     hx: np.ndarray | None
+    hs: np.ndarray | None
     X: np.ndarray | None
     Y: np.ndarray
     SX: np.ndarray | None

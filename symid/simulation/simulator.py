@@ -68,7 +68,7 @@ class Simulator:
         initial_sensitivity: Sequence[str] = (),
         substeps: int = 1,
         method: str = "rk4",
-        history: tuple[np.ndarray, np.ndarray] | None = None,
+        history: tuple[np.ndarray, ...] | None = None,
         earlier: tuple[np.ndarray, Mapping[str, np.ndarray]] | None = None,
         gain: np.ndarray | None = None,
         recorded: np.ndarray | None = None,
@@ -91,7 +91,8 @@ class Simulator:
             needed (at most ten times; in a model with late signals not at all). A run whose steps would be
             halved everywhere ends.
         history : (K,) times before ``time[0]`` and (K, n) states, for delayed signals; without it
-            the initial state held before the start.
+            the initial state held before the start. And (K, n, q) slopes of these by the parameters of `sensitivity`
+            and the initial values of `initial_sensitivity`; without them these states do not move.
         earlier : (E,) times before ``time[0]`` and name -> (E,) inputs there, for delayed inputs; without it, and for
             names that it lacks, the first input held before the start.
         gain, recorded : (n, m) and (N, m): after each sample the state is moved by
@@ -128,6 +129,7 @@ class Simulator:
             recorded=_array(recorded) if corrected else None,
             ht=None if history is None else _array(history[0]),
             hx=None if history is None else _array(history[1]),
+            hs=None if history is None or len(history) < 3 else _array(history[2]),
             X=np.full((n, len(self.states)), np.nan) if keep != "outputs" else None,
             Y=np.full((n, len(self.outputs)), np.nan),
             SX=np.full((n, len(self.states), q), np.nan) if q and keep == "all" else None,

@@ -41,7 +41,7 @@ def test_a_jump_of_the_input_just_before_a_window_is_in_its_past(hold, begin):
     segment = Segment(time, run.y, {"to": to}).part(slice(begin, None))
     p = np.array([VALUES[k] for k in sim.parameters])
     steps = {"substeps": 4, "method": "rk4"}
-    before, x = states_before(sim, p, run.x[begin], segment, LAG, 1.0, steps, driven=False)
+    before, x, _ = states_before(sim, p, run.x[begin], segment, LAG, 1.0, steps)
     late = before > time[begin] - LAG
     truth = np.column_stack([np.interp(before, time, column) for column in run.x.T])
     scale = np.abs(run.x).max(axis=0)
@@ -98,3 +98,23 @@ def test_what_nobody_knows_of_the_past_makes_no_lag_likelier(seed):
 
     for lag in (0.08, 0.1, 0.12):
         assert abs(value(lag + 1e-7) - value(lag - 1e-7)) < 10
+
+
+def test_a_run_moves_with_what_its_past_does():
+    """Slopes by parameters and by where the segment begins, of a run that reads its past, against differences."""
+    time = np.arange(600) * STEP
+    to, sim = 5 * np.sin(8 * time), simulator(late_arm("linear"))
+    segment = Segment(time, np.zeros((600, 1)), {"to": to}).part(slice(300, 340))
+    steps = {"substeps": 4, "method": "rk4"}
+
+    def run(p: np.ndarray, start: np.ndarray, **asked) -> si.simulation.Trajectory:
+        past = states_before(sim, p, start, segment, LAG, 1.0, steps, asked.get("sensitivity", ()))
+        return segment.simulate(sim, p, start, history=past, **asked, **steps)
+
+    p, start, small = np.array([VALUES[k] for k in sim.parameters]), np.array([0.4, -1.0]), 1e-6
+    found = run(p, start, sensitivity=sim.parameters, initial_sensitivity=sim.states).dy
+    moves = np.eye(4) * small * np.array([40.0, 3.0, 1.0, 1.0])
+    for j, move in enumerate(moves):
+        ends = [run(p + s * move[:2], start + s * move[2:]).y for s in (1, -1)]
+        slope = (ends[0] - ends[1]) / (2 * move[j])
+        np.testing.assert_allclose(found[:, :, j], slope, atol=2e-4 * np.abs(slope).max())

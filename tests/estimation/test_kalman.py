@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.linalg import solve_discrete_are
 
+from symid.estimation.predicting.forces import HOLD, Forces
 from symid.estimation.predicting.kalman import KalmanFilter, stationary_covariance
-from symid.estimation.signals.segment import _between
 from symid.simulation import Linearised
 
 # A piston: position [m], speed [m/s] and pressure [Pa]; position and pressure are measured, the valve is noisy.
@@ -19,7 +19,7 @@ def gain_of(states: np.ndarray, outputs: np.ndarray) -> np.ndarray:
     a, g, c = A * states[:, None] / states, G * states[:, None], C * outputs[:, None] / states
     none = np.zeros((0,))
     linear = Linearised(a, g, c, np.zeros((3, 0)), np.zeros((2, 0)), none, none.astype(int))
-    return KalmanFilter.of(linear, 0.01, VALVE, NOISE * outputs).gain / states[:, None] * outputs
+    return KalmanFilter.of(linear, Forces(0.01), VALVE, NOISE * outputs).gain / states[:, None] * outputs
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e-4, 1e5, 1e9])
@@ -32,11 +32,6 @@ def test_units_do_not_matter(size):
 def test_both_sensors_are_used():
     gain = gain_of(np.ones(3), np.ones(2))
     assert 0.01 < gain[0, 0] < 1 and 0.5 < gain[2, 1] < 1
-
-
-def test_gains_between_samples_are_on_the_line_between_theirs():
-    gain = np.array([0.0, 1.0, 4.0])[:, None, None]
-    assert _between(gain, 2).ravel().tolist() == [0, 0.5, 1, 2.5, 4]
 
 
 def test_slopes_are_those_of_the_gain():
@@ -53,9 +48,9 @@ def test_slopes_are_those_of_the_gain():
     for lag in (0.0, 0.03):
 
         def gain(stiffness: float, force: float, sensor: float, lag: float = lag) -> np.ndarray:
-            return KalmanFilter.of(linear(stiffness, lag), 0.01, np.array([force]), np.array([sensor])).gain
+            return KalmanFilter.of(linear(stiffness, lag), Forces(0.01), np.array([force]), np.array([sensor])).gain
 
-        here = KalmanFilter.of(linear(9.0, lag), 0.01, np.array([2.0]), np.array([1e-3]))
+        here = KalmanFilter.of(linear(9.0, lag), Forces(0.01), np.array([2.0]), np.array([1e-3]))
         step = 1e-4
         got = here.slopes(
             [
@@ -95,3 +90,26 @@ def test_a_mode_that_dies_out_within_a_sample_has_a_covariance():
 
 def test_what_grows_unseen_has_no_covariance():
     assert stationary_covariance(np.diag([1.1, 0.5]), np.array([[0.0, 1.0]]), np.eye(2)) is None
+
+
+def test_the_past_within_a_sample_is_corrected_by_what_it_shares_with_the_sample():
+    """Of a random walk: what it was s before a sample shares with it all that was there then."""
+    step, lag, power = 0.08, 0.1, HOLD * 3.0**2
+    walk = Linearised(*(np.full((1, 1), k) for k in (0.0, 1.0, 1.0, 0.0, 0.0)), np.array([lag]), np.array([0]))
+    coarse, fine = (KalmanFilter.of(walk, Forces(step, parts=n), np.array([3.0]), np.ones(1)) for n in (1, 4))
+    after = fine.gain[0, 0, 0]  # the gain of a walk is its variance after a sample, that of the sensor being one
+    predicted = after / (1 - after)
+    assert predicted - after == pytest.approx(power * step, rel=1e-6)
+    shared = predicted - (predicted - after) * np.arange(4) / 4
+    np.testing.assert_allclose(fine.gain[:4, 0, 0], shared / (predicted + 1), rtol=1e-6)
+    np.testing.assert_allclose(fine.gain[::4], coarse.gain[:2], rtol=1e-9)
+    assert len(fine.gain) == 2 + np.ceil(4 * lag / step)
+
+
+@pytest.mark.parametrize("banded, folds", [(False, 2.03), (True, 1.0)])
+def test_nothing_folds_back_where_a_filter_is_undone(banded, folds):
+    """Power of a mass under random forces at half the sampling rate, in parts of what it does at that frequency."""
+    step = 8 * HOLD
+    F, Q, *_ = Forces(step, banded=banded).moved(np.eye(2, k=1), np.eye(2)[:, 1:], np.ones(1))
+    answer = np.linalg.inv(-np.eye(2) - F)[0]
+    assert answer @ Q @ answer == pytest.approx(folds * HOLD / step / (np.pi / step) ** 4, rel=0.03)

@@ -69,7 +69,7 @@ def test_what_was_before_a_free_motion_goes_on_as_it_began():
     time = np.arange(0, 1, STEP)
     path = 1 + 3 * time - 9.81 / 2 * time**2
     data = Data((Segment(time, path[:, None], {}),), np.array([1e-3]), driven=False)
-    before, x = Fitter(m, data)._history({"k": 0.0}, np.array([1.0, 3.0]), data.segments[0], 0.1)
+    before, x, _ = Fitter(m, data)._history({"k": 0.0}, np.array([1.0, 3.0]), data.segments[0], 0.1)
     assert before[0] < 0 and before[-1] == 0
     np.testing.assert_allclose(
         x, np.column_stack([1 + 3 * before - 9.81 / 2 * before**2, 3 - 9.81 * before]), atol=1e-9

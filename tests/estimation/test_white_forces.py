@@ -8,7 +8,8 @@ import symid as si
 from symid.errors import ModelError
 from symid.estimation.between_samples import with_likeliest_holds
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.predicting.kalman import KalmanFilter, held
+from symid.estimation.predicting.forces import Forces, held
+from symid.estimation.predicting.kalman import KalmanFilter
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.windows import segments_between
 from symid.simulation import Linearised, synthetic_recording
@@ -27,7 +28,7 @@ DOUBLE = Linearised(
 
 def covariance(step: float, white: bool) -> np.ndarray:
     """What a force of size 1 on a mass adds to the covariance of position and speed within a sample."""
-    found = KalmanFilter.of(DOUBLE, step, np.ones(1), np.ones(1), white)
+    found = KalmanFilter.of(DOUBLE, Forces(step, white), np.ones(1), np.ones(1))
     return found.Q * np.outer(found.size, found.size)
 
 

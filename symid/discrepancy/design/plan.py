@@ -12,7 +12,7 @@ from symid.discrepancy.design.experiment import Experiment
 from symid.discrepancy.design.simulated import as_recording, course, noises_of, run_times, sensed, start_of
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.errors import DiagnosisError
-from symid.estimation.predicting.kalman import is_white
+from symid.estimation.predicting.forces import is_white
 from symid.estimation.signals.segment import Segment
 from symid.mechanics import LIBRARY
 from symid.mechanics.places import with_places

@@ -14,7 +14,7 @@ from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.noise_sizes import noise_sizes
 from symid.estimation.fitting.path import fitted_path
-from symid.estimation.predicting.kalman import held, is_white
+from symid.estimation.predicting.forces import held, is_white
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
 from symid.model import Model

@@ -16,7 +16,7 @@ from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.noise_sizes import noise_sizes
-from symid.estimation.predicting.kalman import held, is_white
+from symid.estimation.predicting.forces import held, is_white
 from symid.estimation.signals.data import Data
 from symid.recording.signals.between import between
 from symid.threads import in_threads

@@ -10,7 +10,7 @@ from symid.estimation.fitting.correlated import is_correlated
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.fitting.path import fitted_path
-from symid.estimation.predicting.kalman import HOLD
+from symid.estimation.predicting.forces import HOLD
 from symid.estimation.signals.data import Data
 from symid.model.variants import CORRELATION_TIME
 

@@ -6,13 +6,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import expm, matrix_balance
+from scipy.linalg import matrix_balance
 
-from symid.model import WHITE, Model
+from symid.estimation.predicting.forces import Forces
 from symid.simulation import Linearised, Simulator
 
-HOLD, MOST_HOLDS = 0.01, 8
-"""Random forces last about this long [s], or this part of a sample: shorter ones within a sample look all alike."""
 FLOOR = 1e-12
 """Every state is moved by at least so small a variance, that of a sensor's noise being one: a mode that nothing moves
 has no stationary gain."""
@@ -46,42 +44,41 @@ class KalmanFilter:
 
     Attributes
     ----------
-    linear : the model. step : seconds between samples.
+    linear : the model. forces : what random forces do within a sample.
     sensor : (m,) standard deviation of each output. size : (n,) of the states.
     F, Q, C : (n, n), (n, n), (m, n) transition over a sample, what random forces add to the covariance, and outputs.
+    f, q : F and Q of one of the parts of a sample at whose ends the past is corrected for delayed states.
     P : (n, n) covariance of the predicted state; None where there is no stationary one.
     leak : part of the state that is kept from sample to sample, below one where only that makes P stationary.
-    white : whether random forces change all the time, as of `held`.
     """
 
     linear: Linearised
-    step: float
+    forces: Forces
     sensor: np.ndarray
     size: np.ndarray
     F: np.ndarray
     Q: np.ndarray
+    f: np.ndarray
+    q: np.ndarray
     C: np.ndarray
     P: np.ndarray | None = None
     leak: float = 1.0
-    white: bool = False
 
     @classmethod
-    def of(
-        cls, linear: Linearised, step: float, process: np.ndarray, sensor: np.ndarray, white: bool = False
-    ) -> KalmanFilter:
+    def of(cls, linear: Linearised, forces: Forces, process: np.ndarray, sensor: np.ndarray) -> KalmanFilter:
         """The filter of a linearised model.
 
         Parameters
         ----------
-        process : (w,) standard deviation of each noise of the model, as `held`: forces that change within a sample move
-            position and speed apart.
+        process : (w,) standard deviation of each noise of the model.
         """
         A, G, C = linear.without_delay()
-        F, Q = _moved(A, G, step, process, white)
-        size = _sizes(F, C / sensor[:, None])
-        found = cls(linear, step, sensor, size, *_scaled(F, Q, C / sensor[:, None], size), P=None, white=white)
+        moved = forces.moved(A, G, process)
+        size = _sizes(moved[0], C / sensor[:, None])
+        scaled = _scaled(*moved, C / sensor[:, None], size)
+        found = cls(linear, forces, sensor, size, *scaled)
         for leak in (1.0, 1 - 1e-4, 1 - 1e-3, 1 - 1e-2):
-            P = stationary_covariance(leak * found.F, found.C, found.Q + FLOOR * np.eye(len(F)))
+            P = stationary_covariance(leak * found.F, found.C, found.Q + FLOOR * np.eye(len(size)))
             if P is not None:
                 return replace(found, P=P, leak=leak)
         return found
@@ -97,23 +94,36 @@ class KalmanFilter:
     def gain(self) -> np.ndarray:
         """Gain that moves the state after a sample by gain @ (recorded - predicted).
 
-        (n, m), or (1 + k, n, m) where the model has delayed states: then also for the states 1 ... k
-        samples before, P (F - F K C)'^j C' S^-1 (fixed-lag smoothing; Anderson & Moore 1979, 7.3).
+        (n, m), or (1 + k, n, m) where the model has delayed states: then also for the states 1 ... k parts of a sample
+        before (fixed-lag smoothing; Anderson & Moore 1979, 7.3). Where a sample is long against the motion its past is
+        no straight line: of a standing person in samples of 50 ms, whose feedback is 100 ms late, the error of that
+        looked like a leg whose centre of mass lies elsewhere (draw 724 of "person").
         """
         if self.P is None:
             return np.zeros((len(self.linear.A), len(self.C)))
-        return self._gain(self.F, self.C, self.P, self.sensor)
+        return self._gain(self.F, self.f, self.q, self.C, self.P, self.sensor)
 
-    def _gain(self, F: np.ndarray, C: np.ndarray, P: np.ndarray, sensor: np.ndarray) -> np.ndarray:
+    def _gain(self, F, f, q, C, P, sensor: np.ndarray) -> np.ndarray:
         own, lags = len(self.linear.A), self.linear.lag[self.linear.late_state >= 0]
         inverse = np.linalg.inv(C @ P @ C.T + np.eye(len(C)))
         now = P @ C.T @ inverse
-        back, error, gains = P, (F - F @ now @ C).T, [now]
-        for _ in range(int(np.ceil(lags.max() / self.step)) + 1 if len(lags) else 0):
-            back = back @ error
-            gains.append(back @ C.T @ inverse)
-        out = np.array(gains)[:, :own] * self.size[:own, None] / sensor
-        return out if len(lags) else out[0]
+        if not len(lags):
+            return now[:own] * self.size[:own, None] / sensor
+        count, error = 2 + int(np.ceil(lags.max() * self.forces.parts / self.forces.step)), (F - F @ now @ C).T
+        back = [P, *self._within(f, q, P - now @ C @ P)]
+        while len(back) < count:
+            back.append(back[-self.forces.parts] @ error)
+        return np.array([b @ C.T @ inverse for b in back[:count]])[:, :own] * self.size[:own, None] / sensor
+
+    def _within(self, f: np.ndarray, q: np.ndarray, P: np.ndarray) -> list[np.ndarray]:
+        """Covariances of the state that is predicted for a sample with what it was 1, 2 ... parts of a sample before.
+
+        P : (n, n) covariance of the state after the sample before.
+        """
+        known = [P]
+        for _ in range(self.forces.parts - 1):
+            known.append(f @ known[-1] @ f.T + q)
+        return [P @ np.linalg.matrix_power(f, i).T for i, P in enumerate(known[:0:-1], start=1)]
 
     def slopes(self, others: Sequence[tuple[float, Linearised, np.ndarray, np.ndarray]]) -> np.ndarray | None:
         """(B, *gain.shape) change of the gain per unit towards each of B filters that differ little from this one.
@@ -131,7 +141,8 @@ class KalmanFilter:
             return None
         process, sensor = (np.array([o[k] for o in others]) for k in (2, 3))
         A, G, C = (np.stack(k) for k in zip(*models, strict=True))
-        F, Q, C = _scaled(*_moved(A, G, self.step, process, self.white), C / sensor[:, :, None], self.size)
+        moved_by = self.forces.moved(A, G, process)
+        F, Q, f, q, C = _scaled(*moved_by, C / sensor[:, :, None], self.size)
         now = self.P @ self.C.T @ np.linalg.inv(self.C @ self.P @ self.C.T + np.eye(len(self.C)))
         left, kept, moved = np.eye(n) - now @ C, self.leak * F, self.leak * F @ now
         power = self.leak * self.F @ (np.eye(n) - now @ self.C)
@@ -149,7 +160,7 @@ class KalmanFilter:
         return np.array(
             [
                 (self._gain(*model, own) - here) / far
-                for (far, *_), own, *model in zip(others, sensor, F, C, self.P + change, strict=True)
+                for (far, *_), own, *model in zip(others, sensor, F, f, q, C, self.P + change, strict=True)
             ]
         )
 
@@ -177,9 +188,11 @@ def stationary_covariance(F: np.ndarray, C: np.ndarray, Q: np.ndarray) -> np.nda
     return None
 
 
-def _scaled(F, Q, C, size: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _scaled(F, Q, f, q, C, size: np.ndarray) -> tuple[np.ndarray, ...]:
     with np.errstate(all="ignore"):  # hopeless candidates overflow, and have no gain
-        return F * size / size[:, None], Q / np.outer(size, size), C * size
+        F, f = (moved * size / size[:, None] for moved in (F, f))
+        Q, q = (added / np.outer(size, size) for added in (Q, q))
+        return F, Q, f, q, C * size
 
 
 def _sizes(F: np.ndarray, C: np.ndarray) -> np.ndarray:
@@ -189,39 +202,3 @@ def _sizes(F: np.ndarray, C: np.ndarray) -> np.ndarray:
     with np.errstate(invalid="ignore"):  # SciPy makes integers of sizes beyond all bounds, which nobody asked for
         _, (size, _) = matrix_balance(F, permute=False, separate=True)
     return size / (np.abs(C * size).max() or 1.0)
-
-
-def is_white(model: Model) -> bool:
-    """Whether the random forces of a model are white, as of `held`."""
-    return any(w.hold == WHITE for w in model.noises.values())
-
-
-def held(step: float, white: bool = False) -> tuple[int, float]:
-    """How often a random force changes within a sample of `step` seconds, and its size in parts of the stated one.
-
-    It is held over the whole part of a sample nearest to `HOLD` seconds, an eighth at least; one that is `white`, over
-    an eighth. Where it changes more or less often than it would it is larger or smaller, so that its power at low
-    frequencies is the same.
-    """
-    holds = max(1, round(step / HOLD))
-    if not white and holds <= MOST_HOLDS:
-        return holds, 1.0
-    return MOST_HOLDS, float(np.sqrt(MOST_HOLDS / holds if holds <= MOST_HOLDS else HOLD * MOST_HOLDS / step))
-
-
-def _moved(A, G, step: float, process: np.ndarray, white: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Transition over a sample and the covariance of what the noise adds (Anderson & Moore 1979, 4.4).
-
-    (..., n, n) each, for (..., n, n), (..., n, w) and (..., w).
-    """
-    n, w = G.shape[-2:]
-    holds, size = held(step, white)
-    block = np.zeros((*A.shape[:-2], n + w, n + w))
-    block[..., :n, :n], block[..., :n, n:] = A * step / holds, G * step / holds
-    with np.errstate(over="ignore", invalid="ignore"):  # of a trial that grows without end
-        exact = expm(block)
-        F, B = exact[..., :n, :n], exact[..., :n, n:] * process[..., None, :] * size
-        one, Q = B @ B.swapaxes(-1, -2), np.zeros(A.shape)
-        for _ in range(holds):
-            Q = F @ Q @ F.swapaxes(-1, -2) + one
-        return np.linalg.matrix_power(F, holds), Q

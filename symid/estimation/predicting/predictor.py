@@ -14,8 +14,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from symid.errors import SymidError
+from symid.estimation.predicting.forces import Forces, is_white
 from symid.estimation.predicting.history import states_before
-from symid.estimation.predicting.kalman import KalmanFilter, is_white, linearised_along, points_along
+from symid.estimation.predicting.kalman import KalmanFilter, linearised_along, points_along
 from symid.estimation.sensors.whitening import Whitening, whitening_of
 from symid.estimation.signals.data import Data
 from symid.estimation.signals.segment import Segment
@@ -84,7 +85,7 @@ class Predictor:
                 keep=keep,
                 sensitivity=self.free if sensitivities else (),
                 initial_sensitivity=self.sim.states if sensitivities else (),
-                history=self._history(p, start, e, lag),
+                history=self._history(p, start, e, lag, self.free if sensitivities else ()),
                 late=late,
                 unknown=lag if self.driven else 0.0,
                 **self.steps,
@@ -105,11 +106,11 @@ class Predictor:
         of_states = np.where(linear.late_state < 0, 0.0, linear.lag)
         return ((linear.C_late != 0) * of_states).max(axis=1, initial=0.0), of_states.max(initial=0.0)
 
-    def _history(self, p, start, segment: Segment, lag: float):
-        """States just before a segment, where something reads them late."""
+    def _history(self, p, start, segment: Segment, lag: float, sensitivity: Sequence[str] = ()):
+        """States just before a segment, where something reads them late, and their slopes."""
         if lag <= 0:
             return None
-        return states_before(self.sim, p, start, segment, lag, self.data.pace, self.steps, self.driven)
+        return states_before(self.sim, p, start, segment, lag, self.data.pace, self.steps, sensitivity)
 
     def segments(self, process) -> tuple[Segment, ...]:
         """The segments at the sharpness that stands behind the noises in `process`."""
@@ -162,7 +163,10 @@ class Predictor:
     def kalman_filter(self, p, process, path) -> KalmanFilter:
         """The filter at these values, linearised along a path of states."""
         linear, sensors = self.linearised(p, path), self.sensors(process)
-        return KalmanFilter.of(linear, self.step, process[: self.noises], sensors, is_white(self.model))
+        ratio = self.data.segments[0].ratio
+        parts, banded = ratio if self.model.delays else 1, ratio > 1 and self.data.filter is not None
+        forces = Forces(self.step, is_white(self.model), parts, banded)
+        return KalmanFilter.of(linear, forces, process[: self.noises], sensors)
 
     def gain_slopes(self, filter: KalmanFilter, p, process, path) -> np.ndarray | None:
         """Slopes of its gain by the free parameters, and by the logarithms of what is tuned of it; None without any."""

@@ -115,7 +115,7 @@ class Segment:
 
         Parameters
         ----------
-        gain, gain_slopes : as of `Simulator.simulate`, for the past at samples of the outputs.
+        gain, gain_slopes : as of `Simulator.simulate`, for the past at samples of the inputs.
         substeps : of the integrator in each sample of the outputs; at least one in each of the inputs.
         late : (m,) [s] how late each output is. Of what was before the segment nobody knows the motion: until an output
             shows what came later nothing is compared, and the run is said to meet the recording.
@@ -128,8 +128,8 @@ class Segment:
             parameters,
             initial_state,
             self._signals(simulator),
-            gain=_between(gain, self.ratio),
-            gain_slopes=None if gain_slopes is None else np.array([_between(g, self.ratio) for g in gain_slopes]),
+            gain=gain,
+            gain_slopes=gain_slopes,
             recorded=self._compared if unseen is None else self._compared_after(unseen),
             substeps=-(-substeps // self.ratio),
             **options,
@@ -178,13 +178,3 @@ class Segment:
         recorded = np.full(((len(self.time) - 1) * self.ratio + 1, self.recorded.shape[1]), np.nan)
         recorded[:: self.ratio] = self.recorded
         return recorded
-
-
-def _between(gain: np.ndarray | None, ratio: int) -> np.ndarray | None:
-    """Gains for states at earlier samples (1 + k, n, m), for those at samples of the inputs, by interpolation."""
-    if gain is None or gain.ndim == 2 or ratio == 1:
-        return gain
-    at = np.arange((len(gain) - 1) * ratio + 1) / ratio
-    low = np.minimum(at.astype(int), len(gain) - 2)
-    part = (at - low)[:, None, None]
-    return (1 - part) * gain[low] + part * gain[low + 1]

@@ -18,7 +18,8 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.prove.certain import sure
 from symid.errors import DiagnosisError
 from symid.estimation.fitting.cold_start import fit_model
-from symid.estimation.predicting.kalman import HOLD, KalmanFilter
+from symid.estimation.predicting.forces import HOLD, Forces
+from symid.estimation.predicting.kalman import KalmanFilter
 from symid.estimation.signals.windows import segments_between
 from symid.mechanics import LIBRARY
 from symid.model import Equation, Law, LawParameter, Model, Output, State
@@ -62,7 +63,7 @@ def test_kalman_gain_of_a_random_walk():
         np.zeros(0),
         np.zeros(0, int),
     )
-    gain = KalmanFilter.of(linear, 1.0, np.array([1.0 / HOLD**0.5]), np.array([1.0])).gain
+    gain = KalmanFilter.of(linear, Forces(1.0), np.array([1.0 / HOLD**0.5]), np.array([1.0])).gain
     golden = (1 + 5**0.5) / 2  # P = (1 + sqrt 5)/2 solves P^2 = P + 1
     assert gain[0, 0] == pytest.approx(golden / (golden + 1), rel=1e-6)
 
@@ -71,7 +72,7 @@ def test_forces_that_change_within_a_sample_move_position_and_speed_apart():
     A, G, C = np.array([[0.0, 1.0], [0.0, 0.0]]), np.array([[0.0], [1.0]]), np.array([[1.0, 0.0]])
     linear = Linearised(A, G, C, np.zeros((2, 0)), np.zeros((1, 0)), np.zeros(0), np.zeros(0, int))
     step, sd, rng = 10 * HOLD, 3.0, np.random.default_rng(1)
-    gain = KalmanFilter.of(linear, step, np.array([sd]), np.array([1e-4])).gain
+    gain = KalmanFilter.of(linear, Forces(step), np.array([sd]), np.array([1e-4])).gain
     x, guess, innovations = np.zeros(2), np.zeros(2), []
     for _ in range(20000):
         for force in sd * rng.standard_normal(10):
