@@ -121,7 +121,10 @@ def test_the_few_suspects_that_explain_most_tell_which_data_are_likeliest(monkey
 
 @pytest.mark.parametrize(("others", "fails"), [(0, False), (1, False), (1, True)])
 def test_what_was_measured_is_asked_with_the_cutoff_that_the_best_suspect_likes(monkeypatch, others, fails):
-    """A person whose feedback is late: the model without the delay liked half the cutoff, and then filtered inputs."""
+    """A person whose feedback is late: the model without the delay liked half the cutoff, and then filtered inputs.
+
+    The delay goes on from its fit there: from the model as given it was not found again.
+    """
     asked = []
 
     def settle(fit, data):
@@ -132,12 +135,17 @@ def test_what_was_measured_is_asked_with_the_cutoff_that_the_best_suspect_likes(
 
     monkeypatch.setattr(error_model, "has_settled", lambda fit, data: data != "half")
     monkeypatch.setattr(error_model, "_refitted", lambda base, fit, data: f"{base} near {fit}")
-    first = SimpleNamespace(of_one=SimpleNamespace(fit="with delay"), data="half", base="base")
+    one = SimpleNamespace(fit="with delay", suspects=("delay",))
+    first = SimpleNamespace(of_one=one, data="half", base="base")
     searches = [first, *["inputs filtered"] * others]
-    found = _of_settled(searches, lambda base, data: (base, data), settle, lambda text: None)
+    found = _of_settled(searches, lambda base, data: SimpleNamespace(base=base, data=data), settle, lambda text: None)
     assert asked == [("with delay", "half")]
-    anew = [(f"base near fit {k}", f"settled {k}") for k in range(1 + others)]
-    assert found == (searches if fails else anew)
+    if fails:
+        assert found == searches
+    else:
+        assert [(s.base, s.data) for s in found] == [(f"base near fit {k}", f"settled {k}") for k in range(1 + others)]
+        met = [(h.suspects, h.fit, h.base, h.data) for s in found for h in s.met]
+        assert met == [(("delay",), f"fit {k}", s.base, s.data) for k, s in enumerate(found)]
     first.data = "settled"
     assert _of_settled(searches, None, settle, lambda text: None) is searches and len(asked) == 1
 
