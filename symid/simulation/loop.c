@@ -72,16 +72,18 @@ long simulate(const Ode *model, Run *given)
         if (k == r->N - 1) break;
         if (r->gain) {
             double e[NON(NY)];
+            int known = 0;
             for (int j = 0; j < NY; j++) {
                 e[j] = r->recorded[k*NY+j] - y[j];
-                if (isnan(e[j])) { e[j] = 0; memset(Sy + j*nq, 0, nq * sizeof(double)); }
+                if (isnan(e[j])) { e[j] = 0; memset(Sy + j*nq, 0, nq * sizeof(double)); continue; }
+                known = 1;
                 for (int i = 0; i < NX; i++) {
                     x[i] += r->gain[i*NY+j] * e[j];
                     add(-r->gain[i*NY+j], Sy + j*nq, S + i*nq, nq);
                     if (r->dgain) add(e[j], r->dgain + (i*NY+j)*nq, S + i*nq, nq);
                 }
             }
-            if (keep && r->npast) correct_past(v, r->t[k], r->t[k+1] - r->t[k], e, Sy);
+            if (keep && r->npast && known) correct_past(v, r->t[k], r->t[k+1] - r->t[k], e, Sy);
         }
         double h = (r->t[k+1] - r->t[k]) / m;
         for (long s = 0; s < m; s++) {

@@ -167,7 +167,7 @@ class _Simulation:
         if self.run.dgain is not None:
             slopes = self.run.dgain if self.run.gain.ndim == 2 else self.run.dgain[0]
             self.S = self.S + e @ slopes
-        if self.run.npast:
+        if self.run.npast and known.any():
             self.past.correct(self.run.t[k], self.run.t[k + 1] - self.run.t[k], e, Sy)
 
     def _step(self, t: float, h: float, k: int, halvings: int, bend: bool) -> bool:
