@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from symid.errors import SymidError
+
 METHODS = {"rk4": 0, "euler": 1, "stiff": 2}
 
 
@@ -115,3 +117,23 @@ class Run:
     @property
     def npast(self) -> int:
         return 0 if self.gain is None or self.gain.ndim == 2 else len(self.gain) - 1
+
+
+def history_of(history: tuple[np.ndarray, ...] | None, states: int, slopes: int) -> dict[str, np.ndarray | None]:
+    """The fields of a `Run` that tell what was before it; `slopes` of them are asked for.
+
+    Raises
+    ------
+    SymidError : the arrays are not of the shapes that `Simulator.simulate` states.
+    """
+    if history is None:
+        return {"ht": None, "hx": None, "hs": None}
+    given = [np.ascontiguousarray(h, dtype=float) for h in history]
+    known = given if slopes else given[:2]
+    wanted = [(len(given[0]),), (len(given[0]), states), (len(given[0]), states, slopes)]
+    if len(given) not in (2, 3) or [h.shape for h in known] != wanted[: len(known)]:
+        raise SymidError(
+            f"history must be (K,) times, (K, {states}) states and, if any, (K, {states}, {slopes}) slopes; found arrays "
+            f"of the shapes {[h.shape for h in given]}"
+        )
+    return dict(zip(("ht", "hx", "hs"), [*known, None], strict=False))

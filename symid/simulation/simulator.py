@@ -19,7 +19,7 @@ from symid.recording.signals.between import CURVES, derivatives
 from symid.simulation.compiled import CompiledLoop
 from symid.simulation.linear import Linearised, is_singular
 from symid.simulation.loop import PythonLoop
-from symid.simulation.run import METHODS, Run, Signals
+from symid.simulation.run import METHODS, Run, Signals, history_of
 from symid.simulation.trajectory import Trajectory
 
 LARGEST = 1e100
@@ -127,9 +127,7 @@ class Simulator:
             gain=_array(gain) if corrected else None,
             dgain=slopes,
             recorded=_array(recorded) if corrected else None,
-            ht=None if history is None else _array(history[0]),
-            hx=None if history is None else _array(history[1]),
-            hs=None if history is None or len(history) < 3 else _array(history[2]),
+            **history_of(history, len(self.states), len(sensitivity) + len(initial_sensitivity)),
             X=np.full((n, len(self.states)), np.nan) if keep != "outputs" else None,
             Y=np.full((n, len(self.outputs)), np.nan),
             SX=np.full((n, len(self.states), q), np.nan) if q and keep == "all" else None,

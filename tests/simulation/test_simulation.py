@@ -77,7 +77,7 @@ def test_both_loops_give_the_same_results(method, lag, hold):
         "noise": {"jolt": rng.normal(size=81)},
         "substeps": 3,
         "method": method,
-        "history": (np.linspace(-0.2, 0, 3), np.outer([0.9, 1.2, 1.0], [0.4, 0.0])),
+        "history": (np.linspace(-0.2, 0, 3), np.outer([0.9, 1.2, 1.0], [0.4, 0.0]), rng.normal(size=(3, 2, 2))),
         "recorded": seen,
         "gain": rng.uniform(0, 0.1, (1 if lag is None else 8, 2, 2)),
         "gain_slopes": rng.uniform(0, 0.1, (2, 1 if lag is None else 8, 2, 2)),
@@ -87,6 +87,32 @@ def test_both_loops_give_the_same_results(method, lag, hold):
     c, python = (AnySimulator(oscillator(lag, hold), backend).simulate(**given) for backend in ("c", "numpy"))
     for name in ("x", "y", "dx", "dy"):
         np.testing.assert_allclose(getattr(python, name), getattr(c, name), rtol=1e-11, atol=1e-12)
+
+
+def test_slopes_of_a_history_are_left_out_where_none_are_asked_for(Simulator):
+    t, states = np.linspace(0, 1, 41), np.outer(np.ones(3), [0.4, 0.0])
+    before = np.linspace(-0.2, 0, 3), states, np.ones((3, 2, 2))
+    sim, given = Simulator(oscillator(0.1)), (VALUES | {"lag": 0.1}, [0.4, 0.0], t, {"push": np.sin(5 * t)})
+    plain, told = (sim.simulate(*given, history=h) for h in (before[:2], before))
+    np.testing.assert_array_equal(plain.x, told.x)
+
+
+@pytest.mark.parametrize(
+    "shapes", [[(3,)], [(3,), (3, 1)], [(3,), (2, 2)], [(3,), (3, 2), (3, 2, 1)], [(3, 1), (3, 2)]]
+)
+def test_a_history_of_other_shapes_is_refused(Simulator, shapes):
+    t = np.linspace(0, 1, 41)
+    history = tuple(np.zeros(shape) for shape in shapes)
+    with pytest.raises(SymidError, match=r"\(K,\) times, \(K, 2\) states and, if any, \(K, 2, 2\) slopes"):
+        Simulator(oscillator(0.1)).simulate(
+            VALUES | {"lag": 0.1},
+            [0.4, 0.0],
+            t,
+            {"push": 0 * t},
+            history=history,
+            sensitivity=("damping",),
+            initial_sensitivity=("rate",),
+        )
 
 
 def test_delayed_system_matches_the_method_of_steps(Simulator):

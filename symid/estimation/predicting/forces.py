@@ -88,7 +88,7 @@ def _over(A: np.ndarray, G: np.ndarray, step: float, process: np.ndarray) -> tup
 
 def _repeated(F: np.ndarray, Q: np.ndarray, times: int) -> tuple[np.ndarray, np.ndarray]:
     """Transition and covariance over so many times what they are given for."""
-    all_ = Q
+    total = Q
     for _ in range(times - 1):
-        all_ = F @ all_ @ F.swapaxes(-1, -2) + Q
-    return np.linalg.matrix_power(F, times), all_
+        total = F @ total @ F.swapaxes(-1, -2) + Q
+    return np.linalg.matrix_power(F, times), total
