@@ -133,7 +133,7 @@ def history_of(history: tuple[np.ndarray, ...] | None, states: int, slopes: int)
     wanted = [(len(given[0]),), (len(given[0]), states), (len(given[0]), states, slopes)]
     if len(given) not in (2, 3) or [h.shape for h in known] != wanted[: len(known)]:
         raise SymidError(
-            f"history must be (K,) times, (K, {states}) states and, if any, (K, {states}, {slopes}) slopes; found arrays "
-            f"of the shapes {[h.shape for h in given]}"
+            f"history must be (K,) times, (K, {states}) states and, if any, (K, {states}, {slopes}) slopes; found "
+            f"arrays of the shapes {[h.shape for h in given]}"
         )
     return dict(zip(("ht", "hx", "hs"), [*known, None], strict=False))
