@@ -92,16 +92,20 @@ def test_what_grows_unseen_has_no_covariance():
     assert stationary_covariance(np.diag([1.1, 0.5]), np.array([[0.0, 1.0]]), np.eye(2)) is None
 
 
-def test_the_past_within_a_sample_is_corrected_by_what_it_shares_with_the_sample():
-    """Of a random walk: what it was s before a sample shares with it all that was there then."""
-    step, lag, power = 0.08, 0.1, HOLD * 3.0**2
-    walk = Linearised(*(np.full((1, 1), k) for k in (0.0, 1.0, 1.0, 0.0, 0.0)), np.array([lag]), np.array([0]))
-    coarse, fine = (KalmanFilter.of(walk, Forces(step, parts=n), np.array([3.0]), np.ones(1)) for n in (1, 4))
-    after = fine.gain[0, 0, 0]  # the gain of a walk is its variance after a sample, that of the sensor being one
-    predicted = after / (1 - after)
-    assert predicted - after == pytest.approx(power * step, rel=1e-6)
-    shared = predicted - (predicted - after) * np.arange(4) / 4
-    np.testing.assert_allclose(fine.gain[:4, 0, 0], shared / (predicted + 1), rtol=1e-6)
+@pytest.mark.parametrize("decay", [0.0, 5.0])
+def test_the_past_within_a_sample_is_corrected_by_what_it_shares_with_the_sample(decay):
+    """Of a state that decays, or walks at random: of what it was s before a sample, what is left of it then."""
+    step, lag, force = 0.08, 0.1, 3.0
+    of = Linearised(*(np.full((1, 1), k) for k in (-decay, 1.0, 1.0, 0.0, 0.0)), np.array([lag]), np.array([0]))
+    coarse, fine = (KalmanFilter.of(of, Forces(step, parts=n), np.array([force]), np.ones(1)) for n in (1, 4))
+    kept = np.exp(-decay * HOLD)
+    moved = force * (HOLD if decay == 0 else (1 - kept) / decay)
+    variance = [fine.gain[0, 0, 0]]  # after a sample it is the gain, the sensor's being one; then at each hold
+    for _ in range(8):
+        variance.append(kept**2 * variance[-1] + moved**2)
+    assert variance[0] == pytest.approx(variance[8] / (variance[8] + 1), rel=1e-6)
+    shared = [variance[8 - 2 * i] * kept ** (2 * i) for i in range(4)]
+    np.testing.assert_allclose(fine.gain[:4, 0, 0], np.array(shared) / (variance[8] + 1), rtol=1e-6)
     np.testing.assert_allclose(fine.gain[::4], coarse.gain[:2], rtol=1e-9)
     assert len(fine.gain) == 2 + np.ceil(4 * lag / step)
 
