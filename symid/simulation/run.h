@@ -24,7 +24,7 @@ typedef struct {
     const double *gain, *recorded;  /* (1 + npast) x NX x NY corrections at the samples, or null: of the
                                        state now, and of what it was 1, 2 ... sample intervals ago */
     const double *dgain;            /* slopes of each element of gain, padded rows, or null */
-    const double *ht, *hx, *hs;     /* given history before the start, and its NX x nq slopes, or null */
+    const double *ht, *hx, *hs;     /* given history before the start, and its NX x (nqp + nqx) slopes, or null */
     double limit;
     long stiff;                     /* result: steps in which something was stiff */
     double *X, *Y, *SX, *SY;        /* results: N x NX, N x NY, N x NX x nq, N x NY x nq */

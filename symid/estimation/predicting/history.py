@@ -34,17 +34,17 @@ def states_before(
     steps: dict,
     sensitivity: Sequence[str] = (),
 ) -> History | None:
-    """(K,) times before a segment, (K, n) states and their (K, n, q + n) slopes; None where its motion is not finite.
+    """(K,) times before a segment, (K, n) states and their (K, n, s + n) slopes; None where its motion is not finite.
 
     The motion that its inputs before it lead to its `start`; without these, a parabola. The slopes are by the
-    parameters of `sensitivity` and by `start`: a fit that takes the past for given ends where a step along the start
+    s parameters of `sensitivity` and by `start`: a fit that takes the past for given ends where a step along the start
     still gains (draw 724 of "person").
 
     Parameters
     ----------
     p, start : (q,) parameters and (n,) states where the segment begins, SI.
     lag : how late the states are read at most [s]. pace : of the motion [s], as of `Data`.
-    steps : how the integrator steps, as `Simulator.simulate` takes it.
+    steps : how the integrator steps, as `Simulator.simulate` takes it. sensitivity : names of parameters.
     """
     x = segment.head(3).simulate(simulator, p, start, keep="states", **steps).x
     if not np.isfinite(x).all():
