@@ -23,6 +23,8 @@ def solved(model: Model) -> dict[sm.Symbol, sm.Expr] | None:
             if len(unknown) == 1:
                 (rate,) = unknown
                 slope = sm.diff(equation, rate)
+                if slope.has(rate):
+                    return None
                 solution[rate] = (-equation.xreplace({rate: sm.S.Zero}) / slope).xreplace(solution)
                 waiting.remove(equation)
                 found = True
