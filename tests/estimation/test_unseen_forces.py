@@ -64,3 +64,10 @@ def test_gains_of_several_lags_are_compared_by_state():
     other = gain * [[[1.001], [1.001]], [[40.0], [40.0]]]
     assert _is_same(gain, other) and _is_same(gain[0], other[0])
     assert not _is_same(gain[0], gain[0] * [[1.0], [1.1]])
+
+
+def test_a_filter_that_does_not_settle_is_another_one_than_that_of_several_lags():
+    of_lags = np.arange(1.0, 17).reshape(4, 2, 2)
+    assert not _is_same(of_lags, np.zeros((2, 2)))
+    assert not _is_same(np.zeros((2, 2)), of_lags)
+    assert _is_same(of_lags, of_lags * (1 + 1e-9))

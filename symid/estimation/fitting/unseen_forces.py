@@ -48,6 +48,11 @@ def likelier_forces(fitter: Fitter, p: np.ndarray, x0: np.ndarray, process: np.n
 
 
 def _is_same(gain: np.ndarray, other: np.ndarray) -> bool:
-    """Whether two Kalman gains (n, m), or of several lags (L, n, m), are nearly the same for each state."""
+    """Whether two Kalman gains (n, m), or of several lags (L, n, m), are nearly the same for each state.
+
+    A filter that does not settle corrects nothing, and nothing of the past either: (n, m) zeros.
+    """
+    if gain.shape != other.shape:
+        return False
     one, two = (np.moveaxis(g, -2, 0).reshape(g.shape[-2], -1) for g in (gain, other))
     return bool(np.all(np.abs(one - two).max(axis=1) <= SAME * np.abs(one).max(axis=1)))
