@@ -45,7 +45,8 @@ def diagnose(
         brings its model, recording, window and values. Algebraic variables are solved for, process noise is the
         noise of `driven`; priors, constraints, boundary conditions and objectives take no part.
     fit_window, held_out : start and end [s], or the label of a split of the recording, whose
-        segments have each an initial state of their own; the held-out one is used once, at the end.
+        segments have each an initial state of their own; the held-out one is used at the end, to prove what was found
+        and to decide on one law more of which the fitted window leaves too little evidence.
     sensor_noise : standard deviation of the sensors, one or by channel; if left out what the recording
         states, or else what its highest frequencies show.
     segment_length : seconds of one piece with an initial state of its own; None for one piece.

@@ -10,7 +10,7 @@ import numpy as np
 from symid.discrepancy.explained import Explained, explained
 from symid.discrepancy.model.hypothesis import Hypothesis, is_met
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.prove.evidence import Evidence, Tested, evidence_of, tested
+from symid.discrepancy.prove.evidence import Evidence, Tested, evidence_of, tested, with_held_out
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.judge import judge
 from symid.discrepancy.task import Task
@@ -78,7 +78,8 @@ def judged(
     def found_in(task: Task) -> _Found:
         # Locate and name: what the model as given leaves of the recording, and the laws that explain it.
         by = explained(task, sensor_noise, filter, named, progress)
-        return _Found(by, tested(by.search.settled(by.found), by.search))
+        stood = tested(by.search.settled(by.found), by.search)
+        return _Found(by, with_held_out(stood, by.search, by.task))
 
     def proved(found: _Found) -> Judged:
         # Prove: what stands every test.

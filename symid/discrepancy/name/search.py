@@ -77,7 +77,7 @@ class Search(Judge):
         """Each suspect alone, best first."""
         if self.known:
             return self.known
-        found = self._added(self.nothing)
+        found = self.added(self.nothing)
         self.starts.clear()  # nothing asks for them again, and they hold many fits
         return found
 
@@ -122,7 +122,7 @@ class Search(Judge):
 
         single : each suspect alone.
         """
-        more = self._steady(best, self._added(best) if best.suspects else single)
+        more = self._steady(best, self.added(best) if best.suspects else single)
         if more is None and len(best.suspects) < 2 and not self.explained(best):
             more = self._preferred(best, self._other_pairs(best, single, alone=False))
         if more is not None and len(more.suspects) == 2 and (more.is_free or not self.beaten(more)):
@@ -185,7 +185,7 @@ class Search(Judge):
             return inf
         return max(h.evidence(1.0) for h in [self.nothing, self.flexible(), self.of_one, *self.single])
 
-    def _added(self, best: Hypothesis, least: float = 0.0) -> list[Hypothesis]:
+    def added(self, best: Hypothesis, least: float = 0.0) -> list[Hypothesis]:
         """`best` with each of the other suspects, clocks only where states leave something.
 
         On top of an earlier finding clocks are looked for anew where no state is worth its price; else those that
@@ -271,7 +271,7 @@ class Search(Judge):
         pairs = []
         for h in rivals[: POLICY.beam]:
             self.progress(f"looking for what would complete {h.suspect.term}")
-            pairs.append(self._preferred(h, self._added(h, above - h.log_ratio)))
+            pairs.append(self._preferred(h, self.added(h, above - h.log_ratio)))
         return [p for p in pairs if p is not None]
 
     def _exchanged(self, found: Hypothesis) -> Hypothesis:

@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.hypothesis import Hypothesis, is_met
+from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.name.trial.jump import with_jumps_of
 from symid.discrepancy.policy import POLICY
 from symid.discrepancy.prove.between import otherwise, widened
-from symid.discrepancy.prove.certain import beyond_chance, far_beyond_chance, honest
+from symid.discrepancy.prove.certain import beyond_chance, far_beyond_chance, honest, weakest
 from symid.discrepancy.prove.elsewhere import elsewhere
 from symid.discrepancy.prove.halves import HalfVerdict, Survival, survivals, verdicts
 from symid.discrepancy.prove.held_out import Proof, compare, compare_predictions
 from symid.discrepancy.prove.nameless import Nameless, improved, nameless
-from symid.discrepancy.prove.nulls import largest, null_maxima
+from symid.discrepancy.prove.nulls import false_alarm_probability, largest, null_maxima
 from symid.discrepancy.prove.opponents import free_runs, output_error_fit, with_values
+from symid.discrepancy.prove.short_of_price import with_one_more
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError
 from symid.estimation.fitting.fit import Fit
@@ -37,16 +40,19 @@ class Tested:
 
     Attributes
     ----------
-    found : what the tests left of it. left : tests for something left over, the least probable first.
-    white : whether what is left is random. chance : probability that chance makes as much, None where unknown.
+    found : what the tests left of it.
     otherwise : about as likely, with inputs that do something else between their samples and other values.
+    left : tests for something left over, the least probable first. white : whether what is left is random.
+    chance : probability that chance makes as much, None where unknown.
+    paid : the suspect that only the held-out data made believed; None without one.
     """
 
     found: Hypothesis
+    otherwise: Hypothesis | None
     left: Sequence[Test]
     white: bool
     chance: float | None
-    otherwise: Hypothesis | None
+    paid: Suspect | None
 
     @property
     def nameless(self) -> bool:
@@ -92,8 +98,29 @@ def tested(found: Hypothesis, search: Search) -> Tested:
         found, chance = far_beyond_chance(search, best)
     if found.suspects != before:
         left = search.remainder(found)
+    return Tested(*_widened(found, search), left, white, chance, paid=None)
+
+
+def _widened(found: Hypothesis, search: Search) -> tuple[Hypothesis, Hypothesis | None]:
+    """`found` with errors that reach to what is about as likely with other inputs between their samples, and that."""
     other = otherwise(found, search.unstated)
-    return Tested(found if other is None else widened(found, other), left, white, chance, other)
+    return (found if other is None else widened(found, other)), other
+
+
+def with_held_out(by: Tested, search: Search, task: Task) -> Tested:
+    """What stood the tests, or that with one suspect more of which the held-out data pay the rest of the price."""
+    if by.nameless or not by.white or task.held_out is None:
+        return by
+    try:
+        held = of_window(task.model, task.recording, task.held_out, task.segment_length, search.data)
+    except DiagnosisError:
+        return by  # too little of the window is left where a filter is undone
+    more = with_one_more(by.found, search, held)
+    if more is by.found:
+        return by
+    more = honest(more, by.white)  # the held-out data, not chance in the fitted window, decide whether it stays
+    chance = false_alarm_probability(weakest(more), null_maxima(search.projection, more.fit))
+    return Tested(*_widened(more, search), search.remainder(more), by.white, chance, paid=more.suspect)
 
 
 def evidence_of(by: Tested, search: Search, ranking: Sequence[Hypothesis], task: Task, plain: Data) -> Evidence:
@@ -114,7 +141,7 @@ def evidence_of(by: Tested, search: Search, ranking: Sequence[Hypothesis], task:
         survived=survivals(found.suspects, found.fit, base, data, by.white),
         halves=() if by.white else verdicts(found.suspects, found.fit, base, data, rivals(found, ranking)),
         runs=runs,
-        proof=_proof(final, base, task, data, runs, looks=2 if unnamed.refuted else 1),
+        proof=_proof(final, base, task, data, runs, looks=1 + unnamed.refuted + (by.paid is not None)),
         unnamed=unnamed,
         final=final,
         elsewhere=None if by.nameless else _elsewhere(found.fit, windows, data, task),
@@ -138,14 +165,12 @@ def _proof(final: Fit, base: Fit, task: Task, data: Data, runs: dict[str, FreeRu
     """
     if task.held_out is None or final is base:
         return None
-    free = compare(runs["baseline_heldout"], runs["augmented_heldout"])
-    if base.kalman_gain is None:
-        return replace(free, probability=max(1 - looks * (1 - free.probability), 0.0))
-    try:
-        held = of_window(task.model, task.recording, task.held_out, task.segment_length, data)
-        return compare_predictions(predictions(base, held), predictions(final, held), free)
-    except DiagnosisError:
-        return free  # too little of the window is left where a filter is undone
+    proof = compare(runs["baseline_heldout"], runs["augmented_heldout"])
+    if base.kalman_gain is not None:
+        with suppress(DiagnosisError):  # too little of the window is left where a filter is undone
+            held = of_window(task.model, task.recording, task.held_out, task.segment_length, data)
+            proof = compare_predictions(predictions(base, held), predictions(final, held), proof)
+    return replace(proof, probability=max(1 - looks * (1 - proof.probability), 0.0))
 
 
 def near_noise(found: Hypothesis, data: Data) -> bool:

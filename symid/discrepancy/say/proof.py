@@ -23,6 +23,15 @@ def unproved(s: Story) -> list[str]:
     ]
 
 
+def paid_words(s: Story) -> list[str]:
+    """What only the held-out data made believed."""
+    paid = s.evidence.paid
+    if paid is None:
+        return []
+    name = capital(law_name(paid.term.name, paid.term.location))
+    return [f"{name} is not certain enough by the fit window alone: what it explains of the held-out data makes it so."]
+
+
 def proof_words(s: Story) -> list[str]:
     if "augmented_heldout" not in s.runs:
         return _chance(s)

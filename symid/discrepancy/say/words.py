@@ -10,7 +10,7 @@ from symid.discrepancy.locate.remainder import Test
 from symid.discrepancy.model.families import LOSSES
 from symid.discrepancy.model.hypothesis import Hypothesis
 from symid.discrepancy.say.names import law_name, place_name, sentence, values_of
-from symid.discrepancy.say.proof import halves_words, proof_words, unproved, verdicts_of_halves
+from symid.discrepancy.say.proof import halves_words, paid_words, proof_words, unproved, verdicts_of_halves
 from symid.discrepancy.say.rest import nameless_words
 from symid.discrepancy.say.story import Story, listed
 from symid.estimation.fitting.correlated import is_correlated
@@ -32,7 +32,7 @@ def words(story: Story) -> str:
         _at_bounds(story),
         nameless_words(story.evidence.unnamed, story.error) if story.verdict == "unexplained" else [],
         _alike(story),
-        proof_words(story) + left_beside_noise(story),
+        proof_words(story) + paid_words(story) + left_beside_noise(story),
         halves_words(story) + verdicts_of_halves(story),
         _caveats(story),
     )

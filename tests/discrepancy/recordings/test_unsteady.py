@@ -84,7 +84,7 @@ def test_a_search_ends_where_the_best_of_several_pairs_is_a_clock_that_imitates(
     pair = replace(sine, suspects=(FRICTION, PERIODIC))
     search = Search(sine.base, data, [PERIODIC, FRICTION], lambda: Hypothesis((), sine.base, sine.base, data))
     search.quiet = search.beaten = lambda found: False
-    monkeypatch.setattr(search, "_added", lambda best: [pair])
+    monkeypatch.setattr(search, "added", lambda best: [pair])
     monkeypatch.setattr(search, "_steady", lambda less, found: pair)
     monkeypatch.setattr(search, "_other_pairs", lambda *_, **__: [])
     monkeypatch.setattr(search, "_preferred", lambda less, found: None)
