@@ -12,12 +12,15 @@ memory, under which it keeps its value.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import reduce
-from math import inf, log
+from math import inf
+
+import numpy as np
 
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis
+from symid.discrepancy.name.colour import coloured, each_coloured, gain, in_words
 from symid.discrepancy.name.equivalents import equivalents
 from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
@@ -26,12 +29,10 @@ from symid.discrepancy.name.trial.jump import with_jumps_of
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of
-from symid.estimation.fitting.correlated import begun_correlated, is_correlated, with_correlated_forces
+from symid.estimation.fitting.correlated import begun_correlated, is_correlated
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.measurement import has_settled
-from symid.estimation.noise_memory import with_memory
-from symid.estimation.sensors.whitening import is_coloured, remembered
 from symid.estimation.signals.data import Data
 from symid.model.variants import CORRELATION_TIME
 from symid.threads import in_threads
@@ -76,11 +77,11 @@ def with_error_model(
             search, found, ranking = _again(search, found, *anew, searched, to_end=True)
         except SymidError:  # the cutoff stays where it was, and the search that ended there goes on
             found, ranking = search.run(to_end=True)
-    data, explained = _coloured(found.fit, search.data)
-    more = _gain(data, explained, search.data, found.fit)
+    data, explained = coloured(found.fit, search.data)
+    more = gain(data, explained, search.data, found.fit)
     if explained is found.fit or found.evidence(1.0) + more < search.flexible().evidence(1.0):
         return search, found, ranking
-    progress(f"{_colour(explained, data)}; looking again")
+    progress(f"{in_words(explained, data)}; looking again")
     try:
         return _again(search, found, data, unheld(explained, data, search.unstated), searched)
     except SymidError:  # what was found before is not lost
@@ -96,26 +97,26 @@ def _with_colour(search: Search, searched: Callable[[Fit, Data], Search], progre
     most = search.most_of_one()
     if most == inf:
         return search
-    data, base = _coloured(search.base, search.data)
-    alone = _gain(data, base, search.data, search.base)
+    data, base = coloured(search.base, search.data)
+    alone = gain(data, base, search.data, search.base)
     if alone <= most:
         return search
     beside = _beside_colour(search)
     best = max(beside, key=beside.__getitem__, default=None)
     if best is not None and beside[best] > alone:
-        progress(f"beside {best.suspect.term} {_colour(best.fit, best.data)}; going on")
+        progress(f"beside {best.suspect.term} {in_words(best.fit, best.data)}; going on")
         return _going_on(search, [best, *(h for h in beside if h is not best)], best.data, searched)
-    progress(f"{_colour(base, data)}; looking again")
+    progress(f"{in_words(base, data)}; looking again")
     return searched(unheld(base, data, search.unstated), data)
 
 
 def _beside_colour(search: Search) -> dict[Hypothesis, float]:
     """The likeliest suspects alone with the noise that each leaves, and the value of both together."""
     few = search.single[:FEW]
-    coloured = _each_coloured([h.fit for h in few], search.data)
+    made = each_coloured([h.fit for h in few], search.data)
     return {
-        replace(h, fit=fit, data=data): search.value(h, 1.0) + _gain(data, fit, search.data, h.fit)
-        for h, (data, fit) in zip(few, coloured, strict=True)
+        replace(h, fit=fit, data=data): search.value(h, 1.0) + gain(data, fit, search.data, h.fit)
+        for h, (data, fit) in zip(few, made, strict=True)
     }
 
 
@@ -130,12 +131,25 @@ def _going_on(search: Search, known: list[Hypothesis], data: Data, searched: Cal
     best = replace(first, base=again.base, data=data)
     if not again.worth(best, again.nothing):
         return again
-    found = in_threads(lambda h: hypothesis(h.suspects, h.fit, again.base, data, again.base.values), others)
+
+    def refitted(h: Hypothesis) -> Hypothesis | None:
+        return hypothesis(h.suspects, _begun_as(first.fit, h.fit), again.base, data, again.base.values)
+
+    found = in_threads(refitted, others)
     known = [best, *by_score([h for h in found if h is not None])]
     lead = reduce(again.better, known)
     again.known = [lead, *(h for h in known if h is not lead)]
     again.tried, again.clocks = list(again.known), search.clocks
     return again
+
+
+def _begun_as(other: Fit, fit: Fit) -> Fit:
+    """The fit with the states with which `other` begins, where another cutoff cut free motion into other pieces."""
+    if len(fit.initial) == len(other.initial):
+        return fit
+    begins = dict(zip(other.simulator.states, other.initial.T, strict=True))
+    nothing = np.zeros(len(other.initial))
+    return replace(fit, initial=np.column_stack([begins.get(s, nothing) for s in fit.simulator.states]))
 
 
 def _again(
@@ -170,53 +184,6 @@ def _leading(search: Search) -> list[Hypothesis]:
     """The suspects that explained most alone: a fit under another error model need not find the way to them again."""
     most = max((h.log_ratio for h in search.single), default=0.0)
     return [h for h in search.single if h.log_ratio > POLICY.beam_share * most][: POLICY.rivals]
-
-
-def _coloured(fit: Fit, data: Data) -> tuple[Data, Fit]:
-    """The likeliest of what leaves white innovations: sensors with a memory, correlated random forces, or both.
-
-    The same data and fit where the innovations are white already, or nothing makes them so.
-    """
-    return _each_coloured([fit], data)[0]
-
-
-def _each_coloured(fits: Sequence[Fit], data: Data) -> list[tuple[Data, Fit]]:
-    """`_coloured` of each of several fits to the same data."""
-    left = [f for f in fits if remembered(f.innovations) > data.memory or is_coloured(f.innovations, data.memory)]
-    ways = [(make, fit) for fit in left for make in (_with_forces, _with_memory)]
-    made = in_threads(lambda way: way[0](way[1], data), ways)
-    possible = {f: [p for (_, of), found in zip(ways, made, strict=True) if of is f for p in found] for f in left}
-    return [max(possible.get(f, []), key=lambda p: _gain(*p, data, f), default=(data, f)) for f in fits]
-
-
-def _with_forces(fit: Fit, data: Data) -> list[tuple[Data, Fit]]:
-    """A fit with correlated random forces, and the same with sensors that have a memory, too."""
-    forces = with_correlated_forces(fit, data)
-    return [] if forces is None else [(data, forces), *_with_memory(forces, data)]
-
-
-def _with_memory(fit: Fit, data: Data) -> list[tuple[Data, Fit]]:
-    """A fit with sensors that have a memory; none where that cannot be followed: it is not likelier."""
-    try:
-        return [with_memory(fit, data)]
-    except SymidError:
-        return []
-
-
-def _colour(fit: Fit, data: Data) -> str:
-    """What of the noise is not white, in words."""
-    words = []
-    if is_correlated(fit):
-        words.append(f"random forces are correlated over {fit.values[CORRELATION_TIME]:.2g} s")
-    if data.memory:
-        words.append(f"the noise remembers {data.memory} samples")
-    return " and ".join(words)
-
-
-def _gain(data: Data, fit: Fit, before: Data, white: Fit) -> float:
-    """Evidence for an error model beyond an earlier one, with the penalty of BIC for each coefficient."""
-    coefficients = (data.memory - before.memory) * len(data.sensor_noise) ** 2 + len(fit.values) - len(white.values)
-    return fit.loglik2 - white.loglik2 - coefficients * log(data.samples)
 
 
 def _of_settled(

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from symid.discrepancy.name import error_model
@@ -11,9 +12,21 @@ from symid.discrepancy.policy import POLICY
 
 
 @dataclass
+class Ended:
+    """Where a fit ended: states (E, n) with which pieces begin."""
+
+    states: tuple[str, ...] = ("x",)
+    initial: np.ndarray = field(default_factory=lambda: np.zeros((1, 1)))
+
+    @property
+    def simulator(self):
+        return self
+
+
+@dataclass
 class Known:
     suspects: tuple[str, ...] = ("gain",)
-    fit: object = None
+    fit: Ended = field(default_factory=Ended)
     base: object = None
     data: object = None
     score: float = 0.0
@@ -61,6 +74,15 @@ def test_what_is_believed_more_there_leads(monkeypatch, score, leader):
     known = [Known(score=10.0), Known(("drag",), score=1.0)]
     again = error_model._going_on(search, known, None, lambda base, data: Stub(True, base=base))
     assert [h.suspects for h in again.known] == [(leader,), ("drag" if leader == "gain" else "gain",)]
+
+
+def test_pieces_that_another_cutoff_cut_begin_as_those_of_what_was_fitted_to_them():
+    """A rotary pendulum (draw 607 of "mechanism"): a fit to two pieces was refitted to one, and ended in an error."""
+    other = Ended(("x", "v", "memory"), np.array([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]))
+    own = Ended(("v", "lagged", "x"), np.array([[7.0, 8.0, 9.0]]))
+    assert np.array_equal(error_model._begun_as(other, own).initial, [[2.0, 0.0, 1.0], [5.0, 0.0, 4.0]])
+    same = Ended(("v",), np.array([[1.0], [2.0]]))
+    assert error_model._begun_as(other, same) is same
 
 
 @pytest.mark.parametrize(
