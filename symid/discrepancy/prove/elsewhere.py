@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
+
 import numpy as np
 from scipy.special import log_ndtr
 
 from symid.discrepancy.locate.remainder import Test, located, remainder
+from symid.discrepancy.model.hypothesis import Hypothesis
+from symid.discrepancy.name.trial.jump import with_fitted_jumps
 from symid.discrepancy.policy import POLICY
 from symid.errors import SymidError
 from symid.estimation.fitting.fit import Fit
@@ -20,12 +25,18 @@ ITERATIONS = 40
 """Of the fit to the held-out data, as of any complete refit."""
 
 
-def elsewhere(fit: Fit, held_out: Data) -> Test | None:
+def elsewhere(found: Hypothesis, jumps: Sequence[str], held_out: Data) -> Test | None:
     """What a model that explains the fitted data does not explain in the held-out ones; None where it explains both.
 
     Asked of free motion whose error is much larger there: the model is refitted to the held-out data alone. Either it
-    leaves something systematic there, too, or it needs values that those of the fitted data exclude.
+    leaves something systematic there, too, or it needs values that those of the fitted data exclude. Dry friction may
+    set in less abruptly than fast motion shows.
+
+    Parameters
+    ----------
+    jumps : constants of the model that say how abruptly, and that nobody stated.
     """
+    fit = found.fit
     begin, held_out = _begun(fit, held_out) if fit.kalman_gain is None else (None, held_out)
     if begin is None or np.all(begin.rms_errors < POLICY.sensors * np.maximum(fit.rms_errors, held_out.sensor_noise)):
         return None
@@ -33,11 +44,19 @@ def elsewhere(fit: Fit, held_out: Data) -> Test | None:
         own = Fitter.of(fit, held_out).fit(fit.values, begin.initial, fit.process, ITERATIONS)
     except SymidError:
         return None
-    left = remainder(own, held_out)
-    if left and left[0].minus_log10_p > POLICY.remainder:
+    if left := _left(own, held_out):
+        own = with_fitted_jumps(replace(found, fit=own, data=held_out), jumps, found.base.model).fit
+        left = left if own.model is fit.model else _left(own, held_out)
+    if left:
         return located(left)
     changed = _changed(fit, own)
     return Test("", f"other values of {', '.join(changed)}", 0.0, 1) if changed else None
+
+
+def _left(fit: Fit, data: Data) -> list[Test]:
+    """The tests for something systematic that is left; none where nothing is."""
+    left = remainder(fit, data)
+    return left if left and left[0].minus_log10_p > POLICY.remainder else []
 
 
 def _begun(fit: Fit, held_out: Data) -> tuple[Fit | None, Data]:

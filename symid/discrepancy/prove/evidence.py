@@ -144,18 +144,17 @@ def evidence_of(by: Tested, search: Search, ranking: Sequence[Hypothesis], task:
         proof=_proof(final, base, task, data, runs, looks=1 + unnamed.refuted + (by.paid is not None)),
         unnamed=unnamed,
         final=final,
-        elsewhere=None if by.nameless else _elsewhere(found.fit, windows, data, task),
+        elsewhere=None if by.nameless else _elsewhere(found, search, windows, task),
     )
 
 
-def _elsewhere(fit: Fit, windows: dict[str, Data], data: Data, task: Task) -> Test | None:
-    """What only the held-out data show, under the error model of `data` and cut as these, however they were given."""
+def _elsewhere(found: Hypothesis, search: Search, windows: dict[str, Data], task: Task) -> Test | None:
+    """What only the held-out data show, under the error model of the search and cut as its data, however given."""
     if "heldout" not in windows:
         return None
-    held = windows["heldout"].remembering(data.memory)
-    return elsewhere(
-        fit, held if task.moved else held.with_segments(free_pieces(held.segments, len(task.model.states)))
-    )
+    held = windows["heldout"].remembering(search.data.memory)
+    held = held if task.moved else held.with_segments(free_pieces(held.segments, len(task.model.states)))
+    return elsewhere(found, search.jumps, held)
 
 
 def _proof(final: Fit, base: Fit, task: Task, data: Data, runs: dict[str, FreeRun], looks: int = 1) -> Proof | None:
