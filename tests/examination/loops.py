@@ -21,7 +21,8 @@ LATE = (0.03, 0.1)
 """Delays and lags of the feedback, in parts of a swing."""
 KEYS = {"feedback_delay": "delay_s", "muscle_lag": "time_constant_s"}
 FORCES = ("coulomb_friction", "joint_drag", "cubic_stiffness")
-UNSTABLE = 1e6
+UNSTABLE, FARTHEST = 1e6, 30.0
+"""A state, and usual swings of a joint, beyond which a loop holds nothing: an arm turned eleven times (601)."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,8 @@ def run_loop(rng, loop: Loop, missing: tuple[str, str] | None) -> Made:
         force[at], values = force_of(rng, law, loop.joints[at])
         truth = {LIBRARY[law].at(at): values}
     seen = _states(rng, loop, given, force, {law: late}, step / FINE, (count - 1) * FINE)
+    if any(np.ptp(j.position(seen.T)) > FARTHEST * j.swing for j in loop.joints.values()):
+        raise FloatingPointError("the joints turn far beyond where the loop holds them")
     outputs = {c: f(seen.T) for c, f in loop.outputs.items()}
     for part in loop.model.outputs.values():
         if law.startswith("sensor") and part.at == at:

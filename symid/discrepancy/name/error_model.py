@@ -13,6 +13,7 @@ memory, under which it keeps its value.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from functools import reduce
 from math import inf
@@ -27,7 +28,7 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.name.trial.explore import by_score
 from symid.discrepancy.name.trial.jump import with_jumps_of
 from symid.discrepancy.policy import POLICY
-from symid.errors import SymidError
+from symid.errors import DiagnosisError, SymidError
 from symid.estimation.between_samples import holds_of
 from symid.estimation.fitting.correlated import begun_correlated, is_correlated
 from symid.estimation.fitting.fit import Fit
@@ -105,7 +106,8 @@ def _with_colour(search: Search, searched: Callable[[Fit, Data], Search], progre
     best = max(beside, key=beside.__getitem__, default=None)
     if best is not None and beside[best] > alone:
         progress(f"beside {best.suspect.term} {in_words(best.fit, best.data)}; going on")
-        return _going_on(search, [best, *(h for h in beside if h is not best)], best.data, searched)
+        with suppress(SymidError):  # under noise as it is without a suspect the search goes on all the same
+            return _going_on(search, [best, *(h for h in beside if h is not best)], best.data, searched)
     progress(f"{in_words(base, data)}; looking again")
     return searched(unheld(base, data, search.unstated), data)
 
@@ -252,14 +254,16 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
     if len(base.initial) != len(begins):  # another cutoff cuts free motion into other pieces
         base = replace(base, initial=begins)
 
-    def from_found() -> Fit | None:
+    def begun_at(start: Fit) -> Fit | None:
         try:
-            return Fitter(base.model, data).again(near)
+            return Fitter(base.model, data).again(start)
         except SymidError:
-            return None  # without what was found these values need not hold the model together
+            return None  # these values need not hold the model together without what was found, or under other noise
 
-    fits = in_threads(lambda made: made(), [lambda: Fitter(base.model, data).again(base), from_found])
-    return max((fit for fit in fits if fit is not None), key=_loglik2)
+    fits = [fit for fit in in_threads(begun_at, [base, near]) if fit is not None]
+    if not fits:
+        raise DiagnosisError(f"model '{base.model.name}' diverges under noise that is not white: fit a shorter window")
+    return max(fits, key=_loglik2)
 
 
 def _loglik2(fit: Fit) -> float:

@@ -9,6 +9,7 @@ import pytest
 from symid.discrepancy.name import error_model
 from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.policy import POLICY
+from symid.errors import DiagnosisError
 
 
 @dataclass
@@ -83,6 +84,25 @@ def test_pieces_that_another_cutoff_cut_begin_as_those_of_what_was_fitted_to_the
     assert np.array_equal(error_model._begun_as(other, own).initial, [[2.0, 0.0, 1.0], [5.0, 0.0, 4.0]])
     same = Ended(("v",), np.array([[1.0], [2.0]]))
     assert error_model._begun_as(other, same) is same
+
+
+def test_noise_under_which_what_was_found_diverges_is_fitted_without_it(monkeypatch):
+    """An arm that turned eleven times diverged from the values of the likeliest suspect under correlated forces."""
+
+    def diverges(*asked):
+        raise DiagnosisError("it diverges")
+
+    monkeypatch.setattr(error_model, "coloured", lambda fit, data: ("coloured data", "coloured fit"))
+    monkeypatch.setattr(error_model, "gain", lambda *fits: 5.0)
+    monkeypatch.setattr(error_model, "_beside_colour", lambda search: {Known(suspects=()): 9.0})
+    monkeypatch.setattr(error_model, "in_words", lambda fit, data: "noise")
+    monkeypatch.setattr(error_model, "_going_on", diverges)
+    monkeypatch.setattr(error_model, "unheld", lambda fit, data, unstated: fit)
+    search = SimpleNamespace(most_of_one=lambda: 1.0, base=None, data=None, unstated=())
+    monkeypatch.setattr(Known, "__hash__", object.__hash__)
+    monkeypatch.setattr(Known, "suspect", SimpleNamespace(term="a law"), raising=False)
+    again = error_model._with_colour(search, lambda base, data: (base, data), lambda text: None)
+    assert again == ("coloured fit", "coloured data")
 
 
 @pytest.mark.parametrize(
