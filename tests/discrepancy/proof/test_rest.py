@@ -164,8 +164,8 @@ def test_a_flexible_law_closes_the_held_out_error_of_a_law_without_a_name(seed):
     before, after, least = (free_run(f, later).rms for f in (base, law.fit, best))
     assert (before - after) / (before - least) > 0.7
     assert {str(s) for s in law.signals} == {"speed", "position"}
-    x = np.array([[0.0, 0.2], [0.09, 0.2]])
-    force = law.force(x) - law.force(x * [1, 0])
+    x = np.array([[0.0, 0.2, 0.0], [0.09, 0.2, 0.0]])  # states, and an input
+    force = law.force(x) - law.force(x * [1, 0, 1])
     assert force[0] - force[1] < -0.5  # it brakes in the middle
 
 
