@@ -99,8 +99,8 @@ def experiments(
     found = [e for design in (DRIVEN if data.inputs_change else FREE) for e in tried(design, range(1))]
     if not found:
         return []
-    # A law that the other one holds as a special case is never told from it where it is true.
-    hopeless = [max(e.log_ratios[d] for e in found) < POLICY.equivalent for d in (0, 1)]
+    # A law that the other one holds as a special case is never told from it where it is true, however long it takes.
+    hopeless = [LONGEST * max(e.log_ratios[d] for e in found) < SPLITS * POLICY.equivalent for d in (0, 1)]
     if any(hopeless) and not all(hopeless):
         found = [_without(e, hopeless) for e in found]
     best = min(found, key=_preference)
