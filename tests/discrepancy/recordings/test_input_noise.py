@@ -116,6 +116,7 @@ def test_what_chance_may_have_made_is_put_to_the_tests_as_nothing(left, said, mo
     explained = mock.MagicMock(search=search)
     monkeypatch.setattr(module, "explained", lambda *arguments: explained)
     monkeypatch.setattr(module, "tested", lambda found, search: mock.MagicMock(found=found, nameless=False))
+    monkeypatch.setattr(module, "with_held_out", lambda found, search, task: found)
     monkeypatch.setattr(module, "_holds_in_pieces_alone", lambda found, task: False)
     monkeypatch.setattr(module, "evidence_of", evidence_of)
     monkeypatch.setattr(module, "judge", lambda *arguments: ("adequate", (), ()))
