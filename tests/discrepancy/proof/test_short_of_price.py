@@ -10,6 +10,7 @@ from scipy.ndimage import gaussian_filter1d
 
 import symid as si
 from symid.discrepancy.prove import short_of_price
+from symid.discrepancy.prove.held_out import compare
 from symid.discrepancy.prove.short_of_price import with_one_more
 from symid.errors import DiagnosisError
 
@@ -49,6 +50,8 @@ def test_what_the_fitted_window_hardly_shows_is_found_by_what_it_foretells(seed,
     told = si.diagnose(cart(), recording(seed, hardening), **WINDOWS, driven=False, threads=1)
     assert [e.name for e in told.effects] == ["cubic_stiffness"], str(told)
     assert "is not certain enough by the fit window alone" in told.words
+    once = compare(told.runs["baseline_heldout"], told.runs["augmented_heldout"]).probability
+    assert told.proof.probability == pytest.approx(max(1 - 2 * (1 - once), 0)) and once < 1  # they were asked twice
     alone = si.diagnose(cart(), recording(seed, hardening), fit_window=(0, 30), driven=False, threads=1)
     assert alone.verdict == "adequate" and "not certain enough" not in alone.words
 
