@@ -262,7 +262,7 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
 
     fits = [fit for fit in in_threads(begun_at, [base, near]) if fit is not None]
     if not fits:
-        raise DiagnosisError(f"model '{base.model.name}' diverges under noise that is not white: fit a shorter window")
+        raise DiagnosisError(f"model '{base.model.name}' diverges under the noise that its recording asks for")
     return max(fits, key=_loglik2)
 
 

@@ -8,7 +8,8 @@ from math import inf, log
 from weakref import WeakKeyDictionary
 
 from symid.discrepancy.locate.remainder import Test, remainder
-from symid.discrepancy.model.hypothesis import Hypothesis, is_met, most_believed
+from symid.discrepancy.model.families import LOSSES
+from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, is_met, most_believed, polished
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.fit import Fit
@@ -113,6 +114,23 @@ class Judge:
             return False
         share = max(flexible, found, key=lambda h: h.log_ratio).share
         return flexible.evidence(share) > max(found.evidence(share), 0.0) + by
+
+    def settled(self, found: Hypothesis) -> Hypothesis:
+        """What is found, or the flexible law at one place where several laws together explain less than that.
+
+        The losses of a motion that nothing drives stay: something takes its energy, whatever else acts.
+        """
+        doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
+        if not (doubtful and self.beaten(found)):
+            return found
+        lossy = self._lossy(found) if found.is_free else None
+        return self.flexible() if lossy is None or self.explained(lossy) else lossy
+
+    def _lossy(self, found: Hypothesis) -> Hypothesis | None:
+        """The named losses of `found` alone; None without any, or where they cannot be fitted."""
+        losses = [s for s in found.suspects if s.term.name in LOSSES and found.is_named(s)]
+        less = hypothesis(losses, found.fit, self.base, self.data) if losses else None
+        return None if less is None else polished(less)
 
     def _enough(self, found: Hypothesis) -> bool:
         """Whether what it leaves of a free motion is near the sensors' noise: else more than one thing is missing."""

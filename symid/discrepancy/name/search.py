@@ -9,7 +9,6 @@ from math import inf
 
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
-from symid.discrepancy.model.families import LOSSES
 from symid.discrepancy.model.hypothesis import Hypothesis, hypothesis, polished
 from symid.discrepancy.model.suspects import Suspect
 from symid.discrepancy.name.held import Holds
@@ -152,23 +151,6 @@ class Search(Judge):
         """What is tried next has dry friction that is as abrupt."""
         if best.base is not self.base:
             self.base = self.projection.fit = best.base
-
-    def settled(self, found: Hypothesis) -> Hypothesis:
-        """What is found, or the flexible law at one place where several laws together explain less than that.
-
-        The losses of a motion that nothing drives stay: something takes its energy, whatever else acts.
-        """
-        doubtful = len(found.suspects) > 1 or not found.established or not self.explained(found)
-        if not (doubtful and self.beaten(found)):
-            return found
-        lossy = self._lossy(found) if found.is_free else None
-        return self.flexible() if lossy is None or self.explained(lossy) else lossy
-
-    def _lossy(self, found: Hypothesis) -> Hypothesis | None:
-        """The named losses of `found` alone; None without any, or where they cannot be fitted."""
-        losses = [s for s in found.suspects if s.term.name in LOSSES and found.is_named(s)]
-        less = hypothesis(losses, found.fit, self.base, self.data) if losses else None
-        return None if less is None else polished(less)
 
     @cached_property
     def of_one(self) -> Hypothesis:

@@ -109,18 +109,23 @@ def _widened(found: Hypothesis, search: Search) -> tuple[Hypothesis, Hypothesis 
 
 def with_held_out(by: Tested, search: Search, task: Task) -> Tested:
     """What stood the tests, or that with one suspect more of which the held-out data pay the rest of the price."""
-    if by.nameless or not by.white or task.held_out is None:
-        return by
-    try:
-        held = of_window(task.model, task.recording, task.held_out, task.segment_length, search.data)
-    except DiagnosisError:
-        return by  # too little of the window is left where a filter is undone
-    more = with_one_more(by.found, search, held)
+    held = None if by.nameless or not by.white else _held_out(task, search.data)
+    more = by.found if held is None else with_one_more(by.found, search, held)
     if more is by.found:
         return by
     more = honest(more, by.white)  # the held-out data, not chance in the fitted window, decide whether it stays
     chance = false_alarm_probability(weakest(more), null_maxima(search.projection, more.fit))
     return Tested(*_widened(more, search), search.remainder(more), by.white, chance, paid=more.suspect)
+
+
+def _held_out(task: Task, data: Data) -> Data | None:
+    """The held-out data under the error model of `data`; None without such, or if a filter is undone in too few."""
+    if task.held_out is None:
+        return None
+    try:
+        return of_window(task.model, task.recording, task.held_out, task.segment_length, data)
+    except DiagnosisError:
+        return None
 
 
 def evidence_of(by: Tested, search: Search, ranking: Sequence[Hypothesis], task: Task, plain: Data) -> Evidence:
@@ -165,9 +170,9 @@ def _proof(final: Fit, base: Fit, task: Task, data: Data, runs: dict[str, FreeRu
     if task.held_out is None or final is base:
         return None
     proof = compare(runs["baseline_heldout"], runs["augmented_heldout"])
-    if base.kalman_gain is not None:
-        with suppress(DiagnosisError):  # too little of the window is left where a filter is undone
-            held = of_window(task.model, task.recording, task.held_out, task.segment_length, data)
+    held = None if base.kalman_gain is None else _held_out(task, data)
+    if held is not None:
+        with suppress(DiagnosisError):  # one of the two follows these data from no state
             proof = compare_predictions(predictions(base, held), predictions(final, held), proof)
     return replace(proof, probability=max(1 - looks * (1 - proof.probability), 0.0))
 
