@@ -242,6 +242,7 @@ PLAIN = (
     "quadratic_stiffness",
     "asymmetric_damping",
     "joint_drag",
+    "cubic_damping",
     "link_drag",
     "body_drag",
     "slow_body_drag",

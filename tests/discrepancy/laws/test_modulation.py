@@ -12,7 +12,7 @@ from scipy.linalg import expm
 import symid as si
 from symid.discrepancy.locate.modulation import PARTS, _inflation, modulated
 from symid.discrepancy.locate.projection import Projection
-from symid.discrepancy.locate.remainder import Test as Left, remainder
+from symid.discrepancy.locate.remainder import Test as Left, located, remainder
 from symid.discrepancy.policy import POLICY
 from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.signals.data import Data
@@ -40,7 +40,7 @@ def breathing(seed, size):
 def test_a_spring_that_comes_and_goes_is_noticed_and_chance_is_not():
     for seed in range(4):
         data = data_of(breathing(seed, 3.0))
-        found = remainder(fit_model(cart(), data), data)[0]
+        found = located(remainder(fit_model(cart(), data), data))
         assert (found.place, found.what) == ("cart", "a stiffness or damping that comes and goes")
         assert found.minus_log10_p > POLICY.remainder
         data = data_of(breathing(seed, 0.0))

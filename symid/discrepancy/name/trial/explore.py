@@ -272,13 +272,27 @@ def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], shor
         if other is not None and other.log_ratio > found[0].log_ratio + 1.0:
             found.append(_continued(data, other))
     best = max(found, key=lambda c: c.log_ratio)
-    if not best.fit.converged and best.suspect.scanned is None:
-        own = {q.key: best.fit.values[best.suspect.term.parameter_name(q.key)] for q in best.suspect.law.parameters}
-        eased = short.fitted(best.suspect, own, best.forecast, [best.fit])
+    values = _in_short_pieces(best, data, short)
+    if values is not None:
+        eased = short.fitted(best.suspect, values, best.forecast, [best.fit])
         best = eased if eased and eased.log_ratio > best.log_ratio else best
     moved = _profiled(best, data)
     again = _refit(fit, data, moved) if moved is not None else None
     return again if again is not None and again.log_ratio > best.log_ratio else best
+
+
+def _in_short_pieces(best: Hypothesis, data: Data, short: ShortPieces) -> dict[str, float] | None:
+    """Where a fit in short pieces begins that may lead to more; None where none is asked for.
+
+    A torque that comes back in each turn is looked for anew in such pieces: over a long one the model without it may
+    be whole teeth beside what was recorded.
+    """
+    scanned = best.suspect.scanned
+    if scanned is not None:
+        return None if scanned.clock != "turn" or is_met(best.fit, data) else short.scanned(best.suspect)
+    if best.fit.converged:
+        return None
+    return {q.key: best.fit.values[best.suspect.term.parameter_name(q.key)] for q in best.suspect.law.parameters}
 
 
 def _continued(data: Data, begun: Hypothesis, exact: bool = False) -> Hypothesis:
