@@ -157,3 +157,12 @@ def test_the_same_laws_are_believed_anew_only_with_values_that_are_far_likelier(
     assert Judge.is_new(more, {})
     assert Judge.is_new(more, {frozenset([law]): 50.0})
     assert not Judge.is_new(more, {frozenset([law]): 99.0})
+
+
+def test_a_candidate_that_diverges_with_exact_steps_is_none(monkeypatch):
+    def diverges(fit, data):
+        raise DiagnosisError("diverges")
+
+    monkeypatch.setattr(exploring.Fitter, "of", diverges)
+    leading, other = (SimpleNamespace(log_ratio=v, fit=None, data=None) for v in (10.0, 1.0))
+    assert exploring.exact_where_leading([leading, other], near=5.0) == [other]

@@ -137,11 +137,13 @@ def least_near(found: Sequence[Hypothesis]) -> float:
 def exact_where_leading(found: Sequence[Hypothesis], near: float) -> list[Hypothesis]:
     """The same, of which those that may turn out to be the best are fitted on with exact steps (see `Fitter.fit`).
 
+    One that diverges with exact steps is none: a positioner whose sensor remembers its noise had one.
+
     near : the log-likelihood ratio from which on they may.
     """
     leading = [h for h in found if h.log_ratio > near]
     exact = in_threads(lambda h: _continued(h.data, h, exact=True), leading)
-    return exact + [h for h in found if h not in leading]
+    return [h for h in exact if h is not None] + [h for h in found if h not in leading]
 
 
 def _reaches(starts: Sequence[list[Start]]) -> dict[Suspect, float]:
@@ -266,11 +268,11 @@ def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
 
 def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], short: ShortPieces) -> Hypothesis:
     """The candidate fitted to convergence, or what another start leads to if that is better; not exact."""
-    found = [_continued(data, first)]
+    found = [_continued(data, first) or first]
     for start in others:
         other = _begun(fit, data, start)
         if other is not None and other.log_ratio > found[0].log_ratio + 1.0:
-            found.append(_continued(data, other))
+            found.append(_continued(data, other) or other)
     best = max(found, key=lambda c: c.log_ratio)
     values = _in_short_pieces(best, data, short)
     if values is not None:
@@ -295,9 +297,12 @@ def _in_short_pieces(best: Hypothesis, data: Data, short: ShortPieces) -> dict[s
     return {q.key: best.fit.values[best.suspect.term.parameter_name(q.key)] for q in best.suspect.law.parameters}
 
 
-def _continued(data: Data, begun: Hypothesis, exact: bool = False) -> Hypothesis:
-    """The same candidate after more iterations, with standard errors."""
-    new = Fitter.of(begun.fit, data).again(begun.fit, CONVERGING_ITERATIONS, exact)
+def _continued(data: Data, begun: Hypothesis, exact: bool = False) -> Hypothesis | None:
+    """The same candidate after more iterations, with standard errors; None where it diverges."""
+    try:
+        new = Fitter.of(begun.fit, data).again(begun.fit, CONVERGING_ITERATIONS, exact)
+    except SymidError:
+        return None
     return Hypothesis(begun.suspects, new, begun.base, data, begun.forecast)
 
 
