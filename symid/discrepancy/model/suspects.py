@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any, cast
@@ -100,6 +100,10 @@ class Suspect:
     def named(self, values: dict[str, float]) -> dict[str, float]:
         """Values by key as values by the name of the model's parameters."""
         return {self.term.parameter_name(k): v for k, v in values.items()}
+
+    def keyed(self, values: Mapping[str, float]) -> dict[str, float]:
+        """Its own values by key, of those of a model by the name of its parameters."""
+        return {q.key: values[self.term.parameter_name(q.key)] for q in self.law.parameters}
 
     @property
     def off(self) -> dict[str, float]:

@@ -64,7 +64,7 @@ def test_inertia_that_a_model_without_friction_took_for_the_motors_is_given_back
     base = fit_model(model, data, WRONG, exact=False)
     assert base.values["load_inertia"] < 0.1 * TRUE["load_inertia"]
     (suspect,) = [s for s in si.suspects(model) if str(s.term) == "coulomb_friction@load"]
-    stuck = exploring._refit(base, data, Start(0.0, suspect, {"torque_Nm": 0.0}))
+    stuck = exploring.refit_from(base, data, Start(0.0, suspect, {"torque_Nm": 0.0}))
     (found,) = exploring._from_nothing([stuck], base, data, [], nowhere)
     assert found.log_ratio > stuck.log_ratio and stuck.fit.values["load_inertia"] < 0.5 * TRUE["load_inertia"]
     assert found.fit.values["load_inertia"] == pytest.approx(TRUE["load_inertia"], rel=0.05)
@@ -99,7 +99,7 @@ def test_all_simple_laws_are_fitted_from_nothing_where_the_model_as_given_ends_a
     asked = []
     monkeypatch.setattr(exploring, "is_met", lambda *_: False)
     monkeypatch.setattr(exploring, "POLICY", replace(POLICY, converged=1))
-    monkeypatch.setattr(exploring, "_begin", lambda fit, data, s: SimpleNamespace(suspect=s[0].suspect, log_ratio=0.0))
+    monkeypatch.setattr(exploring, "begin", lambda fit, data, s: SimpleNamespace(suspect=s[0].suspect, log_ratio=0.0))
     monkeypatch.setattr(exploring, "begun_anew", lambda h, regression: asked.append(h.suspect.name) or h)
     base = SimpleNamespace(kalman_gain=None, at_bounds=at_bounds)
     exploring._from_nothing(found, base, None, starts, nowhere)

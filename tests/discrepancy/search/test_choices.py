@@ -7,6 +7,7 @@ import pytest
 from driven_cart import cart
 
 import symid.discrepancy.name.error_model as error_model
+import symid.discrepancy.name.trial.candidate as candidate
 import symid.discrepancy.name.trial.explore as exploring
 import symid.discrepancy.name.trial.scan as scanning
 from symid.discrepancy import Suspect
@@ -38,9 +39,9 @@ def tried_beside(monkeypatch, leader: str, *alike: str, explains: float) -> set[
 
     begun: set[str] = set()
     monkeypatch.setattr(exploring, "starts_of", starts)
-    monkeypatch.setattr(exploring, "_begin", begin)
-    monkeypatch.setattr(exploring, "_converge", lambda fit, data, first, others, jumps: first)
-    monkeypatch.setattr(exploring, "_continued", lambda data, begun, exact: begun)
+    monkeypatch.setattr(exploring, "begin", begin)
+    monkeypatch.setattr(exploring, "converged_from", lambda fit, data, first, others, jumps: first)
+    monkeypatch.setattr(exploring, "continued", lambda data, begun, exact: begun)
     monkeypatch.setattr(exploring, "by_score", lambda found: found)
     monkeypatch.setattr(exploring, "is_met", lambda fit, data, times: True)
     exploring.explore(fit, None, pool, projection=object())
@@ -163,6 +164,6 @@ def test_a_candidate_that_diverges_with_exact_steps_is_none(monkeypatch):
     def diverges(fit, data):
         raise DiagnosisError("diverges")
 
-    monkeypatch.setattr(exploring.Fitter, "of", diverges)
+    monkeypatch.setattr(candidate.Fitter, "of", diverges)
     leading, other = (SimpleNamespace(log_ratio=v, fit=None, data=None) for v in (10.0, 1.0))
     assert exploring.exact_where_leading([leading, other], near=5.0) == [other]

@@ -42,7 +42,7 @@ def test_a_delay_that_no_value_of_a_wrong_model_survives_begins_from_nothing(mon
     monkeypatch.setattr(begins, "_here", lambda *a: -np.inf)
     starts = begins.starts_of(fit, data, Projection(fit, data), late)
     assert [s.afresh for s in starts] == [False, True]
-    begun = steps._refit(fit, data, starts[1], 6)
+    begun = steps.refit_from(fit, data, starts[1], 6)
     assert begun.fit.values[late.term.parameter_name("delay_s")] == pytest.approx(0.06, abs=0.005)
 
 

@@ -4,31 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-import numpy as np
-
 from symid.discrepancy.locate.projection import Projection
 from symid.discrepancy.model.begun_anew import Regression, begun_anew, nowhere
 from symid.discrepancy.model.families import is_alike
-from symid.discrepancy.model.hypothesis import Hypothesis, extended, is_met
+from symid.discrepancy.model.hypothesis import Hypothesis, is_met
 from symid.discrepancy.model.suspects import Suspect
-from symid.discrepancy.name.trial.scan import moment_profile
+from symid.discrepancy.name.trial.candidate import KEPT, begin, continued, converged_from, refit_from
 from symid.discrepancy.name.trial.short_pieces import ShortPieces
 from symid.discrepancy.name.trial.starts import Start, starts_of
 from symid.discrepancy.policy import POLICY
-from symid.errors import SymidError
-from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.fit import Fit
-from symid.estimation.fitting.fitter import Fitter
 from symid.estimation.signals.data import Data
 from symid.threads import in_threads
 
-FIRST_ITERATIONS, CONVERGING_ITERATIONS = 6, 20
 BEYOND = 3.0
 """A slope at zero may see but a third of what a delay, a lag or an integral explains."""
-KEPT = 0.5
-"""A fit that explains less than this part of its forecast may have gone astray: the next start is tried."""
-MOMENTS = 0.3
-"""Spacing [s] at the pace of a second of the moments at which a lasting change is tried."""
 
 
 def explore(
@@ -66,7 +56,7 @@ def explore(
     progress(f"{len(chosen)} of {len(starts)} suspects are worth a full fit")
 
     def begun(several: Sequence[list[Start]]) -> list[Hypothesis]:
-        return [c for c in in_threads(lambda s: _begin(fit, data, s), several) if c is not None]
+        return [c for c in in_threads(lambda s: begin(fit, data, s), several) if c is not None]
 
     first = begun(chosen[: POLICY.always_refitted])
     # Where the model is far off, fits explain far more than any forecast, which counts in parts of its error.
@@ -75,7 +65,7 @@ def explore(
     first += begun(worth)
     unseen = _unseen(starts, first)
     first += begun(unseen)
-    afresh = in_threads(lambda s: _refit(fit, data, s[-1]), _misled(chosen, first))
+    afresh = in_threads(lambda s: refit_from(fit, data, s[-1]), _misled(chosen, first))
     first += [c for c in afresh if c is not None]
     tried = [*chosen[: POLICY.always_refitted], *worth, *unseen]
     short = ShortPieces(fit, data, jumps)
@@ -87,7 +77,7 @@ def explore(
     }
 
     def converging(begun: Sequence[Hypothesis]) -> list[Hypothesis]:
-        return in_threads(lambda c: _converge(fit, data, c, others[c.suspect], short), begun)
+        return in_threads(lambda c: converged_from(fit, data, c, others[c.suspect], short), begun)
 
     good = [c for c in first[:converged] if c.log_ratio > POLICY.beam_share * first[0].log_ratio - POLICY.near]
     rest = first[len(good) :]
@@ -120,7 +110,7 @@ def _from_nothing(
         known = {h.suspect for h in simple}
         others = [s for s in starts if _is_simple(s[0].suspect) and s[0].suspect.established]
         others = [s for s in others if s[0].suspect not in known][: POLICY.refitted]
-        begun = in_threads(lambda s: _begin(fit, data, s), others)
+        begun = in_threads(lambda s: begin(fit, data, s), others)
         first = [*simple, *(h for h in begun if h is not None)]
     return in_threads(lambda h: begun_anew(h, regression), first) + [h for h in found if h not in first]
 
@@ -142,7 +132,7 @@ def exact_where_leading(found: Sequence[Hypothesis], near: float) -> list[Hypoth
     near : the log-likelihood ratio from which on they may.
     """
     leading = [h for h in found if h.log_ratio > near]
-    exact = in_threads(lambda h: _continued(h.data, h, exact=True), leading)
+    exact = in_threads(lambda h: continued(h.data, h, exact=True), leading)
     return [h for h in exact if h is not None] + [h for h in found if h not in leading]
 
 
@@ -215,104 +205,3 @@ def by_score(found: Sequence[Hypothesis]) -> list[Hypothesis]:
     """Best first, all judged by the samples that the one with the least error lets count."""
     share = max(found, key=lambda c: c.log_ratio).share if found else 1.0
     return sorted(found, key=lambda c: -c.evidence(share))
-
-
-def _refit(fit: Fit, data: Data, start: Start, iterations: int = 40) -> Hypothesis | None:
-    """From there; not exact (see `Fitter.fit`), and without standard errors.
-
-    In the first few iterations the cutoff of a filter keeps its value: from a finite delay it went astray, and took the
-    delay along.
-    """
-    suspect, model = start.suspect, fit.model.with_term(start.suspect.term)
-    fitter = Fitter(model, data, near=fit, tune="all" if iterations > FIRST_ITERATIONS else "noise")
-    try:
-        new = (
-            fit_model(model, data, suspect.named(start.values), exact=False)
-            if start.afresh
-            else fitter.fit(
-                fit.values | suspect.named(start.values),
-                extended(fit.initial, fitter.sim),
-                fit.process,
-                iterations,
-                errors=False,
-                exact=False,
-            )
-        )
-    except SymidError:
-        return None
-    return Hypothesis((suspect,), new, fit, data, start.forecast)
-
-
-def _begun(fit: Fit, data: Data, start: Start) -> Hypothesis | None:
-    """A few iterations from there, made once: convergence is sought from the same starts."""
-    if not start.begun:
-        start.begun.append(_refit(fit, data, start, FIRST_ITERATIONS))
-    return start.begun[0]
-
-
-def _begin(fit: Fit, data: Data, starts: list[Start]) -> Hypothesis | None:
-    """A few iterations from the best start, and from the others where it does not keep its promise.
-
-    A law of which a slope at zero sees little also begins at one finite size.
-    """
-    best, least = None, 2 if starts[0].suspect.bypasses else 1
-    others = [s for s in starts[1:] if not s.afresh] or starts[1:]
-    for tried, start in enumerate([*starts[:1], *others], 1):
-        new = _begun(fit, data, start)
-        if new is not None and (best is None or new.log_ratio > best.log_ratio):
-            best = new
-        if best is not None and best.log_ratio > KEPT * start.forecast and tried >= least:
-            break
-    return best
-
-
-def _converge(fit: Fit, data: Data, first: Hypothesis, others: list[Start], short: ShortPieces) -> Hypothesis:
-    """The candidate fitted to convergence, or what another start leads to if that is better; not exact."""
-    found = [_continued(data, first) or first]
-    for start in others:
-        other = _begun(fit, data, start)
-        if other is not None and other.log_ratio > found[0].log_ratio + 1.0:
-            found.append(_continued(data, other) or other)
-    best = max(found, key=lambda c: c.log_ratio)
-    values = _in_short_pieces(best, data, short)
-    if values is not None:
-        eased = short.fitted(best.suspect, values, best.forecast, [best.fit])
-        best = eased if eased and eased.log_ratio > best.log_ratio else best
-    moved = _profiled(best, data)
-    again = _refit(fit, data, moved) if moved is not None else None
-    return again if again is not None and again.log_ratio > best.log_ratio else best
-
-
-def _in_short_pieces(best: Hypothesis, data: Data, short: ShortPieces) -> dict[str, float] | None:
-    """Where a fit in short pieces begins that may lead to more; None where none is asked for.
-
-    A torque that comes back in each turn is looked for anew in such pieces: over a long one the model without it may
-    be whole teeth beside what was recorded.
-    """
-    scanned = best.suspect.scanned
-    if scanned is not None:
-        return None if scanned.clock != "turn" or is_met(best.fit, data) else short.scanned(best.suspect)
-    if best.fit.converged:
-        return None
-    return {q.key: best.fit.values[best.suspect.term.parameter_name(q.key)] for q in best.suspect.law.parameters}
-
-
-def _continued(data: Data, begun: Hypothesis, exact: bool = False) -> Hypothesis | None:
-    """The same candidate after more iterations, with standard errors; None where it diverges."""
-    try:
-        new = Fitter.of(begun.fit, data).again(begun.fit, CONVERGING_ITERATIONS, exact)
-    except SymidError:
-        return None
-    return Hypothesis(begun.suspects, new, begun.base, data, begun.forecast)
-
-
-def _profiled(best: Hypothesis, data: Data) -> Start | None:
-    """A better moment for a lasting change: its likelihood has a peak for every swing of the motion."""
-    q = best.suspect.scanned
-    if q is None or q.clock != "moment" or best.log_ratio < POLICY.worth_refitting:
-        return None
-    fit, name = best.fit, best.suspect.term.parameter_name(q.key)
-    moments, values = moment_profile(fit, data, name, data.span, MOMENTS * data.pace)
-    value, moment = values.max(), float(moments[np.argmax(values)])
-    own = {k.key: fit.values[best.suspect.term.parameter_name(k.key)] for k in best.suspect.law.parameters}
-    return Start(best.forecast, best.suspect, own | {q.key: moment}) if value > fit.loglik2 + 0.1 else None

@@ -64,7 +64,7 @@ def promising(known: Sequence[Hypothesis], best: Hypothesis, most: float) -> lis
 
 def _promise(projection: Projection, found: Hypothesis) -> float:
     suspect, strength = found.suspect, found.suspect.strength
-    values = {q.key: found.fit.values[suspect.term.parameter_name(q.key)] for q in suspect.law.parameters}
+    values = suspect.keyed(found.fit.values)
     sim = simulator(projection.fit.model.with_term(suspect.term))
     columns = [
         projection.response(suspect, sim, v | {strength.key: strength.null}) for v in suspect.quadratures(values)
