@@ -148,7 +148,8 @@ class Evaluation:
     @staticmethod
     def _finite(values: np.ndarray) -> bool:
         # The sum is several times quicker than looking at each value and misses nothing.
-        return math.isfinite(values.sum()) or bool(np.isfinite(values).all())
+        with np.errstate(invalid="ignore", over="ignore"):  # of infinities of both signs, which are the answer
+            return math.isfinite(values.sum()) or bool(np.isfinite(values).all())
 
     def _reject(self, what: str, value: float) -> None:
         self.not_a_number = f"{what} is {value}"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from symid.errors import SymidError
+from symid.identification.checks.curved import said_of_intervals
 from symid.identification.checks.elsewhere import said_of_optimum
 from symid.identification.checks.held import said_of_inputs
 from symid.identification.checks.integrate import Reintegration
@@ -66,7 +67,8 @@ class Verification:
 
 @one_blas_thread
 def verify(solution: Solution) -> Verification:
-    """Solve on a finer mesh, integrate, measure optimality, look for other optima where the fit errs much.
+    """Solve on a finer mesh, integrate, measure optimality, look for other optima where the fit errs much, and at the
+    ends of the intervals of what is hardly known.
 
     It takes about as long as the solve did.
     """
@@ -81,6 +83,7 @@ def verify(solution: Solution) -> Verification:
         coarse = mesh is not None and bool((mesh["std_errors"].abs() > COARSE).any())
         sentences.append(_said_of_departure(solution, departures, coarse))
     sentences += said_of_optimum(solution) + said_of_inputs(solution) + _said_of_mesh(solution, mesh)
+    sentences += said_of_intervals(solution)
     return Verification(mesh, departures, departs, optimality, tuple(sentences))
 
 
