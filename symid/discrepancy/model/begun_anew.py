@@ -41,9 +41,9 @@ def begun_anew(found: Hypothesis, regression: Regression) -> Hypothesis:
         start = regression(found.fit.model)
     try:
         fit = fit_model(found.fit.model, found.data, start, exact=False)
+        return polished(replace(found, fit=fit)) if fit.loglik2 > found.fit.loglik2 + BETTER else found
     except SymidError:
         return found
-    return polished(replace(found, fit=fit)) if fit.loglik2 > found.fit.loglik2 + BETTER else found
 
 
 def given_anew(found: Hypothesis) -> Fit | None:

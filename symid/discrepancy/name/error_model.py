@@ -26,7 +26,7 @@ from symid.discrepancy.name.equivalents import equivalents
 from symid.discrepancy.name.held import unheld
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.name.trial.explore import by_score
-from symid.discrepancy.name.trial.jump import with_jumps_of
+from symid.discrepancy.name.trial.jump import with_jumps_again, with_jumps_of
 from symid.discrepancy.policy import POLICY
 from symid.errors import DiagnosisError, SymidError
 from symid.estimation.between_samples import holds_of
@@ -130,7 +130,7 @@ def _going_on(search: Search, known: list[Hypothesis], data: Data, searched: Cal
     """
     first, *others = known
     again = searched(_refitted(search.base, first.fit, data), data)
-    best = replace(first, base=again.base, data=data)
+    best = with_jumps_again(replace(first, base=again.base, data=data), again.jumps)
     if not again.worth(best, again.nothing):
         return again
 

@@ -16,13 +16,7 @@ from symid.discrepancy.name.instead import as_two, exchanges, simpler_than_best,
 from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.name.stated_together import is_stated, stated_together
 from symid.discrepancy.name.trial.explore import by_score, exact_where_leading, explore, least_near
-from symid.discrepancy.name.trial.jump import (
-    with_fitted_jumps,
-    with_jumps_again,
-    with_jumps_beside,
-    with_jumps_of,
-    with_sharp_jumps,
-)
+from symid.discrepancy.name.trial.jump import with_fitted_jumps, with_jumps_beside, with_jumps_of, with_sharp_jumps
 from symid.discrepancy.name.trial.scan import promising
 from symid.discrepancy.name.trial.starts import Start
 from symid.discrepancy.policy import POLICY
@@ -98,7 +92,7 @@ class Search(Judge):
         """
         best, single = self.nothing, self.single
         holds = Holds(self.data, self.unstated, self.value, self.jumps)
-        more = with_jumps_again(self.known[0], self.jumps) if self.known else self._more(best, single)
+        more = self.known[0] if self.known else self._more(best, single)
         had: dict[frozenset[Suspect], float] = {}
         while more is not None and self.is_new(more, had):
             had[frozenset(more.suspects)] = more.fit.loglik2

@@ -1,6 +1,7 @@
 """A fit that ended in a wrong optimum, since it began at a model that lacks what matters, is begun anew."""
 
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 import pytest
@@ -91,6 +92,8 @@ def test_it_begins_where_regression_says_and_keeps_what_is_likelier(monkeypatch)
     assert begun_anew(stuck, unknown) is stuck
     ends["nothing"] = SimpleNamespace(loglik2=60.0)
     assert begun_anew(stuck, unknown).fit.loglik2 == 60.0
+    monkeypatch.setattr(anew, "polished", mock.Mock(side_effect=SymidError("with exact steps it diverges")))
+    assert begun_anew(stuck, unknown) is stuck
     ends["regression"] = SimpleNamespace(loglik2=10.5)
     assert begun_anew(stuck, lambda model: {"stiffness": 3.0}) is stuck
 
