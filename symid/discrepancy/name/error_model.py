@@ -28,8 +28,9 @@ from symid.discrepancy.name.search import Search
 from symid.discrepancy.name.trial.explore import by_score
 from symid.discrepancy.name.trial.jump import with_jumps_again, with_jumps_of
 from symid.discrepancy.policy import POLICY
-from symid.errors import DiagnosisError, SymidError
+from symid.errors import SymidError
 from symid.estimation.between_samples import holds_of
+from symid.estimation.fitting.cold_start import fit_model
 from symid.estimation.fitting.correlated import begun_correlated, is_correlated
 from symid.estimation.fitting.fit import Fit
 from symid.estimation.fitting.fitter import Fitter
@@ -233,7 +234,8 @@ def _likeliest(searches: list[Search]) -> Search:
 
 
 def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
-    """The model as given under another error model, from its own values or from those that go with what was found.
+    """The model as given under another error model, from its own values or from those that go with what was found; from
+    nothing where both diverge.
 
     Its inputs do between their samples what they do there, its random forces are as correlated, and dry friction sets
     in as abruptly: what was found loses what it explains where it is refitted with another jump.
@@ -261,9 +263,7 @@ def _refitted(base: Fit, explained: Fit, data: Data) -> Fit:
             return None  # these values need not hold the model together without what was found, or under other noise
 
     fits = [fit for fit in in_threads(begun_at, [base, near]) if fit is not None]
-    if not fits:
-        raise DiagnosisError(f"model '{base.model.name}' diverges under the noise that its recording asks for")
-    return max(fits, key=_loglik2)
+    return max(fits, key=_loglik2) if fits else fit_model(base.model, data, base.values, exact=False)
 
 
 def _loglik2(fit: Fit) -> float:

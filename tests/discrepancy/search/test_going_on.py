@@ -2,14 +2,19 @@
 
 from dataclasses import dataclass, field
 from types import SimpleNamespace
+from unittest import mock
 
 import numpy as np
 import pytest
 
+import symid as si
 from symid.discrepancy.name import error_model
 from symid.discrepancy.name.judge import Judge
 from symid.discrepancy.policy import POLICY
 from symid.errors import DiagnosisError
+from symid.estimation.fitting.cold_start import fit_model
+from symid.estimation.signals.data import Data
+from symid.estimation.signals.windows import segments_between
 
 
 @dataclass
@@ -46,6 +51,7 @@ class Stub:
     base: object = None
     nothing: object = None
     clocks: tuple = ()
+    jumps: tuple = ()
     known: list = field(default_factory=list)
     tried: list = field(default_factory=list)
 
@@ -61,6 +67,7 @@ def test_a_search_begins_anew_where_the_model_as_given_explains_as_much_beside_t
     """A standing person with coloured sensors had an input that was 1.007 +- 0.011 times what was recorded: a finding
     that explained nothing, and was never weighed."""
     monkeypatch.setattr(error_model, "_refitted", lambda base, fit, data: base)
+    monkeypatch.setattr(error_model, "with_jumps_again", lambda found, jumps: found)
     first = Known()
     again = error_model._going_on(Stub(worthwhile), [first], None, lambda base, data: Stub(worthwhile))
     assert again.known == ([first] if worthwhile else [])
@@ -70,6 +77,7 @@ def test_a_search_begins_anew_where_the_model_as_given_explains_as_much_beside_t
 def test_what_is_believed_more_there_leads(monkeypatch, score, leader):
     """With inputs that are held another suspect may explain more than the one that was found."""
     monkeypatch.setattr(error_model, "_refitted", lambda base, fit, data: base)
+    monkeypatch.setattr(error_model, "with_jumps_again", lambda found, jumps: found)
     monkeypatch.setattr(error_model, "hypothesis", lambda suspects, *others: Known(suspects, score=score))
     search = Stub(True, base=SimpleNamespace(values={}))
     known = [Known(score=10.0), Known(("drag",), score=1.0)]
@@ -84,6 +92,26 @@ def test_pieces_that_another_cutoff_cut_begin_as_those_of_what_was_fitted_to_the
     assert np.array_equal(error_model._begun_as(other, own).initial, [[2.0, 0.0, 1.0], [5.0, 0.0, 4.0]])
     same = Ended(("v",), np.array([[1.0], [2.0]]))
     assert error_model._begun_as(other, same) is same
+
+
+def test_a_model_that_holds_together_from_no_values_that_are_known_is_fitted_from_nothing(monkeypatch):
+    """A cylinder behind a valve without its dead zone: the whole diagnosis ended with an error."""
+    model = si.Model("spring")
+    model.x, model.v = si.State(unit="m"), si.State(unit="m/s")
+    model.k = si.Parameter(unit="1/s^2", bounds=(0.1, 100))
+    model.moves, model.swings = si.Equation(model.x.dot - model.v), si.Equation(model.v.dot + model.k * model.x)
+    model.seen = si.Output(model.x)
+    time = np.arange(0, 6, 0.02)
+    channels = {"x": np.cos(2 * time) + 1e-3 * np.random.default_rng(0).standard_normal(time.size)}
+    data = Data(segments_between(model, time, channels, (0.0, 6.0), None), np.full(1, 1e-3), False)
+    base = fit_model(model, data)
+
+    class Diverges(mock.MagicMock):
+        def again(self, fit):
+            raise DiagnosisError("it diverges")
+
+    monkeypatch.setattr(error_model, "Fitter", Diverges)
+    assert error_model._refitted(base, base, data).values["k"] == pytest.approx(4.0, rel=1e-3)
 
 
 def test_noise_under_which_what_was_found_diverges_is_fitted_without_it(monkeypatch):
