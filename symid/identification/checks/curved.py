@@ -45,15 +45,12 @@ def said_of_intervals(solution: Solution) -> list[str]:
 
 def _said(solution: Solution, name: str) -> str:
     p = solution.parameters.loc[name]
-    ends = {"below": p.value - HALF * p.std_error, "above": p.value + HALF * p.std_error}
-    ratios = {side: _deviance(solution, name, at) / HALF**2 for side, at in ends.items() if p.lower < at < p.upper}
-    if not any(r < 1 / BENT or r > BENT for r in ratios.values()):  # nor is it where a side was not solved: NaN
+    ends = [p.value - HALF * p.std_error, p.value + HALF * p.std_error]
+    deviances = {at: _deviance(solution, name, at) for at in ends if p.lower < at < p.upper}
+    solved = {at: deviance for at, deviance in deviances.items() if np.isfinite(deviance)}
+    if all(HALF**2 / BENT <= deviance <= HALF**2 * BENT for deviance in solved.values()):
         return ""
-    told = " and ".join(
-        f"{rough(r * HALF**2)} where it is {in_unit(ends[side], p.unit)}"
-        for side, r in ratios.items()
-        if np.isfinite(r)
-    )
+    told = " and ".join(f"{rough(deviance)} where it is {in_unit(at, p.unit)}" for at, deviance in solved.items())
     return (
         f"The interval of {name} is not symmetric: {HALF:.2f} standard errors away twice the log-likelihood is less by "
         f"{told}, where {HALF**2:.2f} is meant; symid.profile(solution, {name!r}) gives the interval"
