@@ -20,6 +20,7 @@ pytestmark = pytest.mark.slow
         pytest.param("machine", 0, id="a slide with a smooth input"),
         pytest.param("machine", 6, id="a rod, filtered near half the rate"),
         pytest.param("machine", 9, id="gliders, filtered"),
+        pytest.param("machine", 704, id="gliders, held out slower than friction sets in"),
         pytest.param("machine", 21, id="a rod with drag and a smooth input"),
         pytest.param("machine", 25, id="a slide with dry friction, filtered"),
         pytest.param("mechanism", 17, id="a drive seen by coarse encoders, nothing missing"),

@@ -45,8 +45,10 @@ def elsewhere(found: Hypothesis, jumps: Sequence[str], held_out: Data) -> Test |
     except SymidError:
         return None
     if left := _left(own, held_out):
-        own = with_fitted_jumps(replace(found, fit=own, data=held_out), jumps, found.base.model).fit
-        left = left if own.model is fit.model else _left(own, held_out)
+        # From the values of the fitted data: those that another abruptness asked for lead away from it.
+        slower = replace(found, fit=begin, data=held_out)
+        other = with_fitted_jumps(slower, jumps, found.base.model, moves=found.data).fit
+        own, left = (other, _left(other, held_out)) if other.loglik2 > own.loglik2 else (own, left)
     if left:
         return located(left)
     changed = _changed(fit, own)

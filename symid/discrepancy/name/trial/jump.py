@@ -83,7 +83,11 @@ def _likeliest(width: Constant, projection: Projection) -> float:
 
 
 def with_fitted_jumps(
-    found: Hypothesis, made: Sequence[str], known: Model, told: Mapping[str, float] | None = None
+    found: Hypothesis,
+    made: Sequence[str],
+    known: Model,
+    told: Mapping[str, float] | None = None,
+    moves: Data | None = None,
 ) -> Hypothesis:
     """The same suspects with dry friction that sets in as abruptly as the recording likes best, of a free motion.
 
@@ -94,11 +98,12 @@ def with_fitted_jumps(
     made : the friction speeds and level widths that nobody stated. known : those count on which this model does not
         depend yet.
     told : what another law at their joint likes best, from which this one begins.
+    moves : data whose speeds say how wide a jump may be, where those that are fitted are slower.
     """
     if found.fit.kalman_gain is not None:
         return found
     for name in _used(found, made, known):
-        found = _Widths(found, name).best((told or {}).get(name))
+        found = _Widths(found, name, moves).best((told or {}).get(name))
     return found
 
 
@@ -177,10 +182,10 @@ def with_jumps_of(fit: Fit, base: Fit, made: Sequence[str]) -> Fit:
 class _Widths:
     """A hypothesis fitted with other values of one friction speed or level width."""
 
-    def __init__(self, found: Hypothesis, name: str):
+    def __init__(self, found: Hypothesis, name: str, moves: Data | None = None):
         self.found, self.name, self.model = found, name, found.base.model
         self.sharp = self.model.constants[name].value
-        _, self.wide, *_, self.widest = _widths_at(self.model, self.model[name], found.data)
+        _, self.wide, *_, self.widest = _widths_at(self.model, self.model[name], moves or found.data)
         self.tried: dict[float, Hypothesis | None] = {self.sharp: found}
 
     def best(self, told: float | None) -> Hypothesis:
