@@ -12,11 +12,10 @@ from symid import checked
 from symid.checked import nearest
 from symid.errors import ModelError
 from symid.identification import Solution
+from symid.identification.checks.curved import LIMIT
 from symid.identification.uncertainty.covariance import ParameterErrors
 from symid.ipopt_solver import SolverResult
 
-LIMIT = 3.841458820694124
-"""95 % point of chi-squared with one degree of freedom (Wilks 1938)."""
 FAR = 9.0
 """Deviance at which a profile ends by itself: three standard errors."""
 HALVINGS = 12

@@ -45,7 +45,7 @@ def elsewhere(found: Hypothesis, jumps: Sequence[str], held_out: Data) -> Test |
     except SymidError:
         return None
     if left := _left(own, held_out):
-        # From the values of the fitted data: those that another abruptness asked for lead away from it.
+        # It begins at the fitted values: those of `own` went with an abruptness that may be wrong, and lead astray.
         slower = replace(found, fit=begin, data=held_out)
         other = with_fitted_jumps(slower, jumps, found.base.model, moves=found.data).fit
         own, left = (other, _left(other, held_out)) if other.loglik2 > own.loglik2 else (own, left)

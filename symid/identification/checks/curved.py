@@ -16,8 +16,10 @@ from symid.units import in_unit, rough
 if TYPE_CHECKING:
     from symid.identification.solution import Solution
 
-HALF = 1.959963984540054
-"""Standard errors from the middle of a 95 % interval to its ends."""
+LIMIT = 3.841458820694124
+"""95 % point of chi-squared with one degree of freedom: the deviance at the ends of an interval (Wilks 1938)."""
+HALF = LIMIT**0.5
+"""Standard errors from the middle of a 95 % interval to its ends: the root of that."""
 HARDLY = 0.05
 """Standard error as a part of the value from which a parameter is looked at: models bend over sizes of the values
 themselves. Of one that acts by its inverse the deviance at the ends of the interval is then (1 +- 2 x 0.05)^-2 times
@@ -48,12 +50,12 @@ def _said(solution: Solution, name: str) -> str:
     ends = [p.value - HALF * p.std_error, p.value + HALF * p.std_error]
     deviances = {at: _deviance(solution, name, at) for at in ends if p.lower < at < p.upper}
     solved = {at: deviance for at, deviance in deviances.items() if np.isfinite(deviance)}
-    if all(HALF**2 / BENT <= deviance <= HALF**2 * BENT for deviance in solved.values()):
+    if all(LIMIT / BENT <= deviance <= LIMIT * BENT for deviance in solved.values()):
         return ""
     told = " and ".join(f"{rough(deviance)} where it is {in_unit(at, p.unit)}" for at, deviance in solved.items())
     return (
         f"The interval of {name} is not symmetric: {HALF:.2f} standard errors away twice the log-likelihood is less by "
-        f"{told}, where {HALF**2:.2f} is meant; symid.profile(solution, {name!r}) gives the interval"
+        f"{told}, where {LIMIT:.2f} is meant; symid.profile(solution, {name!r}) gives the interval"
     )
 
 
