@@ -34,6 +34,9 @@ FARTHEST = 10.0
 class Point:
     """One set of values on the way, with the gain that belongs to it and the path it was made for.
 
+    p : (q,) parameters [SI]. x0 : (E, n) states with which the pieces begin. process : sizes of the noises, a filter's
+        sharpness and ratios of sensors' noises. kalman_gain : None for output error. path : states at which models are
+        linearised. value : twice the log-likelihood, less what growth costs.
     runs : those of these values with sensitivities, where they were made already.
     """
 
