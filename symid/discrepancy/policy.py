@@ -25,13 +25,13 @@ class Policy:
     doubt : what a law without an established name must explain more than one with a name, odds of 150 to 1.
     odds : by kind of suspect, or by name of its law, what it must explain more than a force that follows the state: a
         stated geometry or a sensor is checked by whoever builds the machine (7 to 1), a clock explains any regular
-        motion (150 to 1). Drag with the square of the speed belongs to what moves through air or water, a friction with
-        the speed to joints: the other way round is rarer (50 to 1). Dry friction alone is rarer than friction with
-        the speed (7 to 1), which is the first term of every smooth loss. What spins or rotates is seldom
-        overlooked (50 to 1); a sensor that drifts is rarer than one that is off (7 to 1). One lag of all
-        drives is the same in the data as that of an only sensor, which is one fault and not several (150 to 1). Of
-        what holds a machine all comes late only where a controller is written into its equations, and an inertia that
-        nobody knows of is mostly one that was stated wrongly (150 to 1).
+        motion (150 to 1). Drag with the square of the speed belongs to what moves through air or water, with its cube
+        to a ship that rolls, a friction with the speed to joints: the other way round is rarer (50 to 1). Dry friction
+        alone is rarer than friction with the speed (7 to 1), which is the first term of every smooth loss. What spins
+        or rotates is seldom overlooked (50 to 1); a sensor that drifts is rarer than one that is off (7 to 1). One lag
+        of all drives is the same in the data as that of an only sensor, which is one fault and not several (150 to 1).
+        Of what holds a machine all comes late only where a controller is written into its equations, and an inertia
+        that nobody knows of is mostly one that was stated wrongly (150 to 1).
     braking : likewise of a constant force that takes energy from the motion all the time. A disc that runs down does
         not tell it from dry friction, which is in every bearing (7 to 1, its own odds above taken off).
     never : the price of what is never named: a clock whose frequency is a multiple of the one at which a motion
@@ -74,6 +74,7 @@ class Policy:
             "clock": 10.0,
             "coulomb_friction": 4.0,
             "joint_drag": 8.0,
+            "cubic_damping": 8.0,
             "link_drag": 8.0,
             "slow_body_drag": 8.0,
             "body_friction": 4.0,

@@ -61,7 +61,8 @@ def with_places(model: Model) -> Model:
     checked.kind(model, Model, "with_places", ModelError)
     new, ports = model.copy(), _ports_of_balances(model)
     for name, port in ports.items():
-        setattr(new, f"{name}_place", port)
+        if not any(_alike(port, own) for own in model.ports.values()):
+            setattr(new, f"{name}_place", port)
     if not model.ports:
         for name, part in {**bodies(model, ports), **pairs(model, ports)}.items():
             setattr(new, name, part)
@@ -76,8 +77,8 @@ def with_places(model: Model) -> Model:
 
 
 def _ports_of_balances(model: Model) -> dict[str, Port]:
-    """By equation, where no port enters it and it is more than the statement that a state is a rate."""
-    entered = {e for p in model.ports.values() if p.role in ROLES for e in p.into}
+    """By equation, of those that no port enters and that are more than the statement that a state is a rate."""
+    entered = _entered(model)
     rates = model.rates()
     kinematic = {model[x].dot: model[v].symbol for v, x in rates.items()}
     residuals = {name: model.inline(e.expr) for name, e in model.equations.items()}
@@ -100,6 +101,19 @@ def _ports_of_balances(model: Model) -> dict[str, Port]:
     among |= flow_ports(model, found, residuals)
     found |= among | of_drives(model, found, residuals)
     return found | element_ports(model, found, residuals)
+
+
+def _entered(model: Model) -> set[str]:
+    """The equations into which the user's ports let a force act alone: by one of them, or by several together.
+
+    What acts between two bodies enters both balances, and says nothing of their bearings.
+    """
+    ports = [p for p in model.ports.values() if p.role in ROLES]
+    names = sorted({e for p in ports for e in p.into})
+    ways = np.array([[p.into.get(e, 0.0) for e in names] for p in ports])
+    rank = np.linalg.matrix_rank
+    alone = zip(names, np.eye(len(names)), strict=True)
+    return {e for e, force in alone if rank(np.vstack([ways, force])) == rank(ways)}
 
 
 def _own_states(
@@ -169,9 +183,19 @@ def places(model: Model) -> list[Port]:
     """The ports at which a force could act, each that acts like an earlier one left out."""
     found: list[Port] = []
     for port in sorted((p for p in model.ports.values() if p.role in ROLES), key=lambda p: ROLES.index(p.role)):
-        if all((p.into, p.rate) != (port.into, port.rate) or p.position != port.position for p in found):
+        if not any(_alike(port, p) for p in found):
             found.append(port)
     return found
+
+
+def _alike(one: Port, other: Port) -> bool:
+    """Whether the same forces act at both, whichever direction each counts as positive."""
+    moves = ((one.position, other.position), (one.rate, other.rate))
+    return any(
+        dict(one.into) == {e: sign * k for e, k in other.into.items()}
+        and all(sm.expand(p - sign * q) == 0 for p, q in moves)
+        for sign in (1, -1)
+    )
 
 
 def other_signals(model: Model, port: Port) -> list[sm.Symbol]:

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.ndimage import gaussian_filter1d
 
 import symid as si
-from symid.mechanics.places import with_places
+from symid.mechanics.places import places, with_places
 
 MASS, STIFFNESS, DAMPING = 0.8, 12.0, 0.5
 
@@ -215,6 +215,21 @@ def test_a_force_between_two_bodies_is_a_suspect_and_acts_on_both():
     port = with_places(belt())["motor_load_place"]
     assert (port.at, str(port.position), dict(port.into)) == ("motor-load", "a - b", {"motor": -1.0, "load": 1.0})
     assert "a-b_place" not in with_places(cart_with_pole()).components  # a length and an angle have no difference
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_port_between_two_bodies_leaves_each_its_own_bearing(sign):
+    """A wind turbine's shaft, declared as the one place, hid the generator's bearing: friction there had no name."""
+    m, way = belt(), {"motor": -sign, "load": sign}
+    m.shaft = si.Port(position=sign * (m.a - m.b), rate=sign * (m.va - m.vb), into=way, role="joint", at="shaft")
+    assert [p.at for p in places(with_places(m))] == ["shaft", "motor", "load"]
+
+
+def test_ports_that_let_a_force_act_on_each_body_leave_nothing_to_add():
+    m = belt()
+    m.bearing = si.Port(position=m.a, rate=m.va, into={"motor": -1.0}, role="joint", at="bearing")
+    m.shaft = si.Port(position=m.b - m.a, rate=m.vb - m.va, into={"motor": 1.0, "load": -1.0}, role="joint", at="shaft")
+    assert [p.at for p in places(with_places(m))] == ["bearing", "shaft"]
 
 
 @pytest.mark.slow

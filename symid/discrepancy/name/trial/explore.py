@@ -100,7 +100,8 @@ def _from_nothing(
     tell the place, from where others of their family begin, and find their size from anywhere.
 
     All of them where the model as given ends at a bound, from where each may be misled: one whose amplifier lags took
-    five times its gain for that, and then two delays (tests/discrepancy/machines/test_at_a_bound.py).
+    five times its gain for that, and then two delays (tests/discrepancy/machines/test_at_a_bound.py). Once one meets
+    the motion no more are fitted so: the others are tried with its values, in its place.
     """
     simple = sorted((h for h in found if _is_simple(h.suspect)), key=lambda h: -h.log_ratio)
     first = simple[: POLICY.converged]
@@ -112,7 +113,12 @@ def _from_nothing(
         others = [s for s in others if s[0].suspect not in known][: POLICY.refitted]
         begun = in_threads(lambda s: begin(fit, data, s), others)
         first = [*simple, *(h for h in begun if h is not None)]
-    return in_threads(lambda h: begun_anew(h, regression), first) + [h for h in found if h not in first]
+    anew: list[Hypothesis] = []
+    while first[len(anew) :] and not any(is_met(h.fit, data, POLICY.sensors) for h in anew):
+        some = first[len(anew) : len(anew) + POLICY.converged]
+        anew += in_threads(lambda h: begun_anew(h, regression), some)
+    rest = first[len(anew) :]
+    return anew + rest + [h for h in found if h not in first]
 
 
 def _is_simple(suspect: Suspect) -> bool:
