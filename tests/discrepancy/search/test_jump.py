@@ -1,5 +1,7 @@
 """How abruptly dry friction sets in, told by a free motion once friction is found."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from driven_cart import SENSOR, TRUE, cart, data_of, recorded
@@ -85,3 +87,14 @@ def test_another_law_at_the_joint_begins_from_the_width_that_was_told(monkeypatc
     told = with_fitted_jumps(found, [MADE], cart(), {MADE: speed(scanned)})
     assert speed(told) == pytest.approx(speed(scanned), rel=0.02)
     assert widths[0].value == speed(scanned) and len(widths) == 3  # itself, as an unknown, and what that came to
+
+
+@pytest.mark.parametrize("off", [0.85, 1.17])
+def test_a_width_that_is_a_little_off_is_found_between_its_neighbours(off):
+    """What other inputs between the samples liked best was 17 % too wide, and a Stribeck curve made up for it."""
+    found, true = dry_cart(8.0)
+    base = replace(found.base, model=found.base.model.with_constants(**{MADE: off * true}))
+    near = Hypothesis(found.suspects, jump.refit(found.suspects, found.fit, base, found.data), base, found.data)
+    told = with_fitted_jumps(near, [MADE], cart())
+    assert speed(told) == pytest.approx(true, rel=0.02)
+    assert told.log_ratio > near.log_ratio + 100
