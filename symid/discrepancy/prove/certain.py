@@ -57,8 +57,8 @@ def sure(found: Hypothesis) -> Hypothesis:
     """
     kept: list[Suspect] = []
     while len(found.suspects) > max(1, len(kept)):
-        doubtful = min((s for s in found.suspects if s not in kept), key=lambda s: _certainty(s, found.fit))
-        if _certainty(doubtful, found.fit) > POLICY.sure:
+        doubtful = min((s for s in found.suspects if s not in kept), key=lambda s: certainty(s, found.fit))
+        if certainty(doubtful, found.fit) > POLICY.sure:
             break
         less = _without([s for s in found.suspects if s is not doubtful], found, white=False)
         if less is None:
@@ -84,7 +84,7 @@ def beyond_chance(found: Hypothesis, maxima: np.ndarray, best: float, white: boo
         chance = false_alarm_probability(weakest(found, share), maxima)
         if chance is None or chance <= POLICY.chance:
             return found, chance
-        doubtful = min(found.suspects, key=lambda s: _certainty(s, found.fit))
+        doubtful = min(found.suspects, key=lambda s: certainty(s, found.fit))
         less = _without([s for s in found.suspects if s is not doubtful], found, white)
         if less is None:
             return found, chance
@@ -127,6 +127,14 @@ def _without(kept: Sequence[Suspect], found: Hypothesis, white: bool) -> Hypothe
     return less if white else replace(less, fit=with_robust_errors(less.fit, less.data))
 
 
+def certainty(suspect: Suspect, fit: Fit) -> float:
+    """Standard errors between the suspect and nothing; infinite where no value of it means nothing."""
+    nulls = {suspect.term.parameter_name(q.key): q.null for q in suspect.law.parameters if q.null is not None}
+    return max(
+        (abs(fit.values[k] - null) / fit.errors[k] for k, null in nulls.items() if fit.errors.get(k)), default=np.inf
+    )
+
+
 def weakest(found: Hypothesis, share: float = 1.0) -> float:
     """Log-likelihood ratio of the least certain effect to nothing; of all where no value of an effect means nothing.
 
@@ -142,15 +150,7 @@ def _ratio(suspect: Suspect, found: Hypothesis, share: float) -> float:
     with a lower peak are alike, so that its peak is uncertain where the push is certain.
     """
     if suspect.scanned is None:
-        return _certainty(suspect, found.fit) ** 2 / share
+        return certainty(suspect, found.fit) ** 2 / share
     rest = [s for s in found.suspects if s is not suspect]
     less = hypothesis(rest, found.fit, found.base, found.data) if rest else None
     return found.log_ratio - (less.log_ratio if less else 0.0)
-
-
-def _certainty(suspect: Suspect, fit: Fit) -> float:
-    """Standard errors between the suspect and nothing; infinite where no value of it means nothing."""
-    nulls = {suspect.term.parameter_name(q.key): q.null for q in suspect.law.parameters if q.null is not None}
-    return max(
-        (abs(fit.values[k] - null) / fit.errors[k] for k, null in nulls.items() if fit.errors.get(k)), default=np.inf
-    )

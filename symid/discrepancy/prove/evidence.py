@@ -24,6 +24,7 @@ from symid.discrepancy.prove.short_of_price import with_one_more
 from symid.discrepancy.task import Task
 from symid.errors import DiagnosisError
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.sensitive import lost
 from symid.estimation.free_run import FreeRun
 from symid.estimation.measurement import away_from_ends, of_window, restored
 from symid.estimation.prediction import predictions
@@ -180,11 +181,13 @@ def _proof(final: Fit, base: Fit, task: Task, data: Data, runs: dict[str, FreeRu
 def near_noise(found: Hypothesis, data: Data) -> bool:
     """Whether laws with names leave little more of a free motion than sensors do: as much again, in power, at most.
 
-    Splines that follow such a rest in the fitted window need not do so elsewhere.
+    Splines that follow such a rest in the fitted window need not do so elsewhere. Where sensors leave no more
+    of a motion than noise it says nothing: a harvester's voltage, filtered far below its resonance, hid 0 +- 20 times
+    the excitation.
     """
     if data.driven or not (found.suspects and found.established):
         return False
-    return is_met(found.fit, data, POLICY.sensors)
+    return is_met(found.fit, data, POLICY.sensors) and not lost(found.fit, data)
 
 
 def rivals(found: Hypothesis, ranking: Sequence[Hypothesis]) -> list:

@@ -16,6 +16,7 @@ from symid.discrepancy.name.equivalents import equivalents
 from symid.discrepancy.name.search import Search
 from symid.discrepancy.name.trial.scan import moment_profile
 from symid.discrepancy.policy import POLICY
+from symid.discrepancy.prove.certain import certainty
 from symid.discrepancy.prove.evidence import Evidence, near_noise
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import sentence, values_of
@@ -37,7 +38,7 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
         return "adequate", (), ()
     if rest is not None and not found.suspects:
         return "unexplained", (_unnamed(rest),), ()
-    told = tuple(_as_survived(e, evidence, found.surprise(s)) for e, s in zip(effects, found.suspects, strict=True))
+    told = tuple(_as_survived(e, evidence, s) for e, s in zip(effects, found.suspects, strict=True))
     if not found.established:
         unestablished = next(s for s in found.suspects if not found.is_named(s))
         key = (unestablished.term.name, unestablished.term.location)
@@ -55,17 +56,19 @@ def _unnamed(test: Test) -> Effect:
     return Effect("unknown", test.place, {}, None, test.log_ratio, test.what, established=False)
 
 
-def _as_survived(effect: Effect, evidence: Evidence, surprise: float) -> Effect:
+def _as_survived(effect: Effect, evidence: Evidence, suspect: Suspect) -> Effect:
     """The effect, not established where it may only imitate the rest.
 
-    That is where the halves of the recording or its held-out part contradict it, where its size surprises as much as a
-    law without a name does, or where as many laws as a search takes leave something: what has no law looks like them.
-    Losses are not in doubt for that, since something takes the energy.
+    That is where the halves of the recording or its held-out part contradict it, where its size could be nothing or
+    surprises as much as a law without a name does, or where as many laws as a search takes leave something: what has no
+    law looks like them. Losses are not in doubt for that, since something takes the energy.
     """
+    found = evidence.found
     fallen = {(v.name, v.location) for v in evidence.survived if v.reason}
-    one_of_few = len(evidence.found.suspects) < POLICY.most_effects or effect.name in LOSSES
-    stands = (effect.name, effect.location) not in fallen and surprise <= POLICY.doubt
-    kept = stands and one_of_few and _helps(evidence)
+    one_of_few = len(found.suspects) < POLICY.most_effects or effect.name in LOSSES
+    sure = suspect.scanned is not None or certainty(suspect, found.fit) > POLICY.sure  # a push has one of many sizes
+    sized = sure and found.surprise(suspect) <= POLICY.doubt
+    kept = (effect.name, effect.location) not in fallen and sized and one_of_few and _helps(evidence)
     return replace(effect, established=effect.established and kept)
 
 

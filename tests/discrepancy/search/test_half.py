@@ -11,6 +11,7 @@ from symid.discrepancy import Suspect
 from symid.discrepancy.model.hypothesis import Hypothesis, refit
 from symid.discrepancy.name.instead import simpler_than_best, without_halves
 from symid.discrepancy.policy import POLICY
+from symid.discrepancy.prove.evidence import near_noise
 from symid.discrepancy.say import judge as judge_module
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.judge import _as_survived
@@ -76,10 +77,21 @@ def test_rubber_that_never_yields_is_tried_as_a_spring():
     assert instead.suspects == (spring,)
 
 
-def with_laws(count: int, margin: float | None = None) -> SimpleNamespace:
-    """Evidence for so many laws that both halves bear out."""
+DRY_FORCE = COULOMB.term.parameter_name("torque_Nm")
+
+
+def with_laws(
+    count: int, margin: float | None = None, surprise: float = 0.0, certainty: float = 10.0
+) -> SimpleNamespace:
+    """Evidence for so many laws that both halves bear out, of which one is dry friction."""
     proof = None if margin is None else SimpleNamespace(margin=margin)
-    return SimpleNamespace(survived=(), proof=proof, found=SimpleNamespace(suspects=range(count)))
+    fit = SimpleNamespace(values={DRY_FORCE: certainty}, errors={DRY_FORCE: 1.0})
+    found = SimpleNamespace(suspects=range(count), surprise=lambda _: surprise, fit=fit)
+    return SimpleNamespace(survived=(), proof=proof, found=found)
+
+
+def survives(evidence: SimpleNamespace, law: str = "sensor_gain") -> bool:
+    return _as_survived(Effect(law, "cart", {}, None, 1.0, ""), evidence, COULOMB).established
 
 
 @pytest.mark.parametrize(
@@ -91,20 +103,33 @@ def with_laws(count: int, margin: float | None = None) -> SimpleNamespace:
     ],
 )
 def test_as_many_laws_as_a_search_takes_beside_a_rest_imitate_it(law, count, stays):
-    assert _as_survived(Effect(law, "cart", {}, None, 1.0, ""), with_laws(count), surprise=0.0).established is stays
+    assert survives(with_laws(count), law) is stays
 
 
 def test_a_size_that_surprises_beside_a_rest_is_what_it_looks_like_only():
-    evidence, effect = with_laws(1), Effect("sensor_gain", "sensor:cart", {}, None, 1.0, "")
-    assert _as_survived(effect, evidence, surprise=0.5 * POLICY.doubt).established
-    assert not _as_survived(effect, evidence, surprise=2 * POLICY.doubt).established
+    assert survives(with_laws(1, surprise=0.5 * POLICY.doubt))
+    assert not survives(with_laws(1, surprise=2 * POLICY.doubt))
+
+
+def test_a_size_that_could_be_nothing_beside_a_rest_is_what_it_looks_like_only():
+    assert survives(with_laws(1, certainty=1.1 * POLICY.sure))
+    assert not survives(with_laws(1, certainty=0.9 * POLICY.sure))
 
 
 @pytest.mark.parametrize(("margin", "stays"), [(0.1, True), (-0.1, False)])
 def test_a_name_beside_a_rest_that_the_held_out_data_contradict_is_what_it_looks_like_only(margin, stays):
-    evidence = with_laws(1, margin)
-    effect = Effect("cubic_stiffness", "motor", {}, None, 1.0, "")
-    assert _as_survived(effect, evidence, surprise=0.0).established is stays
+    assert survives(with_laws(1, margin), "cubic_stiffness") is stays
+
+
+@pytest.mark.parametrize(("size", "near"), [(0.1, True), (1.0, False)])
+def test_what_sensors_leave_of_a_motion_that_their_noise_hides_is_not_theirs_alone(size, near):
+    """A harvester's voltage, filtered far below its resonance: 0 +- 20 times the excitation, with a rest beside it."""
+    found = with_parts(0.3, 0.2)
+    moves = np.vstack([e.recorded for e in found.data.segments]).std(axis=0)
+    data = replace(found.data, sensor_noise=size * moves, driven=False)
+    errors = [e * size * moves / found.fit.rms_errors for e in found.fit.innovations]
+    fit = replace(found.fit, innovations=errors)
+    assert near_noise(replace(found, fit=fit, data=data), data) is near
 
 
 @pytest.mark.parametrize(("reason", "sensors"), [("", True), ("its k2 differs between the halves", False)])
