@@ -1,4 +1,4 @@
-"""Where something that a model lacks could act: its ports, and every balance that no port enters."""
+"""Where something that a model lacks could act: its ports, and every balance into which they let no force act alone."""
 
 from __future__ import annotations
 
@@ -36,17 +36,18 @@ NOTHING = 1e-300
 def with_places(model: Model) -> Model:
     """The model with every place named at which something may be missing, where its user named none.
 
-    Each equation with a rate that no port enters gets a Port. Where that rate is of a speed, the port is a
-    ``joint`` at the coordinate: a force enters there as it would beside the acceleration. So it does where a speed
-    is all that the model knows, as of a motor; the position of such a port is 0. A force that drives several joints
-    at once is a ``joint``, too, between them, and so is what would join two neighbours, and a spring or a damper
-    that acts on several by levers, or against what inputs move. In another equation of first order, such as that of
-    a tank, a force has no rate of its own, and moves the state: a ``balance``; between two of one kind, or such a
-    state and an input of its kind, something may flow: an ``exchange``; and a state that is not in it may act on
-    it, as each of several inputs may on a balance that does not have it: a ``coupling``. Where no port is declared
-    at all, a mass that moves as no coordinate does is a ``body``, two neighbours of one kind are a ``pair``, and a
-    constant without a role is ``stated`` and a parameter without one ``fitted``. Outputs without a role become
-    sensors, inputs without one excitations. A port of which no unit is known gets that of a force or a torque.
+    Each equation with a rate into which the declared ports let no force act alone gets a Port. Where that rate is of
+    a speed, the port is a ``joint`` at the coordinate: a force enters there as it would beside the acceleration. So
+    it does where a speed is all that the model knows, as of a motor; the position of such a port is 0. A force that
+    drives several joints at once is a ``joint``, too, between them, and so is what would join two neighbours, and a
+    spring or a damper that acts on several by levers, or against what inputs move. In another equation of first
+    order, such as that of a tank, a force has no rate of its own, and moves the state: a ``balance``; between two of
+    one kind, or such a state and an input of its kind, something may flow: an ``exchange``; and a state that is not
+    in it may act on it, as each of several inputs may on a balance that does not have it: a ``coupling``. Where no
+    port is declared at all, a mass that moves as no coordinate does is a ``body``, two neighbours of one kind are a
+    ``pair``, and a constant without a role is ``stated`` and a parameter without one ``fitted``. Outputs without a
+    role become sensors, inputs without one excitations. A port of which no unit is known gets that of a force or a
+    torque.
 
     Examples
     --------
@@ -77,7 +78,7 @@ def with_places(model: Model) -> Model:
 
 
 def _ports_of_balances(model: Model) -> dict[str, Port]:
-    """By equation, of those that no port enters and that are more than the statement that a state is a rate."""
+    """By equation, of those that are more than the statement that a state is a rate, and not `_entered` already."""
     entered = _entered(model)
     rates = model.rates()
     kinematic = {model[x].dot: model[v].symbol for v, x in rates.items()}
