@@ -1,11 +1,11 @@
-"""A shaft whose ends are known by their speeds, and whose twist is a state of its own."""
+"""What joins two bodies, and each of them alone: a shaft whose twist is a state of its own, a belt between angles."""
 
 import numpy as np
 import pytest
 import sympy as sm
 
 import symid as si
-from symid.mechanics.places import with_places
+from symid.mechanics.places import places, with_places
 
 
 def shaft(ratio: float = 1.0) -> si.Model:
@@ -84,3 +84,38 @@ def test_a_spring_that_hardens_between_speeds_is_named():
     assert (effect.name, effect.location) == ("cubic_stiffness", "twist") and found.confirmed
     value, error = effect.parameters["k3_Nm_rad3"]
     assert value == pytest.approx(40, abs=4 * error)
+
+
+# ---- a belt: both ends are known by their angles ---------------------------------------------------
+def belt() -> si.Model:
+    """A motor that turns a load over an elastic belt, written as equations and nothing else."""
+    m = si.Model("belt")
+    m.a, m.b, m.va, m.vb = (si.State(unit=u) for u in ("rad", "rad", "rad/s", "rad/s"))
+    m.u, m.k = si.Input(unit="N*m", channel="torque"), si.Parameter(unit="N*m/rad", bounds=(0, 1e3))
+    m.ja, m.jb = si.Constant(2e-3, unit="kg*m^2"), si.Constant(6e-3, unit="kg*m^2")
+    m.c = si.Parameter(unit="N*m*s/rad", bounds=(0, 1))
+    m.kinematics_a, m.kinematics_b = si.Equation(m.a.dot - m.va), si.Equation(m.b.dot - m.vb)
+    m.motor = si.Equation(m.ja * m.va.dot + m.k * (m.a - m.b) - m.u)
+    m.load = si.Equation(m.jb * m.vb.dot + m.c * m.vb - m.k * (m.a - m.b))
+    m.shown_a, m.shown_b = si.Output(m.a, channel="motor"), si.Output(m.b, channel="load")
+    return m
+
+
+def test_a_force_between_two_bodies_is_a_suspect_and_acts_on_both():
+    port = with_places(belt())["motor_load_place"]
+    assert (port.at, str(port.position), dict(port.into)) == ("motor-load", "a - b", {"motor": -1.0, "load": 1.0})
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_port_between_two_bodies_leaves_each_its_own_bearing(sign):
+    """A wind turbine's shaft, declared as the one place, hid the generator's bearing: friction there had no name."""
+    m, way = belt(), {"motor": -sign, "load": sign}
+    m.shaft = si.Port(position=sign * (m.a - m.b), rate=sign * (m.va - m.vb), into=way, role="joint", at="shaft")
+    assert [p.at for p in places(with_places(m))] == ["shaft", "motor", "load"]
+
+
+def test_ports_that_let_a_force_act_on_each_body_leave_nothing_to_add():
+    m = belt()
+    m.bearing = si.Port(position=m.a, rate=m.va, into={"motor": -1.0}, role="joint", at="bearing")
+    m.shaft = si.Port(position=m.b - m.a, rate=m.vb - m.va, into={"motor": 1.0, "load": -1.0}, role="joint", at="shaft")
+    assert [p.at for p in places(with_places(m))] == ["bearing", "shaft"]

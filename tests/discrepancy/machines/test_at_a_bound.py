@@ -87,11 +87,9 @@ def test_friction_in_a_bearing_is_found_beside_the_one_shaft_that_was_declared()
         return [state[1] - state[2], (turned - torque) / 200, (torque - braked - 12 * state[2]) / 20]
 
     path = solve_ivp(rates, (0, 60), [400 / 9000, 30, 30], t_eval=time, rtol=1e-9, atol=1e-10, max_step=0.01).y
-    channels = {
-        k: y + 0.01 * y.std() * rng.normal(size=y.size) for k, y in zip(("rotor", "generator"), path[1:], strict=True)
-    }
-    channels |= {"aero": aero, "load": load}
-    units = dict.fromkeys(("rotor", "generator"), "rad/s") | dict.fromkeys(("aero", "load"), "N*m")
+    rotor, generator = (y + 0.01 * y.std() * rng.normal(size=y.size) for y in path[1:])
+    channels = {"rotor": rotor, "generator": generator, "aero": aero, "load": load}
+    units = {"rotor": "rad/s", "generator": "rad/s", "aero": "N*m", "load": "N*m"}
     recording = si.Recording("turbine", time, channels, units=units)
     found = si.diagnose(turbine(), recording, fit_window=(0, 40), held_out=(40, 60), threads=1)
     (effect,) = found.effects

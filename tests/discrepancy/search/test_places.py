@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from scipy.ndimage import gaussian_filter1d
 
 import symid as si
-from symid.mechanics.places import places, with_places
+from symid.mechanics.places import with_places
 
 MASS, STIFFNESS, DAMPING = 0.8, 12.0, 0.5
 
@@ -72,6 +72,11 @@ def test_each_of_lagranges_equations_belongs_to_its_own_coordinate_in_any_order_
     m = with_places(cart_with_pole())
     assert (m["cart_place"].at, str(m["cart_place"].position), m["cart_place"].unit) == ("cart", "p", "N")
     assert (m["pole_place"].at, str(m["pole_place"].rate), m["pole_place"].unit) == ("a", "w", "N*m")
+
+
+def test_a_length_and_an_angle_have_no_difference_along_which_something_could_act():
+    m = with_places(cart_with_pole())
+    assert not [port.at for port in m.ports.values() if port.position.has(m.p.symbol) and port.position.has(m.a.symbol)]
 
 
 @pytest.mark.parametrize("names", [("lean", "steer"), ("steer", "lean")])
@@ -196,42 +201,7 @@ def test_an_amplifier_that_ends_at_a_voltage_is_said_with_that_voltage():
     assert abs(value - 4.0) < max(4 * error, 0.01)
 
 
-# ---- bodies that act on each other, motion that turns over ---------------------------------------
-def belt() -> si.Model:
-    """A motor that turns a load over an elastic belt, written as equations and nothing else."""
-    m = si.Model("belt")
-    m.a, m.b, m.va, m.vb = (si.State(unit=u) for u in ("rad", "rad", "rad/s", "rad/s"))
-    m.u, m.k = si.Input(unit="N*m", channel="torque"), si.Parameter(unit="N*m/rad", bounds=(0, 1e3))
-    m.ja, m.jb = si.Constant(2e-3, unit="kg*m^2"), si.Constant(6e-3, unit="kg*m^2")
-    m.c = si.Parameter(unit="N*m*s/rad", bounds=(0, 1))
-    m.kinematics_a, m.kinematics_b = si.Equation(m.a.dot - m.va), si.Equation(m.b.dot - m.vb)
-    m.motor = si.Equation(m.ja * m.va.dot + m.k * (m.a - m.b) - m.u)
-    m.load = si.Equation(m.jb * m.vb.dot + m.c * m.vb - m.k * (m.a - m.b))
-    m.shown_a, m.shown_b = si.Output(m.a, channel="motor"), si.Output(m.b, channel="load")
-    return m
-
-
-def test_a_force_between_two_bodies_is_a_suspect_and_acts_on_both():
-    port = with_places(belt())["motor_load_place"]
-    assert (port.at, str(port.position), dict(port.into)) == ("motor-load", "a - b", {"motor": -1.0, "load": 1.0})
-    assert "a-b_place" not in with_places(cart_with_pole()).components  # a length and an angle have no difference
-
-
-@pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_port_between_two_bodies_leaves_each_its_own_bearing(sign):
-    """A wind turbine's shaft, declared as the one place, hid the generator's bearing: friction there had no name."""
-    m, way = belt(), {"motor": -sign, "load": sign}
-    m.shaft = si.Port(position=sign * (m.a - m.b), rate=sign * (m.va - m.vb), into=way, role="joint", at="shaft")
-    assert [p.at for p in places(with_places(m))] == ["shaft", "motor", "load"]
-
-
-def test_ports_that_let_a_force_act_on_each_body_leave_nothing_to_add():
-    m = belt()
-    m.bearing = si.Port(position=m.a, rate=m.va, into={"motor": -1.0}, role="joint", at="bearing")
-    m.shaft = si.Port(position=m.b - m.a, rate=m.vb - m.va, into={"motor": 1.0, "load": -1.0}, role="joint", at="shaft")
-    assert [p.at for p in places(with_places(m))] == ["bearing", "shaft"]
-
-
+# ---- motion that turns over, several bodies -----------------------------------------------------
 @pytest.mark.slow
 def test_a_pendulum_that_is_driven_over_the_top_is_compared_in_pieces():
     m = si.Model("rod")

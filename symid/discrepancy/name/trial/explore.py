@@ -117,8 +117,7 @@ def _from_nothing(
     while first[len(anew) :] and not any(is_met(h.fit, data, POLICY.sensors) for h in anew):
         some = first[len(anew) : len(anew) + POLICY.converged]
         anew += in_threads(lambda h: begun_anew(h, regression), some)
-    rest = first[len(anew) :]
-    return anew + rest + [h for h in found if h not in first]
+    return anew + first[len(anew) :] + [h for h in found if h not in first]
 
 
 def _is_simple(suspect: Suspect) -> bool:
