@@ -49,6 +49,7 @@ def identification(task: Task, start: str) -> dict:
     """
     at_start = peak_memory_mb()
     import scipy.fft
+    import scipy.interpolate
     import scipy.optimize  # noqa: F401
 
     import symid.mechanics  # noqa: F401

@@ -55,7 +55,7 @@ class Transcription:
     information: float = 1.0
     cost: float = 1.0
 
-    @property
+    @cached_property
     def diverged(self) -> float:
         """SI size of a state that is far beyond all that was recorded: a simulation that reaches it has diverged."""
         largest = [np.abs(m.states[m.nodes]).max(axis=0) for m in self.measured]

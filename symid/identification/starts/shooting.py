@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
 import scipy
 
 from symid.identification.starts.bounds import parameter_bounds
 from symid.simulation import Trajectory, simulator
+from symid.simulation.run import Signals
 from symid.transcription import Measured, Transcription
 from symid.transcription.scales import RANGE
 
@@ -89,15 +92,21 @@ class Shooting:
         return self.simulator.simulate(
             values[: len(names)],
             values[self._initial(r)],
-            m.time[m.nodes],
-            {k: u[m.nodes] for k, u in m.inputs.items()},
-            noise=noise,
+            self._given[r] if noise is None else self._signals(m, noise),
             history=self._history(m),
             limit=self.t.diverged,
             gain=self.gains(r, self.gain),
             recorded=m.recorded if self.gain else None,
             **wanted,
         )
+
+    @cached_property
+    def _given(self) -> list[Signals]:
+        """Of each recording what its simulations without noise are given: made once, as splines take their time."""
+        return [self._signals(m) for m in self.t.measured]
+
+    def _signals(self, m: Measured, noise: dict | None = None) -> Signals:
+        return self.simulator.signals(m.time[m.nodes], {k: u[m.nodes] for k, u in m.inputs.items()}, noise)
 
     def _history(self, m: Measured) -> tuple[np.ndarray, np.ndarray] | None:
         """Recorded states before the window, for delayed signals."""
@@ -189,6 +198,8 @@ def with_hidden(t: Transcription, motion: list[np.ndarray], hidden: list[np.ndar
 
 def computable(values: np.ndarray, nan: float = 0.0) -> np.ndarray:
     """`values`, none larger than `LARGEST`; `nan` in the place of NaN."""
+    if np.abs(values).max(initial=0.0) <= LARGEST:  # nearly always; False of NaN
+        return values
     return np.clip(np.nan_to_num(values, nan=nan), -LARGEST, LARGEST)
 
 
