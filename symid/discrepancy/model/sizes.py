@@ -22,8 +22,10 @@ TORQUES, TORQUE = (1.0, 1000.0), 30.0
 """Likewise of feedback torques [N m or N]."""
 
 TURNING = np.pi / 4
-"""A joint that turns so far passes a few of the teeth or magnets, ten and more in a turn, of which each holds it. A
-judgement."""
+"""A joint that turns so far passes a few of the teeth or magnets, ten and more in a turn, of which each holds it, and a
+weight that turns with it does not pull as a spring and a constant torque do. A judgement."""
+BY_MOTION = ("cogging_torque", "gravity_torque", "constant_loss")
+"""Laws that are suspects only where the motion is known, and shows what they need."""
 
 
 @dataclass(frozen=True)
@@ -34,8 +36,8 @@ class Sizes:
     ----------
     pace : seconds. reach, torque : by place, where they are not as usual. ranges : by place, the middle of recorded
         positions and half of how far these reach, where outputs show them.
-    only : places, by name, of laws that need more than their port: a torque that comes back in each turn a joint that
-        turns far enough, a loss that follows a level's sign a level that changes it, a speed that is felt late a
+    only : places, by name, of laws that need more than their port: a torque that comes back in each turn, and a weight,
+        a joint that turns far enough, a loss that follows the sign of a level one that changes it, a speed felt late a
         machine without a controller, which has laws of its own for that.
     """
 
@@ -43,7 +45,7 @@ class Sizes:
     reach: Mapping[str, float] = field(default_factory=dict)
     torque: Mapping[str, float] = field(default_factory=dict)
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    only: Mapping[str, Collection[str]] = field(default_factory=lambda: {"cogging_torque": (), "constant_loss": ()})
+    only: Mapping[str, Collection[str]] = field(default_factory=lambda: dict.fromkeys(BY_MOTION, ()))
 
     def at(self, place: str) -> dict[str, float]:
         """By unit."""
@@ -59,8 +61,10 @@ class Sizes:
 
 def sizes_of(fit: Fit, data: Data) -> Sizes:
     """Of a fitted model and the motion to which it was fitted."""
+    turning = _turning(fit, data)
     only = {
-        "cogging_torque": _turning(fit, data),
+        "cogging_torque": turning,
+        "gravity_torque": turning,
         "constant_loss": signed(fit.model, data.segments),
         "late_damping": _joints_without_controller(fit.model),
     }

@@ -253,6 +253,7 @@ PLAIN = (
     "body_friction",
     "gyroscopic_force",
     "cogging_torque",
+    "gravity_torque",
 )
 """Forces with one coefficient of a power of position or speed: the first terms of whatever acts."""
 _NAMED = (*GEOMETRY_LAWS, *STATED_LAWS, *LAG_LAWS, *OFFSET_LAWS, *SENSOR_LAWS, *FLOW_LAWS)

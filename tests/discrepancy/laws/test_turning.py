@@ -1,4 +1,4 @@
-"""A motor whose torque comes back in each turn, by magnets before teeth or by what is out of balance."""
+"""A motor whose torque comes back in each turn, by magnets before teeth, or by what is out of balance."""
 
 import numpy as np
 import pytest
@@ -98,13 +98,13 @@ def test_it_is_a_suspect_of_joints_that_turn_far_enough():
     def names(sizes: Sizes | None) -> set[str]:
         return {str(s.term) for s in si.suspects(motor(), sizes)}
 
-    assert names(Sizes(only={"cogging_torque": ["angle"]})) - names(None) == {"cogging_torque@angle"}
+    turning = ("cogging_torque", "gravity_torque")
+    found = names(Sizes(only=dict.fromkeys(turning, ["angle"])))
+    assert found - names(None) == {f"{law}@angle" for law in turning}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "amplitude, per_turn, friction", [(4e-3, 6, 5e-4), (4e-3, 12, 5e-4), (1e-3, 12, 8e-4), (4e-3, 1, 5e-4)]
-)
+@pytest.mark.parametrize("amplitude, per_turn, friction", [(4e-3, 6, 5e-4), (4e-3, 12, 5e-4), (1e-3, 12, 8e-4)])
 def test_it_is_named_with_its_size_and_how_often_it_comes_back(amplitude, per_turn, friction):
     found = found_in(recorded(amplitude, per_turn, friction))
     assert found.verdict == "missing_physics" and found.confirmed
@@ -114,6 +114,16 @@ def test_it_is_named_with_its_size_and_how_often_it_comes_back(amplitude, per_tu
     waves, waves_error = effect.parameters["waves_1_rad"]
     assert size == pytest.approx(amplitude, abs=max(4 * size_error, 1e-3 * amplitude))
     assert waves == pytest.approx(per_turn, abs=max(4 * waves_error, 1e-4))
+
+
+@pytest.mark.slow
+def test_what_is_out_of_balance_is_a_weight_that_comes_back_once_a_turn():
+    (effect,) = found_in(recorded(4e-3, 1, 5e-4)).effects
+    assert effect.name == "gravity_torque"
+    size, error = effect.parameters["torque_Nm"]
+    lowest, uncertain = effect.parameters["lowest_rad"]
+    assert size == pytest.approx(4e-3, abs=4 * error)
+    assert lowest == pytest.approx(-1.0, abs=4 * uncertain) and uncertain < 0.01
 
 
 @pytest.mark.slow

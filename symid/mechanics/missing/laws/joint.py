@@ -2,12 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf
 
 import sympy as sm
 
-from symid.mechanics.missing.laws.shared import dry, effort_law, fit_units, parameter_name, port_at, time_derivative
-from symid.model import Equation, Law, LawParameter, State
+from symid.mechanics.missing.laws.shared import (
+    coordinate_unit,
+    dry,
+    effort_law,
+    fit_units,
+    parameter_name,
+    port_at,
+    time_derivative,
+)
+from symid.model import Equation, Law, LawParameter, Model, State
 
 _POSITIVE = (0.0, inf)
 _BOTH_SIGNS = (-inf, inf)
@@ -61,6 +70,17 @@ def _bent_hysteresis(model, place, p):
     slip = sm.Abs(w) * z + p.shape * w * sm.Abs(z.symbol)
     setattr(model, f"{z.name}_equation", Equation(p.yield_rad * z.dot - w + slip))
     model.add_effort(port.name, -p.force_Nm * z)
+
+
+def _knows_no_weight(model: Model, place: str) -> bool:
+    """Whether a joint turns, and nothing in its balance comes back with its angle while all is at rest."""
+    port = port_at(model, "joint", place)
+    if coordinate_unit(model, place) != "rad":
+        return False
+    rest = {model[v].symbol: 0.0 for v in model.rates()} | {x.dot: 0.0 for x in model.states.values()}
+    held = [model.inline(model.equations[name].expr).subs(rest) for name in port.into]
+    turning = [wave for e in held for wave in e.atoms(sm.sin, sm.cos, sm.tan)]
+    return not any(wave.free_symbols & port.position.free_symbols for wave in turning)
 
 
 JOINT_LAWS: tuple[Law, ...] = (
@@ -232,6 +252,20 @@ FURTHER_JOINT_LAWS: tuple[Law, ...] = (
         lambda m, port, p: p.amplitude_Nm * sm.sin(p.waves_1_rad * port.position + p.phase_rad),
         "A torque of up to {amplitude_Nm} comes back in each turn of the {place}, with the wave number {waves_1_rad}",
         "Newton 1687",
+    ),
+    replace(
+        effort_law(
+            "gravity_torque",
+            "joint",
+            (
+                LawParameter("torque_Nm", "N*m", _POSITIVE),
+                LawParameter("lowest_rad", "rad", (-4.0, 4.0), None, (-1.5, 0.0, 1.5, 3.0), clock="phase"),
+            ),
+            lambda m, port, p: -p.torque_Nm * sm.sin(port.position - p.lowest_rad),
+            "A weight turns with the {place}: it pulls with up to {torque_Nm}, and is lowest at {lowest_rad}",
+            "Newton 1687",
+        ),
+        applies=_knows_no_weight,
     ),
     Law(
         "bouc_wen_hysteresis",
