@@ -21,6 +21,7 @@ from symid.discrepancy.prove.evidence import Evidence, near_noise
 from symid.discrepancy.say.diagnosis import Effect
 from symid.discrepancy.say.names import sentence, values_of
 from symid.estimation.fitting.fit import Fit
+from symid.estimation.fitting.sensitive import MOST_GROWTH, largest_growth
 from symid.estimation.signals.data import Data
 
 
@@ -49,7 +50,21 @@ def judge(evidence: Evidence, search: Search, audit: Audit):
     if rest is not None:
         unknown = _unknown(_voted(flexible(), effects[0], rest), left, rest, found)
         return "unexplained", (unknown, *told), equivalent
+    if _runs_away(evidence, search):
+        return "unexplained", tuple(replace(e, established=False) for e in effects), equivalent
     return "missing_physics", effects, equivalent
+
+
+def _runs_away(evidence: Evidence, search: Search) -> bool:
+    """Whether the improved model diverges on held-out data that the model as given follows to their end.
+
+    What was found then is no name for what acts. Of a balanced machine, whose small differences grow by themselves, it
+    says nothing: the right model of it falls, and one that is taken for steady does not.
+    """
+    before, after = (evidence.runs.get(f"{model}_heldout") for model in ("baseline", "augmented"))
+    if before is None or after is None or not np.isfinite(before.relative) or np.isfinite(after.relative):
+        return False
+    return largest_growth(evidence.final, search.data) <= MOST_GROWTH
 
 
 def _unnamed(test: Test) -> Effect:
