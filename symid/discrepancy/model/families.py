@@ -16,7 +16,7 @@ FAMILIES = (
         "bouc_wen_hysteresis",
         "bent_hysteresis",
     },
-    {"torsional_spring", "bouc_wen_hysteresis", "bent_hysteresis", "clearance", "preload"},
+    {"torsional_spring", "bouc_wen_hysteresis", "bent_hysteresis", "clearance", "preload", "gravity_torque"},
     {"torsional_spring", "cubic_stiffness", "quadratic_stiffness", "constant_torque", "gravity_torque"},
     {"cogging_torque", "gravity_torque"},
     {"cubic_stiffness", "end_range_stiffness", "clearance", "play", "bouc_wen_hysteresis", "bent_hysteresis"},
