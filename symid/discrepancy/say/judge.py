@@ -74,16 +74,18 @@ def _unnamed(test: Test) -> Effect:
 def _as_survived(effect: Effect, evidence: Evidence, suspect: Suspect) -> Effect:
     """The effect, not established where it may only imitate the rest.
 
-    That is where the halves of the recording or its held-out part contradict it, where its size could be nothing or
-    surprises as much as a law without a name does, or where as many laws as a search takes leave something: what has no
-    law looks like them. Losses are not in doubt for that, since something takes the energy.
+    That is where the halves of the recording contradict it or its held-out part does not confirm what was found, where
+    its size could be nothing or surprises as much as a law without a name does, or where as many laws as a search takes
+    leave something: what has no law looks like them. Losses are not in doubt for that, since something takes the
+    energy.
     """
     found = evidence.found
     fallen = {(v.name, v.location) for v in evidence.survived if v.reason}
     one_of_few = len(found.suspects) < POLICY.most_effects or effect.name in LOSSES
     sure = suspect.scanned is not None or certainty(suspect, found.fit) > POLICY.sure  # a push has one of many sizes
     sized = sure and found.surprise(suspect) <= POLICY.doubt
-    kept = (effect.name, effect.location) not in fallen and sized and one_of_few and _helps(evidence)
+    proved = evidence.proof is None or evidence.proof.confirmed
+    kept = (effect.name, effect.location) not in fallen and sized and one_of_few and proved
     return replace(effect, established=effect.established and kept)
 
 

@@ -81,10 +81,10 @@ DRY_FORCE = COULOMB.term.parameter_name("torque_Nm")
 
 
 def with_laws(
-    count: int, margin: float | None = None, surprise: float = 0.0, certainty: float = 10.0
+    count: int, confirmed: bool | None = None, surprise: float = 0.0, certainty: float = 10.0
 ) -> SimpleNamespace:
     """Evidence for so many laws that both halves bear out, of which one is dry friction."""
-    proof = None if margin is None else SimpleNamespace(margin=margin)
+    proof = None if confirmed is None else SimpleNamespace(confirmed=confirmed)
     fit = SimpleNamespace(values={DRY_FORCE: certainty}, errors={DRY_FORCE: 1.0})
     found = SimpleNamespace(suspects=range(count), surprise=lambda _: surprise, fit=fit)
     return SimpleNamespace(survived=(), proof=proof, found=found)
@@ -116,9 +116,9 @@ def test_a_size_that_could_be_nothing_beside_a_rest_is_what_it_looks_like_only()
     assert not survives(with_laws(1, certainty=0.9 * POLICY.sure))
 
 
-@pytest.mark.parametrize(("margin", "stays"), [(0.1, True), (-0.1, False)])
-def test_a_name_beside_a_rest_that_the_held_out_data_contradict_is_what_it_looks_like_only(margin, stays):
-    assert survives(with_laws(1, margin), "cubic_stiffness") is stays
+@pytest.mark.parametrize("confirmed", [True, False])
+def test_a_name_beside_a_rest_that_the_held_out_data_do_not_confirm_is_what_it_looks_like_only(confirmed):
+    assert survives(with_laws(1, confirmed), "cubic_stiffness") is confirmed
 
 
 @pytest.mark.parametrize(("size", "near"), [(0.1, True), (1.0, False)])
